@@ -1,0 +1,23 @@
+/* Filling in the caller's carom_error. */
+#ifndef CAROM_STATUS_H
+#define CAROM_STATUS_H
+
+#include "carom.h"
+
+#if defined(__GNUC__)
+#define CAROM_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define CAROM_PRINTF(text, first)
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Fills in *error (unless NULL), the rest of it zero, and returns `status`: `return carom_fail(error, CAROM_IO, "...", ...)`. */
+carom_status carom_fail(carom_error *error, carom_status status, const char *format, ...) CAROM_PRINTF(3, 4);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
