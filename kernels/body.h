@@ -1,0 +1,86 @@
+/* Bodies in motion [1, figure 1]. Velocities and accelerations are in step units: a step lasts 1, so that a velocity is
+ * the way made in a step. */
+
+typedef struct body {
+	int index, first, count; /* first texel and number of vertices */
+	float2 x, v, a;          /* position at the start of the step, velocity, acceleration */
+	float r, w, b;           /* angle, angular velocity, angular acceleration */
+	float radius;
+	float inverse_mass, inverse_inertia;
+	float restitution;
+} body;
+
+#define STATE_IN TEX_IN(linear), TEX_IN(rotational), TEX_IN(geometry), TEX_IN(forces), TEX_IN(uniforms)
+#define STATE TEX(linear), TEX(rotational), TEX(geometry), TEX(forces), TEX(uniforms)
+
+/* The motion of a body: constant accelerations, so that Y(t) is a polynomial and is followed exactly. */
+body body_load(STATE_IN, int index, float length)
+{
+	float4 l = ROW_LOAD(linear, index), r = ROW_LOAD(rotational, index);
+	float4 g = ROW_LOAD(geometry, index), f = ROW_LOAD(forces, index);
+	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
+	body k;
+	k.index = index;
+	k.first = (int)CHANNEL(g, GEOMETRY_FIRST);
+	k.count = (int)CHANNEL(g, GEOMETRY_COUNT);
+	k.radius = CHANNEL(r, ROTATIONAL_RADIUS);
+	k.restitution = CHANNEL(f, FORCES_RESTITUTION);
+	k.inverse_mass = 1.0f / CHANNEL(g, GEOMETRY_MASS);
+	k.inverse_inertia = 1.0f / CHANNEL(g, GEOMETRY_INERTIA);
+	k.x = (float2)(CHANNEL(l, LINEAR_X), CHANNEL(l, LINEAR_Y));
+	k.v = (float2)(CHANNEL(l, LINEAR_VX) * length, CHANNEL(l, LINEAR_VY) * length);
+	k.r = CHANNEL(r, ROTATIONAL_ANGLE);
+	k.w = CHANNEL(r, ROTATIONAL_VELOCITY) * length;
+	k.a = (float2)(0.0f, 0.0f);
+	k.b = 0.0f;
+	if (k.inverse_mass > 0.0f) {
+		k.a.x = ((CHANNEL(world, WORLD_GRAVITY_X) + CHANNEL(f, FORCES_X) * k.inverse_mass) * length) * length;
+		k.a.y = ((CHANNEL(world, WORLD_GRAVITY_Y) + CHANNEL(f, FORCES_Y) * k.inverse_mass) * length) * length;
+		k.b = ((CHANNEL(f, FORCES_TORQUE) * k.inverse_inertia) * length) * length;
+	}
+	return k;
+}
+
+/* x + t (v + t a / 2), with x the start, v the velocity and a the acceleration */
+float2 place(float2 x, float2 v, float2 a, float t)
+{
+	return (float2)(x.x + t * (v.x + (0.5f * t) * a.x), x.y + t * (v.y + (0.5f * t) * a.y));
+}
+
+float place1(float x, float v, float a, float t)
+{
+	return x + t * (v + (0.5f * t) * a);
+}
+
+float2 body_rotation(body k, float t)
+{
+	return rotation_of(place1(k.r, k.w, k.b, t));
+}
+
+/* How long the step that begins may last; 0 when the time is over. */
+float step_length(TEX_IN(uniforms), TEX_IN(clock))
+{
+	float4 step = TEX_LOAD(clock, CLOCK_STEP, 0), time = TEX_LOAD(clock, CLOCK_TIME, 0);
+	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
+	if (CHANNEL(step, STEP_ENDED) > 0.0f || CHANNEL(time, TIME_REMAINING) <= 0.0f)
+		return 0.0f;
+	return smaller(CHANNEL(world, WORLD_TIME_STEP), CHANNEL(time, TIME_REMAINING));
+}
+
+/* The j-th vertex of a polygon whose first texel is `first`, in the polygon's frame [2, figure 2]. */
+float2 vertex_load(TEX_IN(vertices), int first, int j)
+{
+	float4 two = ROW_LOAD(vertices, first + (j >> 1));
+	return (j & 1) ? (float2)(CHANNEL(two, VERTICES_X1), CHANNEL(two, VERTICES_Y1))
+	               : (float2)(CHANNEL(two, VERTICES_X0), CHANNEL(two, VERTICES_Y0));
+}
+
+/* How far a body's way bends out of the box about its two ends, with the distance that counts as touching. */
+float aabb_pad(body k)
+{
+	float2 end = place(k.x, k.v, k.a, 1.0f);
+	float spin = magnitude(k.w) + magnitude(k.b);
+	float bend = norm(k.a) + (k.count == 1 ? 0.0f : (magnitude(k.b) + spin * spin) * k.radius);
+	float size = larger(larger(magnitude(k.x.x), magnitude(k.x.y)), larger(magnitude(end.x), magnitude(end.y))) + k.radius;
+	return 0.125f * bend + size * (2.0f * SLOP);
+}

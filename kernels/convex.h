@@ -1,0 +1,298 @@
+/* Two convex bodies at one time: the axis that separates them best, and where they touch. */
+
+/* Body B seen from body A at one time; lengths in metres, rates in metres a step. */
+typedef struct pose {
+	float2 d, v;     /* centre of B minus centre of A; its velocity */
+	float2 ra, rb;   /* rotations */
+	float wa, wb;    /* angular velocities */
+} pose;
+
+/* A direction n fixed to the reference body, whose points have n . q <= offset, q from its centre. The other body, the
+ * incident one, has its deepest vertex at n . q = offset + gap. */
+typedef struct axis {
+	bool swapped;  /* the reference is B */
+	bool corner;   /* from a corner (or a circle), not from a face */
+	int face;      /* of the reference, where it is a face */
+	int deepest;   /* vertex of the incident body */
+	float2 n;      /* in the reference's frame */
+	float offset, gap;
+} axis;
+
+typedef struct contact {
+	float2 n;          /* from the reference to the incident body, world directions */
+	bool swapped;
+	int count;         /* of points */
+	float2 ref[2], inc[2]; /* levers: the points from the two bodies' centres; of a circle 0, where its normal passes */
+	float rate[2];     /* the speed at which they part, along n */
+} contact;
+
+pose pose_at(body a, body b, float t)
+{
+	pose p;
+	float2 x = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
+	float2 acceleration = (float2)(b.a.x - a.a.x, b.a.y - a.a.y);
+	p.d = place(x, v, acceleration, t);
+	p.v = (float2)(v.x + t * acceleration.x, v.y + t * acceleration.y);
+	p.ra = body_rotation(a, t);
+	p.rb = body_rotation(b, t);
+	p.wa = a.w + t * a.b;
+	p.wb = b.w + t * b.b;
+	return p;
+}
+
+pose pose_swapped(pose p)
+{
+	pose q;
+	q.d = (float2)(-p.d.x, -p.d.y);
+	q.v = (float2)(-p.v.x, -p.v.y);
+	q.ra = p.rb;
+	q.rb = p.ra;
+	q.wa = p.wb;
+	q.wb = p.wa;
+	return q;
+}
+
+/* The rotation that takes the frame of B to that of A. */
+float2 relative_rotation(pose p)
+{
+	return turn_back(p.ra, p.rb);
+}
+
+/* The least m . v over the body's vertices (a circle's: its rim), and which vertex it is. */
+float lowest(TEX_IN(vertices), body k, float2 m, int *which)
+{
+	float low = INFINITY;
+	*which = 0;
+	if (k.count == 1)
+		return -k.radius;
+	for (int j = 0; j < k.count; j++) {
+		float h = inner(m, vertex_load(TEX(vertices), k.first, j));
+		if (h < low) {
+			low = h;
+			*which = j;
+		}
+	}
+	return low;
+}
+
+float2 face_normal(float2 p, float2 q)
+{
+	float2 e = (float2)(q.x - p.x, q.y - p.y);
+	float size = norm(e);
+	return (float2)(e.y / size, -e.x / size);
+}
+
+/* The face of polygon a that keeps b farthest away. */
+axis face_axis(TEX_IN(vertices), body a, body b, pose p)
+{
+	axis best;
+	float2 d = turn_back(p.ra, p.d), relative = relative_rotation(p);
+	float2 from = vertex_load(TEX(vertices), a.first, 0);
+	best.swapped = false;
+	best.corner = false;
+	best.face = best.deepest = 0;
+	best.n = (float2)(1.0f, 0.0f);
+	best.offset = 0.0f;
+	best.gap = -INFINITY;
+	for (int e = 0; e < a.count; e++) {
+		float2 to = vertex_load(TEX(vertices), a.first, e + 1 < a.count ? e + 1 : 0);
+		float2 n = face_normal(from, to);
+		float offset = inner(n, from);
+		int deepest;
+		float low = lowest(TEX(vertices), b, turn_back(relative, n), &deepest);
+		float gap = (inner(n, d) - offset) + low;
+		if (gap > best.gap) {
+			best.face = e;
+			best.deepest = deepest;
+			best.n = n;
+			best.offset = offset;
+			best.gap = gap;
+		}
+		from = to;
+	}
+	return best;
+}
+
+/* An axis from corner `from` of a to the point `to` of b, both in a's frame; `fallback` where that is none or is worse. */
+axis corner_axis(TEX_IN(vertices), body a, body b, pose p, float2 from, float2 to, axis fallback)
+{
+	float2 e = (float2)(to.x - from.x, to.y - from.y);
+	float size = norm(e);
+	axis k = fallback;
+	if (!(size > 0.0f))
+		return fallback;
+	k.corner = true;
+	k.n = (float2)(e.x / size, e.y / size);
+	/* over all of a, or an axis from the wrong corner would count a's own body as gap */
+	k.offset = -lowest(TEX(vertices), a, (float2)(-k.n.x, -k.n.y), &k.deepest);
+	k.gap = (inner(k.n, turn_back(p.ra, p.d)) - k.offset) + lowest(TEX(vertices), b, turn_back(relative_rotation(p), k.n), &k.deepest);
+	return k.gap > fallback.gap ? k : fallback;
+}
+
+/* Where the deepest point of b lies beyond an end of the face, b may be nearest to that end's corner instead. */
+axis refined_axis(TEX_IN(vertices), body a, body b, pose p, axis face)
+{
+	float2 from = vertex_load(TEX(vertices), a.first, face.face);
+	float2 to = vertex_load(TEX(vertices), a.first, face.face + 1 < a.count ? face.face + 1 : 0);
+	float2 point = turn_back(p.ra, p.d), edge = (float2)(to.x - from.x, to.y - from.y);
+	if (b.count > 1) {
+		float2 v = turn(relative_rotation(p), vertex_load(TEX(vertices), b.first, face.deepest));
+		point = (float2)(point.x + v.x, point.y + v.y);
+	}
+	float along = inner(edge, (float2)(point.x - from.x, point.y - from.y));
+	if (along < 0.0f)
+		return corner_axis(TEX(vertices), a, b, p, from, point, face);
+	if (along > inner(edge, edge))
+		return corner_axis(TEX(vertices), a, b, p, to, point, face);
+	return face;
+}
+
+axis polygon_axis(TEX_IN(vertices), body a, body b, pose p)
+{
+	axis face = face_axis(TEX(vertices), a, b, p);
+	/* a circle is judged by its centre, which is still outside when its rim is a little inside */
+	if (face.gap + (b.count == 1 ? b.radius : 0.0f) > 0.0f)
+		return refined_axis(TEX(vertices), a, b, p, face);
+	return face;
+}
+
+/* The axis with the largest gap: above 0 exactly when the bodies are apart, and then never above their distance. */
+axis best_axis(TEX_IN(vertices), body a, body b, pose p)
+{
+	axis first, second;
+	if (a.count == 1 && b.count == 1) {
+		float2 d = turn_back(p.ra, p.d);
+		float size = norm(d);
+		first.swapped = false;
+		first.corner = true;
+		first.face = first.deepest = 0;
+		first.n = size > 0.0f ? (float2)(d.x / size, d.y / size) : (float2)(1.0f, 0.0f);
+		first.offset = a.radius;
+		first.gap = (size - a.radius) - b.radius;
+		return first;
+	}
+	if (a.count > 1) {
+		first = polygon_axis(TEX(vertices), a, b, p);
+		if (b.count == 1)
+			return first;
+	}
+	second = polygon_axis(TEX(vertices), b, a, pose_swapped(p));
+	second.swapped = true;
+	return a.count > 1 && first.gap >= second.gap ? first : second;
+}
+
+/* How fast the point at `ref` from the reference's centre and `inc` from the incident body's parts, along n. */
+float parting_rate(pose p, float2 n, float2 ref, float2 inc)
+{
+	return (inner(n, p.v) + p.wa * cross2(n, ref)) - p.wb * cross2(n, inc);
+}
+
+void contact_add(contact *c, pose p, float2 ref, float2 inc)
+{
+	c->ref[c->count] = ref;
+	c->inc[c->count] = inc;
+	c->rate[c->count] = parting_rate(p, c->n, ref, inc);
+	c->count++;
+}
+
+/* The point is given in a's frame. */
+void contact_add_point(contact *c, pose p, float2 point)
+{
+	float2 ref = turn(p.ra, point);
+	contact_add(c, p, ref, (float2)(ref.x - p.d.x, ref.y - p.d.y));
+}
+
+/* The edge of b at its deepest vertex that lies flattest on the face, cut to the face's width: its ends that touch. */
+void contact_face(TEX_IN(vertices), body a, body b, pose p, axis k, float slop, contact *c)
+{
+	float2 relative = relative_rotation(p), d = turn_back(p.ra, p.d);
+	float2 m = turn_back(relative, k.n);
+	float2 before = vertex_load(TEX(vertices), b.first, k.deepest > 0 ? k.deepest - 1 : b.count - 1);
+	float2 middle = vertex_load(TEX(vertices), b.first, k.deepest);
+	float2 after = vertex_load(TEX(vertices), b.first, k.deepest + 1 < b.count ? k.deepest + 1 : 0);
+	float2 e1 = (float2)(middle.x - before.x, middle.y - before.y), e2 = (float2)(after.x - middle.x, after.y - middle.y);
+	bool second = magnitude(inner(m, e2)) * norm(e1) < magnitude(inner(m, e1)) * norm(e2);
+	float2 v = turn(relative, second ? middle : before), u = turn(relative, second ? after : middle);
+	v = (float2)(v.x + d.x, v.y + d.y);
+	u = (float2)(u.x + d.x, u.y + d.y);
+
+	float2 from = vertex_load(TEX(vertices), a.first, k.face);
+	float2 to = vertex_load(TEX(vertices), a.first, k.face + 1 < a.count ? k.face + 1 : 0);
+	float2 tangent = (float2)(-k.n.y, k.n.x);
+	float width = inner(tangent, (float2)(to.x - from.x, to.y - from.y));
+	/* counter-clockwise edges run against each other: u comes first along the face */
+	float start = inner(tangent, (float2)(u.x - from.x, u.y - from.y)), end = inner(tangent, (float2)(v.x - from.x, v.y - from.y));
+	if (end < start) {
+		float2 w = u;
+		float s = start;
+		u = v;
+		v = w;
+		start = end;
+		end = s;
+	}
+	float2 low = u, high = v;
+	if (start < 0.0f && end > 0.0f) {
+		float part = -start / (end - start);
+		low = (float2)(u.x + part * (v.x - u.x), u.y + part * (v.y - u.y));
+	}
+	if (end > width && start < width) {
+		float part = (width - start) / (end - start);
+		high = (float2)(u.x + part * (v.x - u.x), u.y + part * (v.y - u.y));
+	}
+	float low_gap = inner(k.n, low) - k.offset, high_gap = inner(k.n, high) - k.offset;
+	float limit = k.gap + slop;
+	bool apart = end < 0.0f || start > width;
+	if (!apart && low_gap <= limit)
+		contact_add_point(c, p, low);
+	if (!apart && high_gap <= limit)
+		contact_add_point(c, p, high);
+	if (c->count == 0) {
+		float2 point = turn(relative, middle);
+		contact_add_point(c, p, (float2)(point.x + d.x, point.y + d.y));
+	}
+}
+
+/* Where the bodies touch, or would if they were a little nearer: one point, or the two ends of a face contact. */
+contact contact_at(TEX_IN(vertices), body a, body b, pose p, axis k, float slop)
+{
+	contact c;
+	if (k.swapped) {
+		body t = a;
+		a = b;
+		b = t;
+		p = pose_swapped(p);
+	}
+	c.n = turn(p.ra, k.n);
+	c.swapped = k.swapped;
+	c.count = 0;
+	if (b.count == 1) {
+		float2 rim = (float2)(p.d.x - b.radius * c.n.x, p.d.y - b.radius * c.n.y);
+		contact_add(&c, p, a.count == 1 ? (float2)(0.0f, 0.0f) : rim, (float2)(0.0f, 0.0f));
+	} else if (k.corner) {
+		float2 v = turn(p.rb, vertex_load(TEX(vertices), b.first, k.deepest));
+		contact_add(&c, p, (float2)(p.d.x + v.x, p.d.y + v.y), v);
+	} else {
+		contact_face(TEX(vertices), a, b, p, k, slop, &c);
+	}
+	return c;
+}
+
+/* How near is touching: eight units in the last place of the coordinates. */
+float pair_slop(body a, body b)
+{
+	float x = larger(larger(magnitude(a.x.x), magnitude(a.x.y)), larger(magnitude(b.x.x), magnitude(b.x.y)));
+	return (x + (a.radius + b.radius)) * SLOP;
+}
+
+/* How slow an approach is none: what rounding hides in the velocities. */
+float pair_stillness(body a, body b)
+{
+	float linear_speed = (span(a.v) + span(a.a)) + (span(b.v) + span(b.a));
+	float turning = (magnitude(a.w) + magnitude(a.b)) * a.radius + (magnitude(b.w) + magnitude(b.b)) * b.radius;
+	return (linear_speed + turning) * APPROACH;
+}
+
+bool contact_approaches(contact c, float stillness)
+{
+	return c.rate[0] < -stillness || (c.count > 1 && c.rate[1] < -stillness);
+}

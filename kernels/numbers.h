@@ -1,0 +1,99 @@
+/* Float rules: the same bits on every device. Only + - * / sqrt, comparisons, conversions; no contraction; no built-in
+ * whose result may differ (dot, length, sin, mad, ...). The order of the operations is that of CONTRACT.md. */
+#pragma OPENCL FP_CONTRACT OFF
+
+float2 turn(float2 rotation, float2 v) /* rotation = (cosine, sine) */
+{
+	return (float2)(rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y);
+}
+
+float2 turn_back(float2 rotation, float2 v)
+{
+	return (float2)(rotation.x * v.x + rotation.y * v.y, rotation.x * v.y - rotation.y * v.x);
+}
+
+float inner(float2 a, float2 b)
+{
+	return a.x * b.x + a.y * b.y;
+}
+
+float cross2(float2 a, float2 b)
+{
+	return a.x * b.y - a.y * b.x;
+}
+
+float norm(float2 v)
+{
+	return sqrt(v.x * v.x + v.y * v.y);
+}
+
+float magnitude(float x)
+{
+	return x < 0.0f ? -x : x;
+}
+
+/* |x| + |y|: a cheap bound of a vector's length */
+float span(float2 v)
+{
+	return magnitude(v.x) + magnitude(v.y);
+}
+
+float smaller(float a, float b)
+{
+	return b < a ? b : a;
+}
+
+float larger(float a, float b)
+{
+	return b > a ? b : a;
+}
+
+/* The nearest whole number, halves away from 0; |x| < 2^31. */
+int nearest(float x)
+{
+	return (int)(x < 0.0f ? x - 0.5f : x + 0.5f);
+}
+
+/* (cosine, sine) of `angle`; the error is about a unit in the last place up to some thousand turns */
+float2 rotation_of(float angle)
+{
+	int quarters = nearest(angle * TWO_OVER_PI);
+	float k = (float)quarters;
+	float x = ((angle - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3;
+	float z = x * x;
+	float s = x + (x * z) * (SINE_3 + z * (SINE_5 + z * SINE_7));
+	float c = (1.0f - 0.5f * z) + (z * z) * (COSINE_4 + z * (COSINE_6 + z * COSINE_8));
+	switch (quarters & 3) {
+	case 0: return (float2)(c, s);
+	case 1: return (float2)(-s, c);
+	case 2: return (float2)(-c, -s);
+	default: return (float2)(s, -c);
+	}
+}
+
+/* The same direction in [-pi, pi]. */
+float wrapped(float angle)
+{
+	float k = (float)nearest(angle * (0.25f * TWO_OVER_PI));
+	return ((angle - k * (4.0f * HALF_PI_1)) - k * (4.0f * HALF_PI_2)) - k * (4.0f * HALF_PI_3);
+}
+
+/* sum + x, where sum is the unevaluated sum of a high and a low part (two-sum, then renormalised) */
+float2 add_exactly(float2 sum, float x)
+{
+	float s = sum.x + x;
+	float b = s - sum.x;
+	float e = (sum.x - (s - b)) + (x - b);
+	float low = sum.y + e;
+	float high = s + low;
+	return (float2)(high, low - (high - s));
+}
+
+/* The first time t >= 0 at which gap + rate t - bend t^2 / 2 falls to 0, for gap >= 0; INFINITY if it never does. */
+float first_root(float gap, float rate, float bend)
+{
+	float square = rate * rate + (2.0f * bend) * gap;
+	if (rate < 0.0f)
+		return square < 0.0f ? INFINITY : (2.0f * gap) / (sqrt(square) - rate);
+	return bend > 0.0f ? (rate + sqrt(square)) / bend : INFINITY;
+}

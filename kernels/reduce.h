@@ -1,0 +1,30 @@
+/* What all alternatives of the reduce slot share [2.2]: a texel holds the least hit time below it and where it is. Of
+ * equal times the one of the lower row, then of the lower column, is the less, so that every order gives the same. */
+
+/* The texel (row y, column x) of the texture to reduce: HitTimes in pass 0, the level before in the others. */
+float4 reduced_load(TEX_IN(source), int x, int y, int pass)
+{
+	float4 texel = TEX_LOAD(source, x, y);
+	return pass > 0 ? texel : (float4)(CHANNEL(texel, HITTIMES_HIT), (float)y, (float)x, CHANNEL(texel, HITTIMES_DONE));
+}
+
+float4 earlier(float4 a, float4 b)
+{
+	float ta = CHANNEL(a, REDUCED_HIT), tb = CHANNEL(b, REDUCED_HIT), ra = CHANNEL(a, REDUCED_ROW), rb = CHANNEL(b, REDUCED_ROW);
+	bool later = tb < ta || (tb == ta && (rb < ra || (rb == ra && CHANNEL(b, REDUCED_COLUMN) < CHANNEL(a, REDUCED_COLUMN))));
+	return later ? b : a;
+}
+
+float4 earliest_of_four(TEX_IN(source), int x, int y, int pass)
+{
+	return earlier(
+		earlier(reduced_load(TEX(source), 2 * x, 2 * y, pass), reduced_load(TEX(source), 2 * x + 1, 2 * y, pass)),
+		earlier(reduced_load(TEX(source), 2 * x, 2 * y + 1, pass), reduced_load(TEX(source), 2 * x + 1, 2 * y + 1, pass)));
+}
+
+/* The four, and the two beside them that lie in squares on the diagonal, which have no fragment of their own. */
+float4 earliest_of_six(TEX_IN(source), int x, int y, int pass)
+{
+	return earlier(earliest_of_four(TEX(source), x, y, pass),
+		earlier(reduced_load(TEX(source), 2 * x, 2 * x + 1, pass), reduced_load(TEX(source), 2 * y, 2 * y + 1, pass)));
+}

@@ -1,0 +1,15 @@
+/* The 6-reduction [2.2]: fragments of the lower triangle alone, six texels each; 3 (m^2 - m) reads for a pass to m x m,
+ * and one for the last, whose only fragment takes the one pair that is left. */
+
+__kernel void reduce(TEX_IN(source), TEX_OUT(reduced), int4 domain)
+{
+	int x = get_global_id(0), y = get_global_id(1);
+	if (domain.x == 1) {
+		if (x == 0 && y == 0)
+			TEX_STORE(reduced, 0, 0, reduced_load(TEX(source), 0, 1, domain.z));
+		return;
+	}
+	if (y >= domain.y || x >= y)
+		return;
+	TEX_STORE(reduced, x, y, earliest_of_six(TEX(source), x, y, domain.z));
+}

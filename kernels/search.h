@@ -1,0 +1,98 @@
+/* The search for the first hit of two bodies within a step, as texels of HitTimes. */
+
+float4 hit_none(void)
+{
+	return (float4)(0.0f, 1.0f, 1.0f, NO_HIT);
+}
+
+float4 hit_at(float t)
+{
+	return (float4)(t, t, 1.0f, t);
+}
+
+/* The search was not finished: the step ends at t, and the next one goes on from there. */
+float4 hit_pause(float t)
+{
+	return (float4)(t, t, 0.0f, t);
+}
+
+/* How long from time t on the bodies surely stay apart: each vertex of the incident body has a distance from the axis
+ * that is at least gap + rate s - bend s^2 / 2. */
+float safe_time(TEX_IN(vertices), body a, body b, pose p, axis k, float t, float slop)
+{
+	float2 acceleration = (float2)(b.a.x - a.a.x, b.a.y - a.a.y);
+	float rest = 1.0f - t;
+	if (k.swapped) {
+		body other = a;
+		a = b;
+		b = other;
+		p = pose_swapped(p);
+	}
+	float2 m = turn_back(relative_rotation(p), k.n), n = turn(p.ra, k.n);
+	float push = norm(acceleration), speed = norm(p.v) + push * rest, reach = norm(p.d) + speed * rest;
+	float spin = magnitude(p.wa) + magnitude(a.b) * rest, turning = magnitude(p.wa - p.wb) + magnitude(a.b - b.b) * rest;
+	float bend = (((turning * turning) * b.radius + (spin * spin) * reach) + (2.0f * spin) * speed)
+		+ ((push + magnitude(a.b) * reach) + magnitude(a.b - b.b) * b.radius);
+	float base = inner(n, p.d) - k.offset, rate = inner(n, p.v) + p.wa * cross2(n, p.d);
+	if (b.count == 1)
+		return first_root(larger((base - b.radius) - 0.5f * slop, 0.0f), rate, bend);
+	float least = INFINITY;
+	for (int j = 0; j < b.count; j++) {
+		float2 v = vertex_load(TEX(vertices), b.first, j);
+		float gap = larger((base + inner(m, v)) - 0.5f * slop, 0.0f);
+		least = smaller(least, first_root(gap, rate + (p.wa - p.wb) * cross2(m, v), bend));
+	}
+	return least;
+}
+
+/* When the circles about two bodies can touch at the earliest: a bound that skips most of a fast body's way. */
+float circles_touch(body a, body b, float slop)
+{
+	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
+	float push = norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y));
+	float reach = (a.radius + b.radius) + slop, way = norm(d) - reach;
+	if (way <= 0.0f)
+		return 0.0f;
+	if (push > 0.0f)
+		return way / (norm(v) + push);
+	float square = inner(v, v), x = cross2(d, v), approach = inner(d, v);
+	float under = (reach * reach) * square - x * x;
+	if (approach >= 0.0f || under < 0.0f)
+		return INFINITY;
+	return (way * (norm(d) + reach)) / (sqrt(under) - approach);
+}
+
+/* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch. */
+float4 search_separating(TEX_IN(vertices), body a, body b)
+{
+	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
+	float t = circles_touch(a, b, slop);
+	for (int i = 0; i < SEARCH_LIMIT; i++) {
+		if (!(t <= 1.0f))
+			return hit_none();
+		pose p = pose_at(a, b, t);
+		axis k = best_axis(TEX(vertices), a, b, p);
+		bool touching = k.gap <= slop;
+		if (touching && contact_approaches(contact_at(TEX(vertices), a, b, p, k, slop), stillness))
+			return hit_at(t);
+		float safe = safe_time(TEX(vertices), a, b, p, k, t, slop);
+		t = t + (touching ? larger(safe, SEARCH_FLOOR) : safe);
+	}
+	return hit_pause(smaller(t, 1.0f));
+}
+
+/* The hit time of two circles without relative acceleration [4.1]: the first root of |d + t v| = ra + rb. */
+float4 search_circles(body a, body b)
+{
+	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
+	float reach = a.radius + b.radius, distance = norm(d), approach = inner(d, v);
+	float gap = (distance - reach) * (distance + reach), stillness = pair_stillness(a, b);
+	if (gap <= 0.0f)
+		return approach < -stillness * distance ? hit_at(0.0f) : hit_none();
+	float x = cross2(d, v), under = (reach * reach) * inner(v, v) - x * x;
+	/* the root of `under` is the speed of approach at the hit, times reach */
+	if (approach >= 0.0f || under <= 0.0f || sqrt(under) <= stillness * reach)
+		return hit_none();
+	float t = gap / (sqrt(under) - approach);
+	return t <= 1.0f ? hit_at(t) : hit_none();
+}
