@@ -1,0 +1,224 @@
+# Carom's build, for GNU make: `make help` lists what it can do.
+
+BUILD ?= build
+PREFIX ?= /usr/local
+PKG_CONFIG ?= pkg-config
+OPTIMIZE ?= -O3
+WERROR ?= -Werror
+
+ifneq ($(SANITIZE),)
+override BUILD := $(BUILD)/sanitize
+OPTIMIZE := -O1 -g
+SANITIZERS := -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+export ASAN_OPTIONS ?= detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1
+export LSAN_OPTIONS ?= suppressions=tests/lsan.supp:print_suppressions=0
+export UBSAN_OPTIONS ?= print_stacktrace=1
+endif
+
+# As many jobs as there are cores, unless the user or a make above says otherwise.
+ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+endif
+
+# What is done in a line; V=1 shows the commands.
+say = $(if $(V),,@printf '%-5s %s\n' $(1) $@;)
+
+SYSTEM := $(shell uname -s)
+VERSION_PARTS := $(foreach part,MAJOR MINOR PATCH,$(shell sed -n 's/^.define CAROM_VERSION_$(part) //p' include/carom.h))
+ABI := $(firstword $(VERSION_PARTS))
+empty :=
+VERSION := $(subst $(empty) ,.,$(strip $(VERSION_PARTS)))
+
+# ---- What there is: adding a file edits nothing here
+
+KERNELS := $(sort $(wildcard kernels/*.h kernels/*/*.cl))
+STAGES := $(sort $(wildcard src/cpu/*/*.cpp))
+LIBRARY := $(sort $(wildcard src/*.c src/step/*.c src/cl/*.c src/cpu/*.cpp)) $(STAGES)
+COMMAND := $(sort $(wildcard tools/carom*.c))
+TESTS := $(sort $(wildcard tests/test_*.c))
+HELPERS := $(filter-out $(TESTS),$(sort $(wildcard tests/*.c)))
+
+object = $(patsubst %,$(BUILD)/%.o,$(basename $(1)))
+LIBRARY_OBJECTS := $(call object,$(LIBRARY)) $(BUILD)/kernels.o $(BUILD)/cpu_stages.o
+COMMAND_OBJECTS := $(call object,$(COMMAND))
+TEST_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(TESTS))
+HELPER_OBJECTS := $(call object,$(HELPERS))
+OBJECTS := $(LIBRARY_OBJECTS) $(COMMAND_OBJECTS) $(call object,$(TESTS)) $(HELPER_OBJECTS)
+
+# ---- Flags
+
+system_includes = $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags $(1) 2>/dev/null))
+EIGEN := $(call system_includes,eigen3)
+PACKAGES := $(call system_includes,libpng) $(call system_includes,jansson) $(call system_includes,OpenCL-Headers)
+CMOCKA := $(call system_includes,cmocka)
+LIBRARIES := $(shell $(PKG_CONFIG) --libs libpng jansson 2>/dev/null) -ldl -lpthread -lm
+CMOCKA_LIBRARIES := $(shell $(PKG_CONFIG) --libs cmocka 2>/dev/null)
+
+# The same bits everywhere rests on these, so they come after what the user sets.
+EXACT := -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math
+WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
+COMMON := $(OPTIMIZE) -fPIC -fvisibility=hidden -pthread -MMD -MP $(SANITIZERS)
+INCLUDES := -Iinclude -Isrc -Ikernels
+ALL_CFLAGS = -std=c11 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 $(COMMON) $(WARNINGS) -Wmissing-prototypes -Wstrict-prototypes \
+	$(INCLUDES) $(PACKAGES) $(CPPFLAGS) $(CFLAGS) $(EXACT)
+ALL_CXXFLAGS = -std=c++17 $(COMMON) -fvisibility-inlines-hidden $(WARNINGS) $(INCLUDES) $(PACKAGES) $(CPPFLAGS) $(CXXFLAGS) $(EXACT)
+# C++ with no CFLAGS: a compiler that links with -Ofast makes the whole process flush denormals.
+LINK = $(CXX) -pthread $(SANITIZERS) $(LDFLAGS)
+
+ifeq ($(SYSTEM),Darwin)
+SHARED := -dynamiclib -Wl,-install_name,@rpath/libcarom.so.$(ABI) -Wl,-exported_symbol,_carom_*
+else
+SHARED := -shared -Wl,-soname,libcarom.so.$(ABI) -Wl,--version-script=$(BUILD)/exports.map $(if $(SANITIZERS),,-Wl,--no-undefined)
+endif
+
+# ---- Targets
+
+all: $(BUILD)/carom $(BUILD)/libcarom.a $(BUILD)/libcarom.so
+
+help:
+	@echo 'make                 build the command, the static and the shared library into build/'
+	@echo 'make demo            run scenes and write their pictures into build/demo/'
+	@echo 'make check           build and run the tests and the checks of the source'
+	@echo 'make install         install below PREFIX=$(PREFIX), staged in DESTDIR='
+	@echo 'make clean           remove build/'
+	@echo 'SANITIZE=1           build into build/sanitize/ with the address and undefined behaviour sanitizers'
+	@echo 'V=1                  show the commands'
+	@echo 'CC= CXX= CFLAGS= CXXFLAGS= CPPFLAGS= LDFLAGS= OPTIMIZE= WERROR=   as usual'
+
+$(BUILD)/carom: $(COMMAND_OBJECTS) $(BUILD)/libcarom.a
+	$(call say,LINK) $(LINK) -o $@ $^ $(LIBRARIES)
+
+$(BUILD)/libcarom.a: $(LIBRARY_OBJECTS) $(BUILD)/library.list
+	@rm -f $@
+	$(call say,AR) $(AR) qcs $@ $(LIBRARY_OBJECTS)
+
+$(BUILD)/libcarom.so: $(LIBRARY_OBJECTS) $(BUILD)/library.list $(BUILD)/exports.map
+	$(call say,LINK) $(LINK) $(SHARED) -o $@ $(LIBRARY_OBJECTS) $(LIBRARIES)
+	@ln -sf libcarom.so $@.$(ABI)
+
+# The template instances of the C++ library would be exported without it.
+$(BUILD)/exports.map: | $(BUILD)/needs
+	@echo '{ global: carom_*; local: *; };' > $@
+
+$(BUILD)/%.o: %.c $(BUILD)/flags | $(BUILD)/needs
+	@mkdir -p $(@D)
+	$(call say,CC) $(CC) $(ALL_CFLAGS) -c -o $@ $<
+
+$(BUILD)/%.o: %.cpp $(BUILD)/flags | $(BUILD)/needs
+	@mkdir -p $(@D)
+	$(call say,CXX) $(CXX) $(ALL_CXXFLAGS) -c -o $@ $<
+
+$(BUILD)/%.o: $(BUILD)/%.c $(BUILD)/flags
+	$(call say,CC) $(CC) $(ALL_CFLAGS) -c -o $@ $<
+
+$(BUILD)/%.o: $(BUILD)/%.cpp $(BUILD)/flags
+	$(call say,CXX) $(CXX) $(ALL_CXXFLAGS) -c -o $@ $<
+
+# Third parties and insides are kept out of where they don't belong by what is on the include path.
+$(BUILD)/src/cpu/%.o $(BUILD)/cpu_stages.o: private PACKAGES := $(EIGEN)
+$(BUILD)/tools/%.o: private PACKAGES :=
+$(BUILD)/tools/%.o: private INCLUDES := -Iinclude
+$(BUILD)/tests/%.o: private PACKAGES += $(CMOCKA)
+$(BUILD)/tests/%.o: private INCLUDES += -Itests
+
+# ---- Generated sources
+
+$(BUILD)/embed: tools/embed.c $(BUILD)/flags | $(BUILD)/needs
+	$(call say,CC) $(CC) -std=c11 $(WARNINGS) -o $@ $<
+
+$(BUILD)/kernels.c: $(BUILD)/embed $(KERNELS) $(BUILD)/kernels.list
+	$(call say,EMBED) $(BUILD)/embed $@ $(KERNELS)
+
+stage_name = $(subst /,_,$(patsubst src/cpu/%.cpp,%,$(1)))
+STAGE_NAMES := $(call stage_name,$(STAGES))
+$(BUILD)/cpu_stages.cpp: $(BUILD)/stages.list
+	@{ echo '#include "cpu/stages.hpp"'; echo; echo 'namespace carom::cpu {'; echo; \
+	for stage in $(STAGE_NAMES); do echo "extern const Stage $$stage;"; done; echo; \
+	echo 'extern const Stage *const stages[] = {'; \
+	for stage in $(STAGE_NAMES); do echo "	&$$stage,"; done; \
+	echo '	nullptr,'; echo '};'; echo; echo '}'; } > $@
+
+# ---- What a build depends on beside its files: written anew only when it changes
+
+define remember
+$(BUILD)/$(1): FORCE | $(BUILD)/needs
+	@printf '%s\n' '$$(subst ','\'',$(2))' | cmp -s - $$@ || printf '%s\n' '$$(subst ','\'',$(2))' > $$@
+endef
+$(eval $(call remember,flags,$$(CC) $$(ALL_CFLAGS) $$(CXX) $$(ALL_CXXFLAGS) $$(EIGEN) $$(LINK)))
+$(eval $(call remember,library.list,$$(LIBRARY)))
+$(eval $(call remember,kernels.list,$$(KERNELS)))
+$(eval $(call remember,stages.list,$$(STAGES)))
+$(eval $(call remember,helpers.list,$$(HELPERS)))
+
+NEEDED_COMMANDS := $(firstword $(CC)) $(firstword $(CXX)) $(PKG_CONFIG)
+need = { echo 'make: $(1) is missing: run tools/bootstrap' >&2; exit 1; }
+
+$(BUILD)/needs:
+	@for command in $(NEEDED_COMMANDS); do \
+		command -v "$$command" >/dev/null 2>&1 || { echo "make: $$command is missing: run tools/bootstrap" >&2; exit 1; }; done
+	@for package in libpng jansson eigen3; do \
+		$(PKG_CONFIG) --exists $$package || { echo "make: $$package is missing: run tools/bootstrap" >&2; exit 1; }; done
+	@echo '#include <CL/cl.h>' | $(CC) $(PACKAGES) $(CPPFLAGS) -E -DCL_TARGET_OPENCL_VERSION=120 -x c - >/dev/null 2>&1 || $(call need,CL/cl.h)
+	@mkdir -p $(@D)/tests && touch $@
+
+$(BUILD)/tests/needs: | $(BUILD)/needs
+	@$(PKG_CONFIG) --exists cmocka || $(call need,cmocka)
+	@touch $@
+
+# ---- Tests
+
+$(call object,$(TESTS) $(HELPERS)): | $(BUILD)/tests/needs
+
+$(TEST_PROGRAMS): %: %.o $(HELPER_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/helpers.list
+	$(call say,LINK) $(LINK) -o $@ $(filter %.o %.a,$^) $(CMOCKA_LIBRARIES) $(LIBRARIES)
+
+check: all $(TEST_PROGRAMS)
+	@CC='$(CC)' CXX='$(CXX)' tools/check $(BUILD) $(TEST_PROGRAMS)
+
+# ---- The demo: scene, options of `carom run`, what the picture shows
+
+define DEMO
+triangles_1024 | --steps 400 --inset -2,-2,4,4 | 1,024 triangles after 400 hits, a part of them enlarged
+circles_1024   | --steps 400 --inset -2,-2,4,4 | 1,024 circles after 400 hits, a part of them enlarged
+mixed          | --time 2                      | circles and polygons in one room after two seconds
+billiard_break | --time 1                      | a billiard break one second after the cue ball was struck
+newtons_cradle | --time 1                      | Newton's cradle after one second: what went in on one side went out on the other
+thin_wall      | --time 1                      | fast circles that did not tunnel through a thin wall
+endef
+export DEMO
+demo_lines = printf '%s\n' "$$DEMO" | while IFS='|' read -r scene options shows; do set -- $$scene; scene=$$1; \
+	png=$(BUILD)/demo/$$scene.png
+
+demo: all
+	@mkdir -p $(BUILD)/demo
+	@$(demo_lines); $(BUILD)/carom run scenes/$$scene.json $$options --png $$png </dev/null || exit 1; done
+	@echo; $(demo_lines); echo "$$png: $${shows# }"; done
+
+# ---- Installing
+
+$(BUILD)/carom.pc: $(BUILD)/pc.list
+	@printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' 'Name: carom' \
+		'Description: 2D rigid bodies with every hit at its exact time' 'Version: $(VERSION)' 'Cflags: -I$${includedir}' \
+		'Libs: -L$${libdir} -lcarom' 'Requires.private: libpng jansson' 'Libs.private: -lstdc++ -ldl -lpthread -lm' > $@
+$(eval $(call remember,pc.list,$$(PREFIX) $$(VERSION)))
+
+install: all $(BUILD)/carom.pc
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	install -m 755 $(BUILD)/carom $(DESTDIR)$(PREFIX)/bin
+	install -m 644 include/carom.h $(DESTDIR)$(PREFIX)/include
+	install -m 644 $(BUILD)/libcarom.a $(DESTDIR)$(PREFIX)/lib
+	install -m 755 $(BUILD)/libcarom.so $(DESTDIR)$(PREFIX)/lib/libcarom.so.$(VERSION)
+	ln -sf libcarom.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libcarom.so.$(ABI)
+	ln -sf libcarom.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/libcarom.so
+	install -m 644 $(BUILD)/carom.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig
+
+clean:
+	rm -rf $(BUILD)
+
+FORCE:
+.PHONY: all help check demo install clean FORCE
+.SECONDARY:
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := all
+
+-include $(OBJECTS:.o=.d)
