@@ -30,7 +30,7 @@ includes() {
 
 # code: the kernels as PATH:LINE:TEXT, without comments.
 code() {
-	find kernels -type f 2>/dev/null | sort | xargs awk '
+	find kernels -type f -name '*.[ch]*' 2>/dev/null | sort | xargs awk '
 		FNR == 1 { inside = 0 }
 		{
 			text = $0
@@ -54,7 +54,7 @@ report "CL/cl.h is included only in src/cl" "$(includes '(CL|OpenCL)/' include s
 report "Eigen is included only in src/cpu" "$(includes '(Eigen|unsupported)/' include src tools tests | grep -v '^src/cpu/')"
 report "png.h is included only in src/png.c" "$(includes 'png\.h' include src tools | grep -v '^src/png\.c:')"
 report "jansson.h is included only in src/scene_*" \
-	"$(includes 'jansson' include src tools | grep -vE '^src/scene_(read\.c|write\.c|json\.h):')"
+	"$(includes 'jansson' include src tools | grep -vE '^src/scene_(read|write|json)\.[ch]:')"
 
 inner=$(sources src kernels | grep -E '\.h(pp)?$' | sed 's|.*/||' | sort -u | tr '\n' '|' | sed 's/\./\\./g; s/|$//')
 report "the command sees of Carom only carom.h" \
