@@ -265,6 +265,8 @@ contact contact_at(TEX_IN(vertices), body a, body b, pose p, axis k, float slop)
 	c.n = turn(p.ra, k.n);
 	c.swapped = k.swapped;
 	c.count = 0;
+	c.ref[1] = c.inc[1] = (float2)(0.0f, 0.0f);
+	c.rate[1] = 0.0f;
 	if (b.count == 1) {
 		float2 rim = (float2)(p.d.x - b.radius * c.n.x, p.d.y - b.radius * c.n.y);
 		contact_add(&c, p, a.count == 1 ? (float2)(0.0f, 0.0f) : rim, (float2)(0.0f, 0.0f));

@@ -1,0 +1,75 @@
+/* A device: something that holds textures and runs the stages' kernels over them. Two kinds exist, src/cl and src/cpu. */
+#ifndef CAROM_DEVICE_H
+#define CAROM_DEVICE_H
+
+#include "carom.h"
+#include "stage.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct carom_device carom_device;
+typedef struct carom_texture carom_texture; /* each kind of device has its own */
+
+typedef enum carom_texel_format {
+	TEXELS_FLOAT, /* four floats */
+	TEXELS_BYTE,  /* four bytes */
+} carom_texel_format;
+
+/* Rows first: (x, y) is column x of row y. Functions that fail fill in the error. */
+typedef struct carom_device_class {
+	void (*close)(carom_device *device);
+	/* Fills every texel with `fill` (floats; converted for bytes). CAROM_LIMIT if the device can't hold it. */
+	carom_status (*create)(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
+		carom_texture **texture, carom_error *error);
+	void (*destroy)(carom_device *device, carom_texture *texture);
+	/* Whole rows from row 0 on, 4 x width floats or bytes each. Uploading may return before it is done, but not before
+	 * `texels` may be reused; downloading waits. */
+	carom_status (*upload)(carom_device *device, carom_texture *texture, uint32_t rows, const void *texels, carom_error *error);
+	carom_status (*download)(carom_device *device, carom_texture *texture, uint32_t rows, void *texels, carom_error *error);
+	/* Does the chosen alternative have this kernel? */
+	bool (*has)(const carom_device *device, carom_stage stage);
+	/* Runs a stage's kernel once over domain[0] x domain[1] work-items, after all that was run before; may return at once.
+	 * `textures` are those of the stage's definition. */
+	carom_status (*run)(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4],
+		carom_error *error);
+	/* Hands all that was run to the device, without waiting. */
+	carom_status (*flush)(carom_device *device, carom_error *error);
+} carom_device_class;
+
+struct carom_device {
+	const carom_device_class *kind;
+	carom_device_info info;
+	carom_storage storage; /* what it really uses; BUFFER for the CPU */
+};
+
+typedef struct carom_device_def {
+	const char *name;       /* auto, cpu, opencl, or part of a name; NULL: CAROM_DEVICE, else auto */
+	carom_storage storage;
+	uint32_t threads;       /* of the CPU device, 0 for one a core */
+	carom_pipeline pipeline; /* resolved */
+} carom_device_def;
+
+/* Opens the device of that name: CAROM_UNKNOWN_NAME lists what there is. */
+carom_status carom_device_open(const carom_device_def *def, carom_device **device, carom_error *error);
+void carom_device_close(carom_device *device);
+
+/* The two kinds. carom_cl_list appends every OpenCL device, the fastest that works first; none is no error. */
+carom_status carom_cl_list(carom_device_info **devices, size_t *count, carom_error *error);
+carom_status carom_cl_open(const carom_device_def *def, const carom_device_info *which, carom_device **device, carom_error *error);
+bool carom_cl_has_alternative(const char *slot, const char *alternative);
+/* The index-th name of an alternative of `slot`, by name; NULL past the last. */
+const char *carom_cl_alternative(const char *slot, size_t index);
+
+void carom_cpu_info(carom_device_info *info);
+carom_status carom_cpu_open(const carom_device_def *def, carom_device **device, carom_error *error);
+/* The same stages in double precision: the tests' oracle. Uploads floats and downloads doubles (bytes stay bytes). */
+carom_status carom_cpu_open_double(const carom_device_def *def, carom_device **device, carom_error *error);
+const char *carom_cpu_alternative(const char *slot, size_t index);
+bool carom_cpu_has_alternative(const char *slot, const char *alternative);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,118 @@
+/* Files that are whole or not there: written under a temporary name in the same folder, then renamed.
+ * SPDX-License-Identifier: MIT */
+#include "status.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Names tried before giving up: a crash may have left some behind, but not this many of one process id. */
+#define MAX_ATTEMPTS 1000
+#define STREAM_BUFFER 65536
+
+struct carom_file {
+	char *path;      /* where it ends up, symbolic links followed */
+	char *temporary; /* NULL for a device or a pipe, which are written directly: renaming onto /dev/null would replace it */
+	FILE *stream;
+};
+
+static carom_status fail_io(carom_error *error, const char *path, const char *did, int number, const char *advice)
+{
+	return carom_fail(error, CAROM_IO, "%s: %s: %s; %s", path, did, strerror(number), advice);
+}
+
+/* Opens a name that nobody has: O_EXCL rather than a counter, which would be global state. */
+static int open_temporary(carom_file *file, mode_t mode)
+{
+	size_t size = strlen(file->path) + 48;
+	file->temporary = malloc(size);
+	if (!file->temporary) return -1;
+	for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
+		snprintf(file->temporary, size, "%s.tmp.%ld.%d", file->path, (long)getpid(), attempt);
+		int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+		if (descriptor >= 0 || errno != EEXIST) return descriptor;
+	}
+	return -1;
+}
+
+/* What is there now decides how to write: a file is replaced with its permissions kept, anything else is written into. */
+static int open_beside(carom_file *file)
+{
+	struct stat there;
+	int descriptor;
+	if (stat(file->path, &there) != 0) return errno == ENOENT ? open_temporary(file, 0666) : -1;
+	if (S_ISDIR(there.st_mode)) {
+		errno = EISDIR;
+		return -1;
+	}
+	if (!S_ISREG(there.st_mode)) return open(file->path, O_WRONLY | O_CLOEXEC);
+	if (access(file->path, W_OK) != 0) return -1;
+	descriptor = open_temporary(file, 0600);
+	if (descriptor >= 0) fchmod(descriptor, there.st_mode & 07777);
+	return descriptor;
+}
+
+carom_status carom_file_create(const char *path, carom_file **file, FILE **stream, carom_error *error)
+{
+	carom_file *made = NULL;
+	int descriptor = -1;
+	if (!path || !*path || !file || !stream) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_create: no path or no output");
+	made = calloc(1, sizeof *made);
+	if (!made) goto no_memory;
+	made->path = realpath(path, NULL); /* so that a symbolic link stays one */
+	if (!made->path) made->path = strdup(path);
+	if (!made->path) goto no_memory;
+	descriptor = open_beside(made);
+	if (descriptor >= 0) made->stream = fdopen(descriptor, "wb");
+	if (!made->stream) {
+		int number = errno;
+		if (descriptor >= 0) {
+			close(descriptor);
+			if (made->temporary) unlink(made->temporary);
+		}
+		carom_file_destroy(made);
+		return fail_io(error, path, "can't be written", number, "give a file in a folder that exists and can be written to");
+	}
+	setvbuf(made->stream, NULL, _IOFBF, STREAM_BUFFER);
+	*file = made;
+	*stream = made->stream;
+	return CAROM_OK;
+no_memory:
+	carom_file_destroy(made);
+	return carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to open it", path);
+}
+
+carom_status carom_file_commit(carom_file *file, carom_error *error)
+{
+	carom_status status = CAROM_OK;
+	int number = 0;
+	if (!file) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_commit: no file");
+	errno = 0;
+	/* An earlier write may have failed and set the flag only: its errno is lost, a full disk the likeliest cause. */
+	if (fflush(file->stream) != 0 || ferror(file->stream)) number = errno ? errno : ENOSPC;
+	if (fclose(file->stream) != 0 && !number) number = errno;
+	file->stream = NULL;
+	if (number) {
+		status = fail_io(error, file->path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
+	} else if (file->temporary && rename(file->temporary, file->path) != 0) {
+		status = fail_io(error, file->path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
+	} else {
+		free(file->temporary);
+		file->temporary = NULL;
+	}
+	carom_file_destroy(file);
+	return status;
+}
+
+void carom_file_destroy(carom_file *file)
+{
+	if (!file) return;
+	if (file->stream) fclose(file->stream);
+	if (file->temporary) unlink(file->temporary);
+	free(file->temporary);
+	free(file->path);
+	free(file);
+}

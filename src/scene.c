@@ -1,0 +1,111 @@
+/* The storage of a scene, and the world made from it.
+ * SPDX-License-Identifier: MIT */
+#include "scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BLOCK_SIZE 65536u
+#define ALIGNMENT 16u
+
+struct scene_block {
+	struct scene_block *next;
+	size_t used, size;
+	_Alignas(ALIGNMENT) unsigned char bytes[];
+};
+
+static struct scene_block *add_block(struct scene_storage *storage, size_t size)
+{
+	struct scene_block *block = malloc(sizeof *block + size);
+	if (!block) return NULL;
+	block->next = storage->blocks;
+	block->used = 0;
+	block->size = size;
+	storage->blocks = block;
+	return block;
+}
+
+void *scene_allocate(carom_scene *scene, size_t size)
+{
+	struct scene_storage *storage = scene->storage;
+	struct scene_block *block = storage->blocks;
+	size_t rounded = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+	if (!block || block->size - block->used < rounded) block = add_block(storage, rounded > BLOCK_SIZE ? rounded : BLOCK_SIZE);
+	if (!block) return NULL;
+	block->used += rounded;
+	return block->bytes + block->used - rounded;
+}
+
+carom_scene *scene_create(const char *name)
+{
+	struct scene_storage *storage = calloc(1, sizeof *storage);
+	carom_scene *scene = calloc(1, sizeof *scene);
+	if (storage) storage->name = strdup(name);
+	if (!storage || !scene || !storage->name) {
+		if (storage) free(storage->name);
+		free(storage);
+		free(scene);
+		return NULL;
+	}
+	scene->storage = storage;
+	scene->world = carom_default_world_def();
+	return scene;
+}
+
+void carom_scene_destroy(carom_scene *scene)
+{
+	if (!scene) return;
+	struct scene_storage *storage = scene->storage;
+	while (storage->blocks) {
+		struct scene_block *next = storage->blocks->next;
+		free(storage->blocks);
+		storage->blocks = next;
+	}
+	free(storage->name);
+	free(storage);
+	free(scene->bodies);
+	free(scene);
+}
+
+/* The file's key around a field of carom_body_def, so that the error's path is the one in the file. */
+static const char *outer_key(const carom_scene *scene, unsigned long index, const char *field)
+{
+	static const char *const shapes[] = { "circle.", "polygon.", "regular." };
+	bool of_shape = strncmp(field, "vertices", 8) == 0 || strncmp(field, "vertex_count", 12) == 0 ||
+	                strncmp(field, "radius", 6) == 0 || strncmp(field, "sides", 5) == 0;
+	if (!of_shape || index >= scene->body_count || (unsigned)scene->bodies[index].shape > CAROM_REGULAR) return "";
+	return shapes[scene->bodies[index].shape];
+}
+
+/* An argument that the library refused came from the file: says so, in the file's words. */
+static carom_status blame_file(const carom_scene *scene, carom_error *error)
+{
+	const struct scene_storage *storage = scene->storage;
+	char text[sizeof error->text];
+	unsigned long index;
+	int length = 0;
+	if (!error) return CAROM_INVALID_SCENE;
+	memcpy(text, error->text, sizeof text);
+	if (sscanf(text, "bodies[%lu].%n", &index, &length) != 1 || length == 0) {
+		return carom_fail(error, CAROM_INVALID_SCENE, "%s: %s", storage->name, text);
+	}
+	const char *field = text + length;
+	const char *outer = outer_key(scene, index, field);
+	if (strncmp(field, "is_static", 9) == 0) field += strlen("is_");
+	return carom_fail(error, CAROM_INVALID_SCENE, "%s: bodies[%lu].%s%s", storage->name, index, outer, field);
+}
+
+carom_status carom_scene_create_world(const carom_scene *scene, carom_world **world, carom_error *error)
+{
+	carom_status status;
+	carom_world *made = NULL;
+	if (!scene || !world) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_create_world: no scene or no world");
+	status = carom_world_create(&scene->world, &made, error);
+	if (status == CAROM_OK && scene->body_count > 0) status = carom_world_add(made, scene->bodies, scene->body_count, NULL, error);
+	if (status == CAROM_OK) {
+		*world = made;
+		return CAROM_OK;
+	}
+	carom_world_destroy(made);
+	return status == CAROM_INVALID_ARGUMENT ? blame_file(scene, error) : status;
+}

@@ -1,0 +1,25 @@
+/* What the reader of scenes is made of: the storage behind a carom_scene, and finding the bodies in a text.
+ * SPDX-License-Identifier: MIT */
+#ifndef CAROM_SCENE_H
+#define CAROM_SCENE_H
+
+#include "status.h"
+
+/* What carom_scene.storage points to. */
+struct scene_storage {
+	char *name;                 /* of the file, for errors */
+	struct scene_block *blocks; /* vertices and strings */
+};
+
+/* A scene of no bodies with the default world; NULL if there is no memory. */
+carom_scene *scene_create(const char *name);
+/* Memory for any type that lives as long as the scene; NULL if there is none. A million small pieces are cheap. */
+void *scene_allocate(carom_scene *scene, size_t size);
+
+const char *scene_skip_space(const char *text, const char *end);
+/* The text between the brackets of the top-level "bodies" array; false if there is no such array. */
+bool scene_find_bodies(const char *text, const char *end, const char **bodies, const char **bodies_end);
+/* The end of the array element that starts at `text`: the next comma of its level, or `end`. */
+const char *scene_element_end(const char *text, const char *end);
+
+#endif

@@ -1,0 +1,246 @@
+/* A world's present state as a scene file: one body a line, in their order, what has its default left out.
+ * SPDX-License-Identifier: MIT */
+#include "status.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct writer {
+	FILE *stream;
+	const carom_world_def *world, *world_defaults;
+	carom_body_def body_defaults;
+};
+
+/* Nine digits tell every float from its neighbours. */
+static void put_number(FILE *stream, float number)
+{
+	char text[32];
+	int length = snprintf(text, sizeof text, "%.9g", (double)number);
+	for (int k = 0; k < length; k++) {
+		if (text[k] == ',') text[k] = '.'; /* the program's locale may write it so */
+	}
+	fputs(strcmp(text, "-0") == 0 ? "-0.0" : text, stream); /* -0 would be read as an integer by many a reader, its sign lost */
+}
+
+static void put_pair(FILE *stream, carom_vec2 pair)
+{
+	putc('[', stream);
+	put_number(stream, pair.x);
+	fputs(", ", stream);
+	put_number(stream, pair.y);
+	putc(']', stream);
+}
+
+/* The bytes of the UTF-8 character at `text`, 0 if there is none. */
+static size_t character_length(const unsigned char *text)
+{
+	static const unsigned long smallest[] = { 0, 0, 0x80, 0x800, 0x10000 }; /* less is overlong */
+	size_t length = *text < 0x80 ? 1 : *text >= 0xF0 ? 4 : *text >= 0xE0 ? 3 : 2;
+	if (length == 1) return 1;
+	unsigned long code = *text & (0x7Fu >> length);
+	for (size_t k = 1; k < length; k++) {
+		if ((text[k] & 0xC0) != 0x80) return 0;
+		code = code << 6 | (text[k] & 0x3Fu);
+	}
+	bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+	return code >= smallest[length] && code <= 0x10FFFF && !surrogate && *text < 0xF8 ? length : 0;
+}
+
+/* A name may hold anything; what is no UTF-8 becomes the replacement character, so that the file can be read. */
+static void put_string(FILE *stream, const char *string)
+{
+	const unsigned char *at = (const unsigned char *)string;
+	putc('"', stream);
+	while (*at) {
+		size_t length = character_length(at);
+		if (length == 0) {
+			fputs("\xEF\xBF\xBD", stream);
+			at++;
+			continue;
+		}
+		if (*at < 0x20) {
+			fprintf(stream, "\\u%04x", (unsigned)*at);
+		} else {
+			if (*at == '"' || *at == '\\') putc('\\', stream);
+			fwrite(at, 1, length, stream);
+		}
+		at += length;
+	}
+	putc('"', stream);
+}
+
+static bool same_pair(carom_vec2 a, carom_vec2 b)
+{
+	return memcmp(&a, &b, sizeof a) == 0; /* bits: -0 is written */
+}
+
+static bool same_number(float a, float b)
+{
+	return memcmp(&a, &b, sizeof a) == 0;
+}
+
+static void put_number_key(FILE *stream, const char *key, float number, float default_number)
+{
+	if (same_number(number, default_number)) return;
+	fprintf(stream, ", \"%s\": ", key);
+	put_number(stream, number);
+}
+
+static void put_pair_key(FILE *stream, const char *key, carom_vec2 pair, carom_vec2 default_pair)
+{
+	if (same_pair(pair, default_pair)) return;
+	fprintf(stream, ", \"%s\": ", key);
+	put_pair(stream, pair);
+}
+
+static void put_shape(FILE *stream, const carom_body_info *info)
+{
+	if (info->shape == CAROM_POLYGON) {
+		fputs("{\"polygon\": {\"vertices\": [", stream);
+		for (uint32_t k = 0; k < info->vertex_count; k++) {
+			if (k > 0) fputs(", ", stream);
+			put_pair(stream, info->vertices[k]);
+		}
+		fputs("]}", stream);
+	} else {
+		if (info->shape == CAROM_CIRCLE) {
+			fputs("{\"circle\": {\"radius\": ", stream);
+		} else {
+			fprintf(stream, "{\"regular\": {\"sides\": %u, \"radius\": ", (unsigned)info->vertex_count);
+		}
+		put_number(stream, info->radius);
+		putc('}', stream);
+	}
+}
+
+static void put_body(const struct writer *writer, const carom_body_info *info, const carom_body_state *state)
+{
+	FILE *stream = writer->stream;
+	const carom_body_def *defaults = &writer->body_defaults;
+	put_shape(stream, info);
+	fputs(", \"position\": ", stream);
+	put_pair(stream, state->position);
+	put_pair_key(stream, "velocity", state->velocity, defaults->velocity);
+	put_number_key(stream, "angle", state->angle, defaults->angle);
+	put_number_key(stream, "angular_velocity", state->angular_velocity, defaults->angular_velocity);
+	if (info->density > 0) {
+		put_number_key(stream, "density", info->density, defaults->density);
+	} else if (!info->is_static) {
+		put_number_key(stream, "mass", info->mass, defaults->mass);
+	}
+	put_number_key(stream, "restitution", info->restitution, writer->world->restitution);
+	put_pair_key(stream, "force", info->force, defaults->force);
+	put_number_key(stream, "torque", info->torque, defaults->torque);
+	if (info->is_static) fputs(", \"static\": true", stream);
+	if (info->color != CAROM_COLOR_AUTO) fprintf(stream, ", \"color\": \"#%06x\"", (unsigned)(info->color & 0xFFFFFF));
+	if (info->name) {
+		fputs(", \"name\": ", stream);
+		put_string(stream, info->name);
+	}
+	putc('}', stream);
+}
+
+static void put_separator(FILE *stream, bool *begun, const char *key)
+{
+	fprintf(stream, "%s\"%s\": ", *begun ? ", " : ",\n  \"pipeline\": { ", key);
+	*begun = true;
+}
+
+/* Only what was chosen: the defaults may become better ones. */
+static void put_pipeline(const struct writer *writer)
+{
+	const carom_world_def *world = writer->world, *defaults = writer->world_defaults;
+	const carom_pipeline *pipeline = &world->pipeline;
+	const struct {
+		const char *slot, *alternative;
+	} slots[] = {
+		{ "step", pipeline->step },         { "aabb", pipeline->aabb }, { "overlap", pipeline->overlap },
+		{ "inside", pipeline->inside },     { "toi", pipeline->toi },   { "walls", pipeline->walls },
+		{ "reduce", pipeline->reduce },     { "impulse", pipeline->impulse },
+	};
+	bool begun = false;
+	for (size_t k = 0; k < sizeof slots / sizeof *slots; k++) {
+		if (!slots[k].alternative) continue;
+		put_separator(writer->stream, &begun, slots[k].slot);
+		put_string(writer->stream, slots[k].alternative);
+	}
+	if (!same_number(world->epsilon, defaults->epsilon)) {
+		put_separator(writer->stream, &begun, "epsilon");
+		put_number(writer->stream, world->epsilon);
+	}
+	if (world->iterations != defaults->iterations) {
+		put_separator(writer->stream, &begun, "iterations");
+		fprintf(writer->stream, "%u", (unsigned)world->iterations);
+	}
+	if (begun) fputs(" }", writer->stream);
+}
+
+static void put_world(const struct writer *writer, const carom_camera *camera)
+{
+	FILE *stream = writer->stream;
+	const carom_world_def *world = writer->world;
+	fputs("{\n  \"format\": \"carom-scene/1\",\n  \"time_step\": ", stream);
+	put_number(stream, world->time_step);
+	fputs(",\n  \"gravity\": ", stream);
+	put_pair(stream, world->gravity);
+	fputs(",\n  \"restitution\": ", stream);
+	put_number(stream, world->restitution);
+	if (world->has_room) {
+		fputs(",\n  \"room\": { \"min\": ", stream);
+		put_pair(stream, world->room_min);
+		fputs(", \"max\": ", stream);
+		put_pair(stream, world->room_max);
+		fputs(" }", stream);
+	}
+	put_pipeline(writer);
+	if (camera) {
+		fputs(",\n  \"camera\": { \"center\": ", stream);
+		put_pair(stream, camera->center);
+		fputs(", \"height\": ", stream);
+		put_number(stream, camera->height);
+		fputs(" }", stream);
+	}
+}
+
+static carom_status put_bodies(const struct writer *writer, const carom_world *world, const carom_body_state *states, size_t count,
+                               carom_error *error)
+{
+	fputs(",\n  \"bodies\": [", writer->stream);
+	for (size_t k = 0; k < count; k++) {
+		carom_body_info info;
+		carom_status status = carom_world_get_body(world, (uint32_t)k, &info, error);
+		if (status != CAROM_OK) return status;
+		fputs(k > 0 ? ",\n    " : "\n    ", writer->stream);
+		put_body(writer, &info, &states[k]);
+	}
+	fputs("\n  ]\n}\n", writer->stream);
+	return CAROM_OK;
+}
+
+carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error)
+{
+	carom_status status = CAROM_OK;
+	const carom_world_def defaults = carom_default_world_def();
+	carom_file *file = NULL;
+	carom_body_state *states = NULL;
+	if (!world || !path) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_world_write_scene: no world or no path");
+	struct writer writer = { NULL, carom_world_get_def(world), &defaults, carom_default_body_def() };
+	size_t count = carom_world_body_count(world);
+	states = malloc((count ? count : 1) * sizeof *states);
+	if (!states) {
+		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory for the states of %zu bodies", path, count);
+		goto done;
+	}
+	if (count > 0) status = carom_world_get_states(world, 0, count, states, error);
+	if (status == CAROM_OK) status = carom_file_create(path, &file, &writer.stream, error);
+	if (status != CAROM_OK) goto done;
+	put_world(&writer, camera);
+	status = put_bodies(&writer, world, states, count, error);
+	if (status != CAROM_OK) goto done;
+	status = carom_file_commit(file, error);
+	file = NULL;
+done:
+	carom_file_destroy(file);
+	free(states);
+	return status;
+}

@@ -1,0 +1,72 @@
+/* The slots of the pipeline and their kernels: which textures each reads and writes, in the order of its arguments. What
+ * they compute, to the order of the operations, is in kernels/CONTRACT.md. */
+#ifndef CAROM_STAGE_H
+#define CAROM_STAGE_H
+
+#include "carom.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The textures by what they are for. Those that a kernel both reads and writes are pairs, a front and a back. */
+typedef enum carom_role {
+	ROLE_LINEAR,     /* pair; one texel a body, as the next three */
+	ROLE_ROTATIONAL, /* pair */
+	ROLE_GEOMETRY,
+	ROLE_FORCES,
+	ROLE_VERTICES,   /* one texel two vertices */
+	ROLE_UNIFORMS,   /* UNIFORMS_WIDTH x 1 */
+	ROLE_CLOCK,      /* pair, CLOCK_WIDTH x 1 */
+	ROLE_AABB,       /* one texel a body */
+	ROLE_OVERLAP,    /* pair of bytes, N / OVERLAP_COLUMNS x N */
+	ROLE_HIT_TIMES,  /* N x N; a pair where toi takes several passes */
+	ROLE_WALLS,      /* one texel WALLS_GROUP bodies */
+	ROLE_REDUCED,    /* pair: the level before and the level to make */
+	ROLE_IMPULSE,    /* 1 x 1 */
+	ROLE_COUNT
+} carom_role;
+
+typedef enum carom_stage {
+	STAGE_AABB,         /* domain: (bodies) */
+	STAGE_OVERLAP,      /* (columns of four, tiles of OVERLAP_TILE rows, bodies) */
+	STAGE_TOI_FIRST,    /* (columns of four, rows) */
+	STAGE_TOI_NEXT,     /* the same; only some alternatives have it */
+	STAGE_WALLS,        /* (groups, 1, bodies) */
+	STAGE_REDUCE,       /* (m, m, pass) */
+	STAGE_FIRST,        /* (1, 1, bodies, groups; 0 groups where there is no room) */
+	STAGE_IMPULSE,      /* (1) */
+	STAGE_NO_COLLISION, /* (bodies) */
+	STAGE_COLLISION,    /* (bodies) */
+	STAGE_COUNT
+} carom_stage;
+
+#define CAROM_MAX_TEXTURES 10
+
+typedef struct carom_stage_def {
+	const char *slot;
+	const char *alternative; /* NULL: the pipeline chooses */
+	const char *kernel;      /* its name in OpenCL C */
+	int input_count, output_count;
+	carom_role textures[CAROM_MAX_TEXTURES]; /* inputs (fronts), then outputs (backs) */
+} carom_stage_def;
+
+extern const carom_stage_def carom_stages[STAGE_COUNT];
+
+/* All slots in the order in which a step runs them, with the field of carom_pipeline that chooses, and their default. */
+typedef struct carom_slot {
+	const char *name;
+	size_t field; /* offset in carom_pipeline; SIZE_MAX where nothing is to choose */
+	const char *standard;
+} carom_slot;
+
+extern const carom_slot carom_slots[];
+extern const size_t carom_slot_count;
+
+/* Fills in the defaults and checks every name. */
+carom_status carom_pipeline_resolve(const carom_pipeline *pipeline, carom_pipeline *resolved, carom_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
