@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "status.h"
 
+#include <errno.h>
 #include <png.h>
 #include <setjmp.h>
 #include <string.h>
@@ -10,12 +11,14 @@
 
 /* What libpng said, kept until the file is dealt with. */
 struct complaint {
+	int number; /* errno, 0 if it was no system call */
 	char text[160];
 };
 
 static void on_error(png_structp png, png_const_charp text)
 {
 	struct complaint *complaint = png_get_error_ptr(png);
+	complaint->number = errno;
 	snprintf(complaint->text, sizeof complaint->text, "%s", text);
 	longjmp(png_jmpbuf(png), 1);
 }
@@ -29,6 +32,7 @@ static void on_warning(png_structp png, png_const_charp text)
 /* Everything that may jump. It has no locals that change after setjmp, so that none is lost by the jump. */
 static bool write_pixels(png_structp png, png_infop info, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height)
 {
+	errno = 0;
 	if (setjmp(png_jmpbuf(png))) return false;
 	png_init_io(png, stream);
 	png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
@@ -43,14 +47,15 @@ static bool write_pixels(png_structp png, png_infop info, FILE *stream, const ui
 static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	struct complaint complaint = { "" };
+	struct complaint complaint = { 0, "" };
 	png_infop info = NULL;
 	png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
 	if (png) info = png_create_info_struct(png);
 	if (!info) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to write a PNG", path);
 	} else if (!write_pixels(png, info, stream, pixels, width, height)) {
-		status = carom_fail(error, CAROM_IO, "%s: can't be written as a PNG: %s; free some space or write elsewhere", path, complaint.text);
+		status = carom_fail(error, CAROM_IO, "%s: can't be written: %s%s%s; free some space or write elsewhere", path, complaint.text,
+		                    complaint.number ? ": " : "", complaint.number ? strerror(complaint.number) : "");
 	}
 	png_destroy_write_struct(&png, &info);
 	return status;

@@ -278,14 +278,16 @@ carom_status scene_parse_head(struct scene_reader *reader, json_t **head)
 	*head = json_load_callback(feed_head, &feed, FLAGS, &found);
 	if (*head) return CAROM_OK;
 	const char *at = reader->text + (found.position > 0 ? found.position : 0);
-	reader->broken_behind = at > reader->bodies;
+	reader->broken_behind = at >= reader->bodies;
 	if (reader->broken_behind) at += reader->bodies_end - reader->bodies;
 	return fail_syntax(reader, at, &found);
 }
 
 carom_status scene_parse_element(struct scene_reader *reader, const char *begin, const char *end, json_t **element)
 {
-	json_error_t found;
+	json_error_t found = { .text = "a body expected" };
+	*element = NULL;
+	if (begin == end) return fail_syntax(reader, begin, &found);
 	*element = json_loadb(begin, (size_t)(end - begin), FLAGS | JSON_DECODE_ANY, &found);
 	return *element ? CAROM_OK : fail_syntax(reader, begin + found.position, &found);
 }
