@@ -112,8 +112,8 @@ static void paint_shape(carom_draw_shape *shape, const carom_paint *paint, doubl
 /* The pixels whose centres may be within half a pixel of what lies between two corners. */
 static carom_pixels pixels_between(carom_point low, carom_point high, double margin, carom_pixels clip)
 {
-	carom_pixels box = {whole(floor(low.x - margin)), whole(floor(low.y - margin)), whole(ceil(high.x + margin)),
-	                    whole(ceil(high.y + margin))};
+	carom_pixels box = {
+		whole(floor(low.x - margin)), whole(floor(low.y - margin)), whole(ceil(high.x + margin)), whole(ceil(high.y + margin))};
 	return carom_pixels_clip(box, clip);
 }
 
@@ -166,8 +166,8 @@ static double breadth_of(const carom_point *points, uint32_t count, carom_point 
 	return twice_area / 2 / most(sqrt(width * width + height * height), 1);
 }
 
-void carom_draw_polygon(carom_draw_list *list, carom_pixels clip, const carom_point *points, uint32_t count,
-                        const carom_paint *paint)
+void carom_draw_polygon(
+	carom_draw_list *list, carom_pixels clip, const carom_point *points, uint32_t count, const carom_paint *paint)
 {
 	carom_point low, high;
 	bounds_of(points, count, &low, &high);
@@ -188,8 +188,8 @@ void carom_draw_polygon(carom_draw_list *list, carom_pixels clip, const carom_po
 	}
 }
 
-void carom_draw_line(carom_draw_list *list, carom_pixels clip, carom_point a, carom_point b, double breadth, uint32_t color,
-                     double opacity)
+void carom_draw_line(
+	carom_draw_list *list, carom_pixels clip, carom_point a, carom_point b, double breadth, uint32_t color, double opacity)
 {
 	double along_x = b.x - a.x, along_y = b.y - a.y, length = sqrt(along_x * along_x + along_y * along_y);
 	if (!(length > 0))

@@ -58,11 +58,11 @@ void carom_draw_frame(carom_draw_list *list, carom_pixels clip, carom_pixels box
 /* Discs and polygons of under a pixel still show, as pale as they are small. */
 void carom_draw_disc(carom_draw_list *list, carom_pixels clip, carom_point center, double radius, const carom_paint *paint);
 /* `points` counter-clockwise as seen: clockwise in x and y. */
-void carom_draw_polygon(carom_draw_list *list, carom_pixels clip, const carom_point *points, uint32_t count,
-                        const carom_paint *paint);
+void carom_draw_polygon(
+	carom_draw_list *list, carom_pixels clip, const carom_point *points, uint32_t count, const carom_paint *paint);
 /* From `a` to `b`, with square ends. */
-void carom_draw_line(carom_draw_list *list, carom_pixels clip, carom_point a, carom_point b, double breadth, uint32_t color,
-                     double opacity);
+void carom_draw_line(
+	carom_draw_list *list, carom_pixels clip, carom_point a, carom_point b, double breadth, uint32_t color, double opacity);
 void carom_draw_list_free(carom_draw_list *list);
 
 carom_pixels carom_pixels_clip(carom_pixels box, carom_pixels clip);

@@ -27,9 +27,9 @@ typedef struct scene {
 
 /* From the world to pixels. */
 typedef struct view {
-	double left, top;  /* m, of the point at the pixels' origin */
-	double scale;      /* pixels a metre */
-	double line;       /* pixels, the breadth of thin lines */
+	double left, top; /* m, of the point at the pixels' origin */
+	double scale;     /* pixels a metre */
+	double line;      /* pixels, the breadth of thin lines */
 	carom_pixels clip;
 } view;
 
@@ -52,10 +52,11 @@ static bool is_finite_point(carom_vec2 v)
 static carom_status check_camera(const carom_camera *camera, carom_error *error)
 {
 	if (!is_finite_point(camera->center))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "camera.center is (%g, %g): both must be finite", (double)camera->center.x,
-		                  (double)camera->center.y);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "camera.center is (%g, %g): both must be finite",
+			(double)camera->center.x, (double)camera->center.y);
 	if (!(camera->height > 0) || !isfinite(camera->height))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "camera.height is %g: it must be above 0 and finite", (double)camera->height);
+		return carom_fail(
+			error, CAROM_INVALID_ARGUMENT, "camera.height is %g: it must be above 0 and finite", (double)camera->height);
 	return CAROM_OK;
 }
 
@@ -63,21 +64,21 @@ static carom_status check_inset(const carom_inset *inset, carom_error *error)
 {
 	if (!is_finite_point(inset->min))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "inset.min is (%g, %g): both must be finite", (double)inset->min.x,
-		                  (double)inset->min.y);
+			(double)inset->min.y);
 	if (!(inset->size.x > 0 && inset->size.y > 0) || !is_finite_point(inset->size))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "inset.size is (%g, %g): both must be above 0 and finite",
-		                  (double)inset->size.x, (double)inset->size.y);
+			(double)inset->size.x, (double)inset->size.y);
 	return CAROM_OK;
 }
 
-static carom_status check_arguments(const carom_world *world, const carom_render_def *def, const uint8_t *pixels,
-                                    carom_error *error)
+static carom_status check_arguments(
+	const carom_world *world, const carom_render_def *def, const uint8_t *pixels, carom_error *error)
 {
 	if (!world || !def || !pixels)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "%s is NULL", !world ? "world" : !def ? "def" : "pixels");
 	if (def->width < 1 || def->width > MAX_SIDE || def->height < 1 || def->height > MAX_SIDE)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the picture is %u x %u pixels: both must be 1 to %d", (unsigned)def->width,
-		                  (unsigned)def->height, MAX_SIDE);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the picture is %u x %u pixels: both must be 1 to %d",
+			(unsigned)def->width, (unsigned)def->height, MAX_SIDE);
 	carom_status status = def->has_camera ? check_camera(&def->camera, error) : CAROM_OK;
 	if (status == CAROM_OK && def->has_inset)
 		status = check_inset(&def->inset, error);
@@ -116,8 +117,8 @@ static carom_paint paint_of(const view *v, const carom_body_info *body, uint32_t
 	return (carom_paint){fill, carom_darker_color(fill), v->line, 1};
 }
 
-static void draw_circle(carom_draw_list *list, const view *v, double radius, const carom_body_state *state,
-                        const carom_paint *paint)
+static void draw_circle(
+	carom_draw_list *list, const view *v, double radius, const carom_body_state *state, const carom_paint *paint)
 {
 	double sine, cosine, r = radius * v->scale;
 	carom_point center = to_pixels(v, (double)state->position.x, (double)state->position.y);
@@ -130,8 +131,8 @@ static void draw_circle(carom_draw_list *list, const view *v, double radius, con
 	carom_draw_line(list, v->clip, center, rim, v->line, paint->outline, (r - SHOW_ANGLE_FROM) / SHOW_ANGLE_FROM);
 }
 
-static void draw_polygon(carom_draw_list *list, const view *v, const carom_body_info *body, const carom_body_state *state,
-                         const carom_paint *paint)
+static void draw_polygon(
+	carom_draw_list *list, const view *v, const carom_body_info *body, const carom_body_state *state, const carom_paint *paint)
 {
 	carom_point points[CAROM_MAX_VERTICES];
 	place_vertices(body, state, points);
@@ -165,8 +166,8 @@ static carom_status draw_bodies(carom_draw_list *list, const scene *s, const vie
 static carom_pixels box_of(const view *v, const bounds *b)
 {
 	carom_point low = to_pixels(v, b->min_x, b->max_y), high = to_pixels(v, b->max_x, b->min_y);
-	return (carom_pixels){carom_nearest_pixel(low.x), carom_nearest_pixel(low.y), carom_nearest_pixel(high.x),
-	                      carom_nearest_pixel(high.y)};
+	return (carom_pixels){
+		carom_nearest_pixel(low.x), carom_nearest_pixel(low.y), carom_nearest_pixel(high.x), carom_nearest_pixel(high.y)};
 }
 
 static bounds room_of(const carom_world_def *def)
@@ -320,7 +321,7 @@ static void mark_detail(carom_draw_list *list, const view *v, carom_pixels detai
 static carom_status draw_inset(carom_draw_list *list, const scene *s, const view *v, const carom_inset *inset, carom_error *error)
 {
 	bounds b = {(double)inset->min.x, (double)inset->min.y, (double)inset->min.x + (double)inset->size.x,
-	            (double)inset->min.y + (double)inset->size.y};
+		(double)inset->min.y + (double)inset->size.y};
 	carom_pixels detail = box_of(v, &b), panel = place_panel(&v->clip, inset, detail);
 	double height = (b.max_x - b.min_x) * (panel.y1 - panel.y0) / (panel.x1 - panel.x0);
 	view enlarged = look_at((b.min_x + b.max_x) / 2, (b.min_y + b.max_y) / 2, height, panel, v->line);
