@@ -29,11 +29,13 @@ static int open_temporary(carom_file *file, mode_t mode)
 {
 	size_t size = strlen(file->path) + 48;
 	file->temporary = malloc(size);
-	if (!file->temporary) return -1;
+	if (!file->temporary)
+		return -1;
 	for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
 		snprintf(file->temporary, size, "%s.tmp.%ld.%d", file->path, (long)getpid(), attempt);
 		int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-		if (descriptor >= 0 || errno != EEXIST) return descriptor;
+		if (descriptor >= 0 || errno != EEXIST)
+			return descriptor;
 	}
 	return -1;
 }
@@ -43,15 +45,19 @@ static int open_beside(carom_file *file)
 {
 	struct stat there;
 	int descriptor;
-	if (stat(file->path, &there) != 0) return errno == ENOENT ? open_temporary(file, 0666) : -1;
+	if (stat(file->path, &there) != 0)
+		return errno == ENOENT ? open_temporary(file, 0666) : -1;
 	if (S_ISDIR(there.st_mode)) {
 		errno = EISDIR;
 		return -1;
 	}
-	if (!S_ISREG(there.st_mode)) return open(file->path, O_WRONLY | O_CLOEXEC);
-	if (access(file->path, W_OK) != 0) return -1;
+	if (!S_ISREG(there.st_mode))
+		return open(file->path, O_WRONLY | O_CLOEXEC);
+	if (access(file->path, W_OK) != 0)
+		return -1;
 	descriptor = open_temporary(file, 0600);
-	if (descriptor >= 0) fchmod(descriptor, there.st_mode & 07777);
+	if (descriptor >= 0)
+		fchmod(descriptor, there.st_mode & 07777);
 	return descriptor;
 }
 
@@ -59,19 +65,25 @@ carom_status carom_file_create(const char *path, carom_file **file, FILE **strea
 {
 	carom_file *made = NULL;
 	int descriptor = -1;
-	if (!path || !*path || !file || !stream) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_create: no path or no output");
+	if (!path || !*path || !file || !stream)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_create: no path or no output");
 	made = calloc(1, sizeof *made);
-	if (!made) goto no_memory;
+	if (!made)
+		goto no_memory;
 	made->path = realpath(path, NULL); /* so that a symbolic link stays one */
-	if (!made->path) made->path = strdup(path);
-	if (!made->path) goto no_memory;
+	if (!made->path)
+		made->path = strdup(path);
+	if (!made->path)
+		goto no_memory;
 	descriptor = open_beside(made);
-	if (descriptor >= 0) made->stream = fdopen(descriptor, "wb");
+	if (descriptor >= 0)
+		made->stream = fdopen(descriptor, "wb");
 	if (!made->stream) {
 		int number = errno;
 		if (descriptor >= 0) {
 			close(descriptor);
-			if (made->temporary) unlink(made->temporary);
+			if (made->temporary)
+				unlink(made->temporary);
 		}
 		carom_file_destroy(made);
 		return fail_io(error, path, "can't be written", number, "give a file in a folder that exists and can be written to");
@@ -89,16 +101,21 @@ carom_status carom_file_commit(carom_file *file, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	int number = 0;
-	if (!file) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_commit: no file");
+	if (!file)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_commit: no file");
 	errno = 0;
 	/* An earlier write may have failed and set the flag only: its errno is lost, a full disk the likeliest cause. */
-	if (fflush(file->stream) != 0 || ferror(file->stream)) number = errno ? errno : ENOSPC;
-	if (fclose(file->stream) != 0 && !number) number = errno;
+	if (fflush(file->stream) != 0 || ferror(file->stream))
+		number = errno ? errno : ENOSPC;
+	if (fclose(file->stream) != 0 && !number)
+		number = errno;
 	file->stream = NULL;
 	if (number) {
-		status = fail_io(error, file->path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
+		status = fail_io(
+			error, file->path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
 	} else if (file->temporary && rename(file->temporary, file->path) != 0) {
-		status = fail_io(error, file->path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
+		status =
+			fail_io(error, file->path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
 	} else {
 		free(file->temporary);
 		file->temporary = NULL;
@@ -109,9 +126,12 @@ carom_status carom_file_commit(carom_file *file, carom_error *error)
 
 void carom_file_destroy(carom_file *file)
 {
-	if (!file) return;
-	if (file->stream) fclose(file->stream);
-	if (file->temporary) unlink(file->temporary);
+	if (!file)
+		return;
+	if (file->stream)
+		fclose(file->stream);
+	if (file->temporary)
+		unlink(file->temporary);
 	free(file->temporary);
 	free(file->path);
 	free(file);

@@ -33,29 +33,33 @@ static void on_warning(png_structp png, png_const_charp text)
 static bool write_pixels(png_structp png, png_infop info, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height)
 {
 	errno = 0;
-	if (setjmp(png_jmpbuf(png))) return false;
+	if (setjmp(png_jmpbuf(png)))
+		return false;
 	png_init_io(png, stream);
 	png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-	             PNG_FILTER_TYPE_DEFAULT);
+		PNG_FILTER_TYPE_DEFAULT);
 	png_write_info(png, info);
 	png_set_filler(png, 0, PNG_FILLER_AFTER); /* skips the fourth byte: the picture is opaque */
-	for (uint32_t row = 0; row < height; row++) png_write_row(png, pixels + (size_t)row * width * 4);
+	for (uint32_t row = 0; row < height; row++)
+		png_write_row(png, pixels + (size_t)row * width * 4);
 	png_write_end(png, NULL);
 	return true;
 }
 
-static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error)
+static carom_status encode(
+	const char *path, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	struct complaint complaint = { 0, "" };
+	struct complaint complaint = {0, ""};
 	png_infop info = NULL;
 	png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
-	if (png) info = png_create_info_struct(png);
+	if (png)
+		info = png_create_info_struct(png);
 	if (!info) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to write a PNG", path);
 	} else if (!write_pixels(png, info, stream, pixels, width, height)) {
-		status = carom_fail(error, CAROM_IO, "%s: can't be written: %s%s%s; free some space or write elsewhere", path, complaint.text,
-		                    complaint.number ? ": " : "", complaint.number ? strerror(complaint.number) : "");
+		status = carom_fail(error, CAROM_IO, "%s: can't be written: %s%s%s; free some space or write elsewhere", path,
+			complaint.text, complaint.number ? ": " : "", complaint.number ? strerror(complaint.number) : "");
 	}
 	png_destroy_write_struct(&png, &info);
 	return status;
@@ -66,14 +70,18 @@ carom_status carom_png_write(const char *path, const uint8_t *pixels, uint32_t w
 	carom_status status;
 	carom_file *file = NULL;
 	FILE *stream = NULL;
-	if (!path || !pixels) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_png_write: no path or no pixels");
+	if (!path || !pixels)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_png_write: no path or no pixels");
 	if (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE) {
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_png_write: %u x %u pixels; a side has 1 to %u", width, height, MAX_SIDE);
+		return carom_fail(
+			error, CAROM_INVALID_ARGUMENT, "carom_png_write: %u x %u pixels; a side has 1 to %u", width, height, MAX_SIDE);
 	}
 	status = carom_file_create(path, &file, &stream, error);
-	if (status != CAROM_OK) return status;
+	if (status != CAROM_OK)
+		return status;
 	status = encode(path, stream, pixels, width, height, error);
-	if (status == CAROM_OK) return carom_file_commit(file, error);
+	if (status == CAROM_OK)
+		return carom_file_commit(file, error);
 	carom_file_destroy(file);
 	return status;
 }

@@ -17,7 +17,8 @@ struct scene_block {
 static struct scene_block *add_block(struct scene_storage *storage, size_t size)
 {
 	struct scene_block *block = malloc(sizeof *block + size);
-	if (!block) return NULL;
+	if (!block)
+		return NULL;
 	block->next = storage->blocks;
 	block->used = 0;
 	block->size = size;
@@ -30,8 +31,10 @@ void *scene_allocate(carom_scene *scene, size_t size)
 	struct scene_storage *storage = scene->storage;
 	struct scene_block *block = storage->blocks;
 	size_t rounded = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-	if (!block || block->size - block->used < rounded) block = add_block(storage, rounded > BLOCK_SIZE ? rounded : BLOCK_SIZE);
-	if (!block) return NULL;
+	if (!block || block->size - block->used < rounded)
+		block = add_block(storage, rounded > BLOCK_SIZE ? rounded : BLOCK_SIZE);
+	if (!block)
+		return NULL;
 	block->used += rounded;
 	return block->bytes + block->used - rounded;
 }
@@ -40,9 +43,11 @@ carom_scene *scene_create(const char *name)
 {
 	struct scene_storage *storage = calloc(1, sizeof *storage);
 	carom_scene *scene = calloc(1, sizeof *scene);
-	if (storage) storage->name = strdup(name);
+	if (storage)
+		storage->name = strdup(name);
 	if (!storage || !scene || !storage->name) {
-		if (storage) free(storage->name);
+		if (storage)
+			free(storage->name);
 		free(storage);
 		free(scene);
 		return NULL;
@@ -54,7 +59,8 @@ carom_scene *scene_create(const char *name)
 
 void carom_scene_destroy(carom_scene *scene)
 {
-	if (!scene) return;
+	if (!scene)
+		return;
 	struct scene_storage *storage = scene->storage;
 	while (storage->blocks) {
 		struct scene_block *next = storage->blocks->next;
@@ -70,10 +76,11 @@ void carom_scene_destroy(carom_scene *scene)
 /* The file's key around a field of carom_body_def, so that the error's path is the one in the file. */
 static const char *outer_key(const carom_scene *scene, unsigned long index, const char *field)
 {
-	static const char *const shapes[] = { "circle.", "polygon.", "regular." };
+	static const char *const shapes[] = {"circle.", "polygon.", "regular."};
 	bool of_shape = strncmp(field, "vertices", 8) == 0 || strncmp(field, "vertex_count", 12) == 0 ||
-	                strncmp(field, "radius", 6) == 0 || strncmp(field, "sides", 5) == 0;
-	if (!of_shape || index >= scene->body_count || (unsigned)scene->bodies[index].shape > CAROM_REGULAR) return "";
+					strncmp(field, "radius", 6) == 0 || strncmp(field, "sides", 5) == 0;
+	if (!of_shape || index >= scene->body_count || (unsigned)scene->bodies[index].shape > CAROM_REGULAR)
+		return "";
 	return shapes[scene->bodies[index].shape];
 }
 
@@ -84,14 +91,16 @@ static carom_status blame_file(const carom_scene *scene, carom_error *error)
 	char text[sizeof error->text];
 	unsigned long index;
 	int length = 0;
-	if (!error) return CAROM_INVALID_SCENE;
+	if (!error)
+		return CAROM_INVALID_SCENE;
 	memcpy(text, error->text, sizeof text);
 	if (sscanf(text, "bodies[%lu].%n", &index, &length) != 1 || length == 0) {
 		return carom_fail(error, CAROM_INVALID_SCENE, "%s: %s", storage->name, text);
 	}
 	const char *field = text + length;
 	const char *outer = outer_key(scene, index, field);
-	if (strncmp(field, "is_static", 9) == 0) field += strlen("is_");
+	if (strncmp(field, "is_static", 9) == 0)
+		field += strlen("is_");
 	return carom_fail(error, CAROM_INVALID_SCENE, "%s: bodies[%lu].%s%s", storage->name, index, outer, field);
 }
 
@@ -99,9 +108,11 @@ carom_status carom_scene_create_world(const carom_scene *scene, carom_world **wo
 {
 	carom_status status;
 	carom_world *made = NULL;
-	if (!scene || !world) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_create_world: no scene or no world");
+	if (!scene || !world)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_create_world: no scene or no world");
 	status = carom_world_create(&scene->world, &made, error);
-	if (status == CAROM_OK && scene->body_count > 0) status = carom_world_add(made, scene->bodies, scene->body_count, NULL, error);
+	if (status == CAROM_OK && scene->body_count > 0)
+		status = carom_world_add(made, scene->bodies, scene->body_count, NULL, error);
 	if (status == CAROM_OK) {
 		*world = made;
 		return CAROM_OK;

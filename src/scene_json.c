@@ -18,11 +18,13 @@
 
 static size_t put_place(char *text, size_t size, const struct scene_place *place)
 {
-	if (!place) return 0;
+	if (!place)
+		return 0;
 	size_t length = put_place(text, size, place->outer);
-	if (length >= size) return size;
+	if (length >= size)
+		return size;
 	int more = place->key ? snprintf(text + length, size - length, "%s%.80s", length ? "." : "", place->key)
-	                      : snprintf(text + length, size - length, "[%zu]", place->index);
+						  : snprintf(text + length, size - length, "[%zu]", place->index);
 	return length + (size_t)more;
 }
 
@@ -43,11 +45,13 @@ static void set_position(carom_error *error, const char *text, const char *at)
 /* One line, whatever the file holds. */
 static carom_status finish(const struct scene_reader *reader, const carom_error *at)
 {
-	if (!reader->error) return CAROM_INVALID_SCENE;
+	if (!reader->error)
+		return CAROM_INVALID_SCENE;
 	reader->error->line = at->line;
 	reader->error->column = at->column;
 	for (char *text = reader->error->text; *text; text++) {
-		if ((unsigned char)*text < 0x20 || *text == 0x7f) *text = '?';
+		if ((unsigned char)*text < 0x20 || *text == 0x7f)
+			*text = '?';
 	}
 	return CAROM_INVALID_SCENE;
 }
@@ -55,7 +59,7 @@ static carom_status finish(const struct scene_reader *reader, const carom_error 
 carom_status scene_fail(const struct scene_reader *reader, const struct scene_place *place, const char *format, ...)
 {
 	char where[256] = "", what[640], line[24] = "";
-	carom_error at = { .line = 0 };
+	carom_error at = {.line = 0};
 	va_list arguments;
 	va_start(arguments, format);
 	vsnprintf(what, sizeof what, format, arguments);
@@ -80,13 +84,15 @@ static carom_status fail_syntax(const struct scene_reader *reader, const char *a
 	static const char too_much[] = "end of file expected"; /* jansson's words, where it was given an element alone */
 	carom_error position;
 	const char *text = found->text, *instead = "";
-	if (json_error_code(found) == json_error_out_of_memory) return scene_fail_memory(reader);
+	if (json_error_code(found) == json_error_out_of_memory)
+		return scene_fail_memory(reader);
 	if (reader->body && strncmp(text, too_much, sizeof too_much - 1) == 0) {
 		instead = "',' or ']' expected";
 		text += sizeof too_much - 1;
 	}
 	set_position(&position, reader->text, at);
-	carom_fail(reader->error, CAROM_INVALID_SCENE, "%s:%d:%d: not valid JSON: %s%s", reader->name, position.line, position.column, instead, text);
+	carom_fail(reader->error, CAROM_INVALID_SCENE, "%s:%d:%d: not valid JSON: %s%s", reader->name, position.line, position.column,
+		instead, text);
 	return finish(reader, &position);
 }
 
@@ -94,7 +100,8 @@ static carom_status fail_syntax(const struct scene_reader *reader, const char *a
 static int shown_length(const char *string)
 {
 	int length = (int)strnlen(string, 40);
-	while (length > 0 && ((unsigned char)string[length] & 0xC0) == 0x80) length--;
+	while (length > 0 && ((unsigned char)string[length] & 0xC0) == 0x80)
+		length--;
 	return length;
 }
 
@@ -114,7 +121,8 @@ static const char *describe(const json_t *value, char *text, size_t size)
 	return text;
 }
 
-carom_status scene_fail_value(const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed)
+carom_status scene_fail_value(
+	const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed)
 {
 	char found[64];
 	return scene_fail(reader, place, "found %s; allowed: %s", describe(value, found, sizeof found), allowed);
@@ -133,11 +141,12 @@ static carom_status fail_key(const struct scene_reader *reader, const struct sce
 /* ---- Values ---- */
 
 carom_status scene_read_number(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                               const struct scene_range *range)
+	const struct scene_range *range)
 {
 	double number = json_number_value(value);
 	double rounded = fabs(number) < MAX_ROUNDED ? (double)(float)number : number;
-	if (!json_is_number(value) || !(rounded >= range->min) || !(rounded <= range->max) || (range->above_min && rounded == range->min)) {
+	if (!json_is_number(value) || !(rounded >= range->min) || !(rounded <= range->max) ||
+		(range->above_min && rounded == range->min)) {
 		return scene_fail_value(reader, place, value, range->text);
 	}
 	*(float *)target = (float)rounded;
@@ -145,7 +154,7 @@ carom_status scene_read_number(struct scene_reader *reader, const struct scene_p
 }
 
 carom_status scene_read_whole(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                              const struct scene_range *range)
+	const struct scene_range *range)
 {
 	double number = json_number_value(value);
 	if (!json_is_number(value) || !(number >= range->min) || !(number <= range->max) || floor(number) < number) {
@@ -156,39 +165,44 @@ carom_status scene_read_whole(struct scene_reader *reader, const struct scene_pl
 }
 
 carom_status scene_read_pair(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                             const struct scene_range *range)
+	const struct scene_range *range)
 {
 	float pair[2];
-	if (json_array_size(value) != 2) return scene_fail_value(reader, place, value, "an array of 2 numbers, [x, y]");
+	if (json_array_size(value) != 2)
+		return scene_fail_value(reader, place, value, "an array of 2 numbers, [x, y]");
 	carom_status status = scene_read_array(reader, place, value, pair, sizeof *pair, scene_read_number, range);
-	if (status == CAROM_OK) *(carom_vec2 *)target = (carom_vec2){ pair[0], pair[1] };
+	if (status == CAROM_OK)
+		*(carom_vec2 *)target = (carom_vec2){pair[0], pair[1]};
 	return status;
 }
 
 carom_status scene_read_flag(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                             const struct scene_range *range)
+	const struct scene_range *range)
 {
 	(void)range;
-	if (!json_is_boolean(value)) return scene_fail_value(reader, place, value, "true or false");
+	if (!json_is_boolean(value))
+		return scene_fail_value(reader, place, value, "true or false");
 	*(bool *)target = json_is_true(value);
 	return CAROM_OK;
 }
 
 carom_status scene_read_string(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                               const struct scene_range *range)
+	const struct scene_range *range)
 {
 	(void)range;
-	if (!json_is_string(value)) return scene_fail_value(reader, place, value, "a string");
+	if (!json_is_string(value))
+		return scene_fail_value(reader, place, value, "a string");
 	size_t size = json_string_length(value) + 1;
 	char *copy = scene_allocate(reader->scene, size);
-	if (!copy) return scene_fail_memory(reader);
+	if (!copy)
+		return scene_fail_memory(reader);
 	memcpy(copy, json_string_value(value), size);
 	*(const char **)target = copy;
 	return CAROM_OK;
 }
 
 carom_status scene_read_color(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                              const struct scene_range *range)
+	const struct scene_range *range)
 {
 	static const char digits[] = "0123456789abcdefABCDEF";
 	const char *text = json_is_string(value) ? json_string_value(value) : "";
@@ -198,44 +212,51 @@ carom_status scene_read_color(struct scene_reader *reader, const struct scene_pl
 		return scene_fail_value(reader, place, value, "a colour, \"#rgb\" or \"#rrggbb\"");
 	}
 	uint32_t color = (uint32_t)strtoul(text + 1, NULL, 16);
-	if (length == 4) color = ((color & 0xF00) << 8 | (color & 0xF0) << 4 | (color & 0xF)) * 0x11;
+	if (length == 4)
+		color = ((color & 0xF00) << 8 | (color & 0xF0) << 4 | (color & 0xF)) * 0x11;
 	*(uint32_t *)target = color;
 	return CAROM_OK;
 }
 
 static const struct scene_field *find_field(const struct scene_field *fields, const char *key)
 {
-	while (fields->key && strcmp(fields->key, "*") != 0 && strcmp(fields->key, key) != 0) fields++;
+	while (fields->key && strcmp(fields->key, "*") != 0 && strcmp(fields->key, key) != 0)
+		fields++;
 	return fields;
 }
 
 carom_status scene_read_object(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                               const struct scene_field *fields)
+	const struct scene_field *fields)
 {
 	const char *key;
 	json_t *item;
 	unsigned seen = 0;
-	if (!json_is_object(value)) return scene_fail_value(reader, place, value, "an object");
-	json_object_foreach((json_t *)(uintptr_t)value, key, item) { /* wants no const, but changes nothing */
-		struct scene_place inner = { place, key, 0 };
+	if (!json_is_object(value))
+		return scene_fail_value(reader, place, value, "an object");
+	json_object_foreach((json_t *)(uintptr_t)value, key, item)
+	{ /* wants no const, but changes nothing */
+		struct scene_place inner = {place, key, 0};
 		const struct scene_field *field = find_field(fields, key);
-		if (!field->key) return fail_key(reader, &inner, fields);
+		if (!field->key)
+			return fail_key(reader, &inner, fields);
 		carom_status status = field->read(reader, &inner, item, (char *)target + field->offset, field->range);
-		if (status != CAROM_OK) return status;
+		if (status != CAROM_OK)
+			return status;
 		seen |= 1u << (field - fields);
 	}
 	for (unsigned row = 0; fields[row].key; row++) {
-		if (fields[row].required && !(seen >> row & 1)) return scene_fail(reader, place, "\"%s\" is missing", fields[row].key);
+		if (fields[row].required && !(seen >> row & 1))
+			return scene_fail(reader, place, "\"%s\" is missing", fields[row].key);
 	}
 	return CAROM_OK;
 }
 
 carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-                              size_t stride, scene_read_function *read, const struct scene_range *range)
+	size_t stride, scene_read_function *read, const struct scene_range *range)
 {
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < json_array_size(value); k++) {
-		struct scene_place element = { place, NULL, k };
+		struct scene_place element = {place, NULL, k};
 		status = read(reader, &element, json_array_get(value, k), (char *)target + k * stride, range);
 	}
 	return status;
@@ -263,9 +284,11 @@ static size_t feed_head(void *buffer, size_t size, void *data)
 {
 	struct feed *feed = data;
 	const struct scene_reader *reader = feed->reader;
-	if (feed->at == reader->bodies) feed->at = reader->bodies_end;
+	if (feed->at == reader->bodies)
+		feed->at = reader->bodies_end;
 	size_t left = (size_t)((feed->at < reader->bodies ? reader->bodies : reader->end) - feed->at);
-	if (size > left) size = left;
+	if (size > left)
+		size = left;
 	memcpy(buffer, feed->at, size);
 	feed->at += size;
 	return size;
@@ -273,21 +296,24 @@ static size_t feed_head(void *buffer, size_t size, void *data)
 
 carom_status scene_parse_head(struct scene_reader *reader, json_t **head)
 {
-	struct feed feed = { reader->text, reader };
+	struct feed feed = {reader->text, reader};
 	json_error_t found;
 	*head = json_load_callback(feed_head, &feed, FLAGS, &found);
-	if (*head) return CAROM_OK;
+	if (*head)
+		return CAROM_OK;
 	const char *at = reader->text + (found.position > 0 ? found.position : 0);
 	reader->broken_behind = at >= reader->bodies;
-	if (reader->broken_behind) at += reader->bodies_end - reader->bodies;
+	if (reader->broken_behind)
+		at += reader->bodies_end - reader->bodies;
 	return fail_syntax(reader, at, &found);
 }
 
 carom_status scene_parse_element(struct scene_reader *reader, const char *begin, const char *end, json_t **element)
 {
-	json_error_t found = { .text = "a body expected" };
+	json_error_t found = {.text = "a body expected"};
 	*element = NULL;
-	if (begin == end) return fail_syntax(reader, begin, &found);
+	if (begin == end)
+		return fail_syntax(reader, begin, &found);
 	*element = json_loadb(begin, (size_t)(end - begin), FLAGS | JSON_DECODE_ANY, &found);
 	return *element ? CAROM_OK : fail_syntax(reader, begin + found.position, &found);
 }

@@ -10,7 +10,7 @@
 typedef struct json_t json_t;
 
 struct scene_reader {
-	const char *name;                /* of the file */
+	const char *name; /* of the file */
 	const char *text, *end;
 	const char *bodies, *bodies_end; /* what is cut out of the text; both at its end if nothing is */
 	const char *body;                /* where the body being read starts, NULL outside of the cut */
@@ -35,13 +35,13 @@ struct scene_range {
 
 /* Reads `value` into `target`, or fails and names `place`. */
 typedef carom_status scene_read_function(struct scene_reader *reader, const struct scene_place *place, const json_t *value,
-                                         void *target, const struct scene_range *range);
+	void *target, const struct scene_range *range);
 
 /* A row of a table of keys; the last has no key. */
 struct scene_field {
-	const char *key;           /* "*": every key that no row before has */
+	const char *key; /* "*": every key that no row before has */
 	scene_read_function *read;
-	size_t offset;             /* in what the object is read into */
+	size_t offset; /* in what the object is read into */
 	const struct scene_range *range;
 	bool required;
 };
@@ -53,11 +53,11 @@ scene_read_function scene_read_flag;   /* into a bool */
 scene_read_function scene_read_string; /* into a const char *, owned by the scene */
 scene_read_function scene_read_color;  /* into a uint32_t */
 
-carom_status scene_read_object(struct scene_reader *reader, const struct scene_place *place, const json_t *value,
-                               void *target, const struct scene_field *fields);
+carom_status scene_read_object(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
+	const struct scene_field *fields);
 /* Element k goes through `read` into `target` + k * stride. */
-carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value,
-                              void *target, size_t stride, scene_read_function *read, const struct scene_range *range);
+carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
+	size_t stride, scene_read_function *read, const struct scene_range *range);
 /* 0 for what is no array. */
 size_t scene_array_size(const json_t *value);
 bool scene_is_array(const json_t *value);
@@ -68,8 +68,10 @@ carom_status scene_parse_head(struct scene_reader *reader, json_t **head);
 carom_status scene_parse_element(struct scene_reader *reader, const char *begin, const char *end, json_t **element);
 void scene_json_destroy(json_t *value);
 
-carom_status scene_fail(const struct scene_reader *reader, const struct scene_place *place, const char *format, ...) CAROM_PRINTF(3, 4);
-carom_status scene_fail_value(const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed);
+carom_status scene_fail(const struct scene_reader *reader, const struct scene_place *place, const char *format, ...)
+	CAROM_PRINTF(3, 4);
+carom_status scene_fail_value(
+	const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed);
 carom_status scene_fail_memory(const struct scene_reader *reader);
 
 #endif

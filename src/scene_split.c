@@ -9,7 +9,8 @@
 
 const char *scene_skip_space(const char *at, const char *end)
 {
-	while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r')) at++;
+	while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r'))
+		at++;
 	return at;
 }
 
@@ -17,7 +18,8 @@ const char *scene_skip_space(const char *at, const char *end)
 static const char *skip_string(const char *at, const char *end)
 {
 	for (at++; at < end && *at != '"'; at++) {
-		if (*at == '\\' && at + 1 < end) at++;
+		if (*at == '\\' && at + 1 < end)
+			at++;
 	}
 	return at < end ? at + 1 : end;
 }
@@ -33,11 +35,13 @@ static const char *skip_level(const char *at, const char *end, bool to_comma)
 		case '[': depth++; break;
 		case '}':
 		case ']':
-			if (depth == 0) return at;
+			if (depth == 0)
+				return at;
 			depth--;
 			break;
 		case ',':
-			if (to_comma && depth == 0) return at;
+			if (to_comma && depth == 0)
+				return at;
 			break;
 		default: break;
 		}
@@ -51,9 +55,11 @@ static const char *match_bodies(const char *at, const char *end)
 {
 	static const char key[] = "\"bodies\"";
 	size_t length = sizeof key - 1;
-	if ((size_t)(end - at) < length || memcmp(at, key, length) != 0) return NULL;
+	if ((size_t)(end - at) < length || memcmp(at, key, length) != 0)
+		return NULL;
 	at = scene_skip_space(at + length, end);
-	if (at == end || *at != ':') return NULL;
+	if (at == end || *at != ':')
+		return NULL;
 	at = scene_skip_space(at + 1, end);
 	return at < end && *at == '[' ? at + 1 : NULL;
 }
@@ -61,7 +67,8 @@ static const char *match_bodies(const char *at, const char *end)
 bool scene_find_bodies(const char *text, const char *end, const char **bodies, const char **bodies_end)
 {
 	const char *at = scene_skip_space(text, end);
-	if (at == end || *at != '{') return false;
+	if (at == end || *at != '{')
+		return false;
 	for (at++; at < end && *at != '}' && *at != ']';) {
 		const char *found = match_bodies(at, end);
 		if (found) {
@@ -73,7 +80,8 @@ bool scene_find_bodies(const char *text, const char *end, const char **bodies, c
 			at = skip_string(at, end);
 		} else if (*at == '{' || *at == '[') {
 			at = skip_level(at + 1, end, false);
-			if (at < end) at++;
+			if (at < end)
+				at++;
 		} else {
 			at++;
 		}

@@ -17,7 +17,8 @@ static void put_number(FILE *stream, float number)
 	char text[32];
 	int length = snprintf(text, sizeof text, "%.9g", (double)number);
 	for (int k = 0; k < length; k++) {
-		if (text[k] == ',') text[k] = '.'; /* the program's locale may write it so */
+		if (text[k] == ',')
+			text[k] = '.'; /* the program's locale may write it so */
 	}
 	fputs(strcmp(text, "-0") == 0 ? "-0.0" : text, stream); /* -0 would be read as an integer by many a reader, its sign lost */
 }
@@ -34,12 +35,14 @@ static void put_pair(FILE *stream, carom_vec2 pair)
 /* The bytes of the UTF-8 character at `text`, 0 if there is none. */
 static size_t character_length(const unsigned char *text)
 {
-	static const unsigned long smallest[] = { 0, 0, 0x80, 0x800, 0x10000 }; /* less is overlong */
+	static const unsigned long smallest[] = {0, 0, 0x80, 0x800, 0x10000}; /* less is overlong */
 	size_t length = *text < 0x80 ? 1 : *text >= 0xF0 ? 4 : *text >= 0xE0 ? 3 : 2;
-	if (length == 1) return 1;
+	if (length == 1)
+		return 1;
 	unsigned long code = *text & (0x7Fu >> length);
 	for (size_t k = 1; k < length; k++) {
-		if ((text[k] & 0xC0) != 0x80) return 0;
+		if ((text[k] & 0xC0) != 0x80)
+			return 0;
 		code = code << 6 | (text[k] & 0x3Fu);
 	}
 	bool surrogate = code >= 0xD800 && code <= 0xDFFF;
@@ -61,7 +64,8 @@ static void put_string(FILE *stream, const char *string)
 		if (*at < 0x20) {
 			fprintf(stream, "\\u%04x", (unsigned)*at);
 		} else {
-			if (*at == '"' || *at == '\\') putc('\\', stream);
+			if (*at == '"' || *at == '\\')
+				putc('\\', stream);
 			fwrite(at, 1, length, stream);
 		}
 		at += length;
@@ -81,14 +85,16 @@ static bool same_number(float a, float b)
 
 static void put_number_key(FILE *stream, const char *key, float number, float default_number)
 {
-	if (same_number(number, default_number)) return;
+	if (same_number(number, default_number))
+		return;
 	fprintf(stream, ", \"%s\": ", key);
 	put_number(stream, number);
 }
 
 static void put_pair_key(FILE *stream, const char *key, carom_vec2 pair, carom_vec2 default_pair)
 {
-	if (same_pair(pair, default_pair)) return;
+	if (same_pair(pair, default_pair))
+		return;
 	fprintf(stream, ", \"%s\": ", key);
 	put_pair(stream, pair);
 }
@@ -98,7 +104,8 @@ static void put_shape(FILE *stream, const carom_body_info *info)
 	if (info->shape == CAROM_POLYGON) {
 		fputs("{\"polygon\": {\"vertices\": [", stream);
 		for (uint32_t k = 0; k < info->vertex_count; k++) {
-			if (k > 0) fputs(", ", stream);
+			if (k > 0)
+				fputs(", ", stream);
 			put_pair(stream, info->vertices[k]);
 		}
 		fputs("]}", stream);
@@ -131,8 +138,10 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 	put_number_key(stream, "restitution", info->restitution, writer->world->restitution);
 	put_pair_key(stream, "force", info->force, defaults->force);
 	put_number_key(stream, "torque", info->torque, defaults->torque);
-	if (info->is_static) fputs(", \"static\": true", stream);
-	if (info->color != CAROM_COLOR_AUTO) fprintf(stream, ", \"color\": \"#%06x\"", (unsigned)(info->color & 0xFFFFFF));
+	if (info->is_static)
+		fputs(", \"static\": true", stream);
+	if (info->color != CAROM_COLOR_AUTO)
+		fprintf(stream, ", \"color\": \"#%06x\"", (unsigned)(info->color & 0xFFFFFF));
 	if (info->name) {
 		fputs(", \"name\": ", stream);
 		put_string(stream, info->name);
@@ -154,13 +163,19 @@ static void put_pipeline(const struct writer *writer)
 	const struct {
 		const char *slot, *alternative;
 	} slots[] = {
-		{ "step", pipeline->step },         { "aabb", pipeline->aabb }, { "overlap", pipeline->overlap },
-		{ "inside", pipeline->inside },     { "toi", pipeline->toi },   { "walls", pipeline->walls },
-		{ "reduce", pipeline->reduce },     { "impulse", pipeline->impulse },
+		{"step", pipeline->step},
+		{"aabb", pipeline->aabb},
+		{"overlap", pipeline->overlap},
+		{"inside", pipeline->inside},
+		{"toi", pipeline->toi},
+		{"walls", pipeline->walls},
+		{"reduce", pipeline->reduce},
+		{"impulse", pipeline->impulse},
 	};
 	bool begun = false;
 	for (size_t k = 0; k < sizeof slots / sizeof *slots; k++) {
-		if (!slots[k].alternative) continue;
+		if (!slots[k].alternative)
+			continue;
 		put_separator(writer->stream, &begun, slots[k].slot);
 		put_string(writer->stream, slots[k].alternative);
 	}
@@ -172,7 +187,8 @@ static void put_pipeline(const struct writer *writer)
 		put_separator(writer->stream, &begun, "iterations");
 		fprintf(writer->stream, "%u", (unsigned)world->iterations);
 	}
-	if (begun) fputs(" }", writer->stream);
+	if (begun)
+		fputs(" }", writer->stream);
 }
 
 static void put_world(const struct writer *writer, const carom_camera *camera)
@@ -202,14 +218,15 @@ static void put_world(const struct writer *writer, const carom_camera *camera)
 	}
 }
 
-static carom_status put_bodies(const struct writer *writer, const carom_world *world, const carom_body_state *states, size_t count,
-                               carom_error *error)
+static carom_status put_bodies(
+	const struct writer *writer, const carom_world *world, const carom_body_state *states, size_t count, carom_error *error)
 {
 	fputs(",\n  \"bodies\": [", writer->stream);
 	for (size_t k = 0; k < count; k++) {
 		carom_body_info info;
 		carom_status status = carom_world_get_body(world, (uint32_t)k, &info, error);
-		if (status != CAROM_OK) return status;
+		if (status != CAROM_OK)
+			return status;
 		fputs(k > 0 ? ",\n    " : "\n    ", writer->stream);
 		put_body(writer, &info, &states[k]);
 	}
@@ -223,20 +240,26 @@ carom_status carom_world_write_scene(carom_world *world, const carom_camera *cam
 	const carom_world_def defaults = carom_default_world_def();
 	carom_file *file = NULL;
 	carom_body_state *states = NULL;
-	if (!world || !path) return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_world_write_scene: no world or no path");
-	struct writer writer = { NULL, carom_world_get_def(world), &defaults, carom_default_body_def() };
+	if (!world || !path)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_world_write_scene: no world or no path");
+	struct writer writer = {NULL, carom_world_get_def(world), &defaults, carom_default_body_def()};
 	size_t count = carom_world_body_count(world);
 	states = malloc((count ? count : 1) * sizeof *states);
 	if (!states) {
-		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory for the states of %zu bodies", path, count);
+		status =
+			carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory for the states of %zu bodies", path, count);
 		goto done;
 	}
-	if (count > 0) status = carom_world_get_states(world, 0, count, states, error);
-	if (status == CAROM_OK) status = carom_file_create(path, &file, &writer.stream, error);
-	if (status != CAROM_OK) goto done;
+	if (count > 0)
+		status = carom_world_get_states(world, 0, count, states, error);
+	if (status == CAROM_OK)
+		status = carom_file_create(path, &file, &writer.stream, error);
+	if (status != CAROM_OK)
+		goto done;
 	put_world(&writer, camera);
 	status = put_bodies(&writer, world, states, count, error);
-	if (status != CAROM_OK) goto done;
+	if (status != CAROM_OK)
+		goto done;
 	status = carom_file_commit(file, error);
 	file = NULL;
 done:
