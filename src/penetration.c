@@ -146,11 +146,17 @@ static double separation(const carom_placed *a, const carom_placed *b, double en
 	return by_faces < enough ? most(by_faces, separation_by_faces(b, a, enough)) : by_faces;
 }
 
-/* Their boxes overlap at least as far as they do themselves, so most pairs need no more than those. */
+/* How far one of two boxes must move along x or y to leave the other: the bodies in them need no more. */
+static double overlap_of_boxes(const carom_placed *a, const carom_placed *b)
+{
+	double x = least(a->max_x - b->min_x, b->max_x - a->min_x);
+	double y = least(a->max_y - b->min_y, b->max_y - a->min_y);
+	return least(x, y);
+}
+
 static void deepen_by_pair(double *deepest, const carom_placed *a, const carom_placed *b)
 {
-	if (!(least(a->max_x, b->max_x) - most(a->min_x, b->min_x) > *deepest) ||
-		!(least(a->max_y, b->max_y) - most(a->min_y, b->min_y) > *deepest) || (a->is_static && b->is_static))
+	if (overlap_of_boxes(a, b) <= *deepest || (a->is_static && b->is_static))
 		return;
 	double depth = -separation(a, b, -*deepest);
 	if (depth > *deepest)
