@@ -1,0 +1,288 @@
+/* The OpenCL device: textures are images or buffers of the same rows, and arguments are bound by the stage's definition. */
+#include "device.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl/api.h"
+#include "status.h"
+
+/* The last argument set, to spare the calls that would change nothing. */
+typedef struct bound_kernel {
+	cl_kernel kernel; /* NULL where the alternative has none */
+	const carom_texture *textures[CAROM_MAX_TEXTURES];
+} bound_kernel;
+
+typedef struct cl_device {
+	carom_device base;
+	carom_cl_api cl;
+	cl_context context;
+	cl_command_queue queue;
+	cl_program program;
+	bound_kernel kernels[STAGE_COUNT];
+} cl_device;
+
+struct carom_texture {
+	cl_mem memory;
+	bool is_image;
+	carom_texel_format format;
+	uint32_t width, height;
+};
+
+static cl_device *of(const carom_device *device)
+{
+	return (cl_device *)(uintptr_t)device;
+}
+
+static size_t texel_size(carom_texel_format format)
+{
+	return format == TEXELS_FLOAT ? 4 * sizeof(float) : 4;
+}
+
+static carom_status device_fail(const cl_device *d, carom_error *error, cl_int code, const char *what)
+{
+	char text[512];
+	bool memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_OUT_OF_RESOURCES;
+	snprintf(text, sizeof text, "%s: %s", d->base.info.name, what);
+	return carom_cl_fail(error, memory ? CAROM_OUT_OF_MEMORY : CAROM_DEVICE, code, text);
+}
+
+static cl_int make_image(cl_device *d, carom_texture *t)
+{
+	cl_image_format format = {CL_RGBA, t->format == TEXELS_FLOAT ? CL_FLOAT : CL_UNSIGNED_INT8};
+	cl_image_desc desc = {.image_type = CL_MEM_OBJECT_IMAGE2D, .image_width = t->width, .image_height = t->height};
+	cl_int code;
+	t->memory = d->cl.clCreateImage(d->context, CL_MEM_READ_WRITE, &format, &desc, NULL, &code);
+	return code;
+}
+
+static cl_int make_buffer(cl_device *d, carom_texture *t)
+{
+	cl_int code;
+	t->memory = d->cl.clCreateBuffer(d->context, CL_MEM_READ_WRITE, (size_t)t->width * t->height * texel_size(t->format), NULL, &code);
+	return code;
+}
+
+/* Drivers allocate when a texture is first touched: filling it now makes it fail now. */
+static cl_int fill_texture(cl_device *d, carom_texture *t, const float fill[4])
+{
+	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, t->height, 1};
+	cl_uint color[4];
+	cl_uchar bytes[4];
+	for (int i = 0; i < 4; i++) {
+		bytes[i] = (cl_uchar)fill[i];
+		color[i] = bytes[i];
+	}
+	if (t->is_image)
+		return d->cl.clEnqueueFillImage(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : color, origin, region, 0, NULL, NULL);
+	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : bytes, texel_size(t->format), 0,
+		(size_t)t->width * t->height * texel_size(t->format), 0, NULL, NULL);
+}
+
+static void destroy_texture(carom_device *device, carom_texture *texture)
+{
+	if (!texture)
+		return;
+	/* an address may come again for another texture: forget what was bound */
+	for (int i = 0; i < STAGE_COUNT; i++)
+		memset(of(device)->kernels[i].textures, 0, sizeof of(device)->kernels[i].textures);
+	if (texture->memory)
+		of(device)->cl.clReleaseMemObject(texture->memory);
+	free(texture);
+}
+
+static carom_status create_texture(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
+	carom_texture **texture, carom_error *error)
+{
+	cl_device *d = of(device);
+	carom_texture *t = calloc(1, sizeof *t);
+	cl_int code;
+	if (!t)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a texture");
+	t->format = format;
+	t->width = width;
+	t->height = height;
+	t->is_image = device->storage == CAROM_STORAGE_IMAGE;
+	code = t->is_image ? make_image(d, t) : make_buffer(d, t);
+	if (!code)
+		code = fill_texture(d, t, fill);
+	if (!code)
+		code = d->cl.clFinish(d->queue);
+	if (code) {
+		destroy_texture(device, t);
+		return device_fail(d, error, code, "a texture can't be made");
+	}
+	*texture = t;
+	return CAROM_OK;
+}
+
+static carom_status upload(carom_device *device, carom_texture *t, uint32_t rows, const void *texels, carom_error *error)
+{
+	cl_device *d = of(device);
+	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
+	cl_int code = t->is_image ? d->cl.clEnqueueWriteImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+	                          : d->cl.clEnqueueWriteBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
+	return code ? device_fail(d, error, code, "a texture can't be written") : CAROM_OK;
+}
+
+static carom_status download(carom_device *device, carom_texture *t, uint32_t rows, void *texels, carom_error *error)
+{
+	cl_device *d = of(device);
+	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
+	cl_int code = t->is_image ? d->cl.clEnqueueReadImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+	                          : d->cl.clEnqueueReadBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
+	return code ? device_fail(d, error, code, "a texture can't be read") : CAROM_OK;
+}
+
+static bool has_kernel(const carom_device *device, carom_stage stage)
+{
+	return of(device)->kernels[stage].kernel != NULL;
+}
+
+/* Buffers travel with their width, images know it. */
+static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *const *textures, cl_uint *next)
+{
+	bound_kernel *k = &d->kernels[stage];
+	int count = carom_stages[stage].input_count + carom_stages[stage].output_count;
+	for (int i = 0; i < count; i++) {
+		cl_int width = (cl_int)textures[i]->width, code = CL_SUCCESS;
+		bool same = k->textures[i] == textures[i];
+		if (!same)
+			code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &textures[i]->memory);
+		++*next;
+		if (!textures[i]->is_image) {
+			if (!same && !code)
+				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof width, &width);
+			++*next;
+		}
+		k->textures[i] = code ? NULL : textures[i];
+		if (code)
+			return code;
+	}
+	return CL_SUCCESS;
+}
+
+/* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. */
+static size_t local_size(carom_stage stage)
+{
+	return stage == STAGE_FIRST || stage == STAGE_IMPULSE ? 1 : 64;
+}
+
+static carom_status run_stage(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
+{
+	cl_device *d = of(device);
+	cl_kernel kernel = d->kernels[stage].kernel;
+	size_t local[2] = {local_size(stage), 1};
+	size_t global[2] = {((size_t)domain[0] + local[0] - 1) / local[0] * local[0], domain[1] > 1 ? (size_t)domain[1] : 1};
+	cl_int4 size = {{domain[0], domain[1], domain[2], domain[3]}};
+	cl_uint next = 0;
+	cl_int code = bind_textures(d, stage, textures, &next);
+	if (!code)
+		code = d->cl.clSetKernelArg(kernel, next, sizeof size, &size);
+	if (!code)
+		code = d->cl.clEnqueueNDRangeKernel(d->queue, kernel, 2, NULL, global, local, 0, NULL, NULL);
+	return code ? device_fail(d, error, code, carom_stages[stage].kernel) : CAROM_OK;
+}
+
+static carom_status flush(carom_device *device, carom_error *error)
+{
+	cl_int code = of(device)->cl.clFlush(of(device)->queue);
+	return code ? device_fail(of(device), error, code, "the queue can't be flushed") : CAROM_OK;
+}
+
+static void close_device(carom_device *device)
+{
+	cl_device *d = of(device);
+	for (int i = 0; i < STAGE_COUNT; i++)
+		if (d->kernels[i].kernel)
+			d->cl.clReleaseKernel(d->kernels[i].kernel);
+	if (d->program)
+		d->cl.clReleaseProgram(d->program);
+	if (d->queue)
+		d->cl.clReleaseCommandQueue(d->queue);
+	if (d->context)
+		d->cl.clReleaseContext(d->context);
+	free(d);
+}
+
+static const carom_device_class cl_class = {close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush};
+
+static carom_status create_kernels(cl_device *d, carom_error *error)
+{
+	for (int i = 0; i < STAGE_COUNT; i++) {
+		cl_int code;
+		d->kernels[i].kernel = d->cl.clCreateKernel(d->program, carom_stages[i].kernel, &code);
+		if (code == CL_INVALID_KERNEL_NAME)
+			d->kernels[i].kernel = NULL; /* not every alternative has every kernel */
+		else if (code)
+			return device_fail(d, error, code, carom_stages[i].kernel);
+	}
+	return CAROM_OK;
+}
+
+static carom_status choose_storage(cl_device *d, carom_storage wanted, carom_error *error)
+{
+	d->base.storage = wanted == CAROM_STORAGE_BUFFER || !d->base.info.has_images ? CAROM_STORAGE_BUFFER : CAROM_STORAGE_IMAGE;
+	if (wanted == CAROM_STORAGE_IMAGE && !d->base.info.has_images)
+		return carom_fail(error, CAROM_DEVICE, "the device '%s' has no images; use buffer storage", d->base.info.name);
+	return CAROM_OK;
+}
+
+static carom_status set_up(cl_device *d, const carom_device_def *def, const carom_cl_found *found, carom_error *error)
+{
+	cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)found->platform, 0};
+	cl_int code;
+	carom_status status = choose_storage(d, def->storage, error);
+	if (status)
+		return status;
+	d->context = d->cl.clCreateContext(properties, 1, &found->device, NULL, NULL, &code);
+	if (code)
+		return device_fail(d, error, code, "no context can be made");
+	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, 0, &code);
+	if (code)
+		return device_fail(d, error, code, "no queue can be made");
+	status = carom_cl_build(&d->cl, d->context, found->device, &def->pipeline, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact,
+		&d->program, error);
+	return status ? status : create_kernels(d, error);
+}
+
+static const carom_cl_found *same_device(const carom_cl_found *found, size_t count, const carom_device_info *which)
+{
+	for (size_t i = 0; i < count; i++)
+		if (!strcmp(found[i].info.platform, which->platform) && !strcmp(found[i].info.name, which->name))
+			return &found[i];
+	return NULL;
+}
+
+carom_status carom_cl_open(const carom_device_def *def, const carom_device_info *which, carom_device **device, carom_error *error)
+{
+	cl_device *d = calloc(1, sizeof *d);
+	carom_cl_found *found = NULL;
+	const carom_cl_found *mine;
+	size_t count = 0;
+	carom_status status;
+	if (!d)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a device");
+	if (!carom_cl_load(&d->cl)) {
+		status = carom_fail(error, CAROM_DEVICE, "there is no OpenCL on this machine");
+		goto end;
+	}
+	status = carom_cl_find(&d->cl, &found, &count, error);
+	if (status)
+		goto end;
+	mine = same_device(found, count, which);
+	if (!mine) {
+		status = carom_fail(error, CAROM_DEVICE, "the device '%s' is gone", which->name);
+		goto end;
+	}
+	d->base.kind = &cl_class;
+	d->base.info = mine->info;
+	status = set_up(d, def, mine, error);
+end:
+	free(found);
+	if (status)
+		close_device(&d->base);
+	else
+		*device = &d->base;
+	return status;
+}

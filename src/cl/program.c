@@ -1,0 +1,145 @@
+/* One program a world: the kernels' headers, then the chosen alternatives, in the order of the slots. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl/api.h"
+#include "cl/kernels.h"
+#include "device.h"
+#include "stage.h"
+#include "status.h"
+
+/* Each header stands after those it needs. */
+static const char *const headers[] = {"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward"};
+
+#define MAX_PARTS 64
+
+typedef struct sources {
+	char *text[MAX_PARTS];
+	size_t count;
+} sources;
+
+static const carom_kernel_source *source_named(const char *slot, const char *name)
+{
+	for (size_t i = 0; i < carom_kernel_source_count; i++)
+		if (!strcmp(carom_kernel_sources[i].slot, slot) && !strcmp(carom_kernel_sources[i].name, name))
+			return &carom_kernel_sources[i];
+	return NULL;
+}
+
+bool carom_cl_has_alternative(const char *slot, const char *alternative)
+{
+	return source_named(slot, alternative) != NULL;
+}
+
+const char *carom_cl_alternative(const char *slot, size_t index)
+{
+	for (size_t i = 0; i < carom_kernel_source_count; i++)
+		if (!strcmp(carom_kernel_sources[i].slot, slot) && index-- == 0)
+			return carom_kernel_sources[i].name;
+	return NULL;
+}
+
+/* While developing, CAROM_KERNEL_DIR names a folder to read the kernels from instead; NULL where it has none. */
+static char *read_override(const char *path)
+{
+	const char *folder = getenv("CAROM_KERNEL_DIR");
+	char name[4096], *text = NULL;
+	FILE *file;
+	long size;
+	if (!folder)
+		return NULL;
+	snprintf(name, sizeof name, "%s/%s", folder, path + strlen("kernels/"));
+	file = fopen(name, "rb");
+	if (!file)
+		return NULL;
+	if (!fseek(file, 0, SEEK_END) && (size = ftell(file)) >= 0 && !fseek(file, 0, SEEK_SET) && (text = malloc((size_t)size + 1)))
+		text[fread(text, 1, (size_t)size, file)] = 0;
+	fclose(file);
+	return text;
+}
+
+static carom_status append(sources *all, const char *slot, const char *name, carom_error *error)
+{
+	const carom_kernel_source *source = source_named(slot, name);
+	char *changed, *text;
+	size_t size;
+	if (!source)
+		return carom_fail(error, CAROM_UNKNOWN_NAME, "the slot '%s' has no alternative '%s' for OpenCL", slot, name);
+	changed = read_override(source->path);
+	size = strlen(changed ? changed : source->text) + strlen(source->path) + 32;
+	text = malloc(size);
+	if (text) {
+		snprintf(text, size, "#line 1 \"%s\"\n%s\n", source->path, changed ? changed : source->text);
+		all->text[all->count++] = text;
+	}
+	free(changed);
+	return text ? CAROM_OK : carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for the kernels' sources");
+}
+
+static carom_status append_slot(sources *all, const carom_slot *slot, const carom_pipeline *pipeline, carom_error *error)
+{
+	const char *chosen = carom_pipeline_get(pipeline, slot->name), *name;
+	if (!strcmp(slot->name, "step"))
+		return CAROM_OK;
+	if (chosen)
+		return append(all, slot->name, chosen, error);
+	for (size_t i = 0; (name = carom_cl_alternative(slot->name, i)); i++) {
+		carom_status status = append(all, slot->name, name, error);
+		if (status)
+			return status;
+	}
+	return CAROM_OK;
+}
+
+static carom_status collect(sources *all, const carom_pipeline *pipeline, carom_error *error)
+{
+	carom_status status = CAROM_OK;
+	for (size_t i = 0; !status && i < sizeof headers / sizeof *headers; i++)
+		status = append(all, "", headers[i], error);
+	for (size_t i = 0; !status && i < carom_slot_count; i++)
+		status = append_slot(all, &carom_slots[i], pipeline, error);
+	return status;
+}
+
+static void keep_log(const carom_cl_api *cl, cl_program program, cl_device_id device, carom_error *error)
+{
+	size_t size = 0;
+	char *log;
+	if (!error || cl->clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) || !(log = calloc(1, size + 1)))
+		return;
+	cl->clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+	snprintf(error->build_log, sizeof error->build_log, "%s", log);
+	free(log);
+}
+
+carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_pipeline *pipeline, bool images,
+	bool exact, cl_program *program, carom_error *error)
+{
+	/* the macro brings back the image functions that PoCL 7.1 hides from OpenCL C 1.2 */
+	char options[256];
+	sources all = {.count = 0};
+	cl_program built = NULL;
+	cl_int code;
+	carom_status status = collect(&all, pipeline, error);
+	if (status)
+		goto end;
+	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s", images ? " -DCAROM_IMAGES" : "",
+		exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
+	built = cl->clCreateProgramWithSource(context, (cl_uint)all.count, (const char **)all.text, NULL, &code);
+	if (built)
+		code = cl->clBuildProgram(built, 1, &device, options, NULL, NULL);
+	if (code) {
+		status = carom_cl_fail(error, CAROM_DEVICE, code, "the kernels can't be built");
+		if (built)
+			keep_log(cl, built, device, error);
+		goto end;
+	}
+	*program = built;
+	built = NULL;
+end:
+	if (built)
+		cl->clReleaseProgram(built);
+	for (size_t i = 0; i < all.count; i++)
+		free(all.text[i]);
+	return status;
+}

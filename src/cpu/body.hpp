@@ -1,0 +1,140 @@
+/* Bodies and the clock, as the kernels read them: CONTRACT.md, "Bodies in step units". */
+#ifndef CAROM_CPU_BODY_HPP
+#define CAROM_CPU_BODY_HPP
+
+#include "cpu/stages.hpp"
+
+namespace carom::cpu {
+
+template <typename T> struct Body {
+	Vec<T> x, v, a; /* in a step that is 1 long */
+	T r, w, b;      /* angle, angular velocity and acceleration */
+	T radius, inverse_mass, inverse_inertia;
+	int32_t first, count; /* vertices */
+
+	bool is_circle() const { return count == 1; }
+	bool is_static() const { return inverse_mass == 0; }
+	Vec<T> place_at(T t) const { return place(x, v, a, t); }
+	T angle_at(T t) const { return place(r, w, b, t); }
+	Vec<T> velocity_at(T t) const { return v + t * a; }
+	T angular_velocity_at(T t) const { return w + t * b; }
+};
+
+/* A body with its vertices at hand. */
+template <typename T> struct Convex : Body<T> {
+	Eigen::Matrix<T, 2, Eigen::Dynamic, Eigen::ColMajor | Eigen::DontAlign, 2, CAROM_MAX_VERTICES> vertices;
+
+	Vec<T> vertex(int32_t k) const { return vertices.col(k); }
+	int32_t after(int32_t k) const { return k + 1 == this->count ? 0 : k + 1; }
+	int32_t before(int32_t k) const { return k == 0 ? this->count - 1 : k - 1; }
+};
+
+/* The bodies of a step of `length` seconds. */
+template <typename T> class State
+{
+public:
+	State(const Job<T> &job, T step_length)
+		: linear(job.texels(FROM_LINEAR)), rotational(job.texels(FROM_ROTATIONAL)), geometry(job.texels(FROM_GEOMETRY)),
+		  forces(job.texels(FROM_FORCES)), uniforms(job.texels(FROM_UNIFORMS)), length(step_length)
+	{
+	}
+
+	Body<T> body(int32_t i) const
+	{
+		Body<T> body;
+		body.x = {linear.of(i, LINEAR_X), linear.of(i, LINEAR_Y)};
+		body.v = {linear.of(i, LINEAR_VX) * length, linear.of(i, LINEAR_VY) * length};
+		body.r = rotational.of(i, ROTATIONAL_ANGLE);
+		body.w = rotational.of(i, ROTATIONAL_VELOCITY) * length;
+		body.radius = rotational.of(i, ROTATIONAL_RADIUS);
+		body.first = static_cast<int32_t>(geometry.of(i, GEOMETRY_FIRST));
+		body.count = static_cast<int32_t>(geometry.of(i, GEOMETRY_COUNT));
+		body.inverse_mass = 1 / geometry.of(i, GEOMETRY_MASS);
+		body.inverse_inertia = 1 / geometry.of(i, GEOMETRY_INERTIA);
+		accelerate(body, i);
+		return body;
+	}
+
+	bool is_static(int32_t i) const { return 1 / geometry.of(i, GEOMETRY_MASS) == 0; }
+	T restitution(int32_t i) const { return forces.of(i, FORCES_RESTITUTION); }
+	T world(int32_t channel) const { return uniforms.fact(UNIFORMS_WORLD, channel); }
+	T room(int32_t channel) const { return uniforms.fact(UNIFORMS_ROOM, channel); }
+	T rule(int32_t channel) const { return uniforms.fact(UNIFORMS_RULES, channel); }
+
+	const Texels<T> linear, rotational, geometry, forces, uniforms;
+	const T length;
+
+private:
+	void accelerate(Body<T> &body, int32_t i) const
+	{
+		body.a = {0, 0};
+		body.b = 0;
+		if (body.is_static())
+			return;
+		T im = body.inverse_mass;
+		body.a.x() = ((world(WORLD_GRAVITY_X) + forces.of(i, FORCES_X) * im) * length) * length;
+		body.a.y() = ((world(WORLD_GRAVITY_Y) + forces.of(i, FORCES_Y) * im) * length) * length;
+		body.b = ((forces.of(i, FORCES_TORQUE) * body.inverse_inertia) * length) * length;
+	}
+};
+
+/* The state and the vertices. */
+template <typename T> class Shapes : public State<T>
+{
+public:
+	Shapes(const Job<T> &job, T step_length) : State<T>(job, step_length), vertices(job.texels(STATE_COUNT)) {}
+
+	Convex<T> convex(int32_t i) const
+	{
+		Convex<T> convex;
+		static_cast<Body<T> &>(convex) = this->body(i);
+		convex.vertices.resize(2, convex.count);
+		for (int32_t k = 0; k < convex.count; k++) {
+			int32_t texel = convex.first + k / 2;
+			bool second = k % 2 == 1;
+			convex.vertices(0, k) = vertices.of(texel, second ? VERTICES_X1 : VERTICES_X0);
+			convex.vertices(1, k) = vertices.of(texel, second ? VERTICES_Y1 : VERTICES_Y0);
+		}
+		return convex;
+	}
+
+private:
+	const Texels<T> vertices;
+};
+
+/* How long the step that begins may last, by the clock as the step before left it. */
+template <typename T> T step_length(const Texels<T> &clock, const Texels<T> &uniforms)
+{
+	T remaining = clock.fact(CLOCK_TIME, TIME_REMAINING);
+	if (clock.fact(CLOCK_STEP, STEP_ENDED) > 0 || remaining <= 0)
+		return 0;
+	return smaller(uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP), remaining);
+}
+
+/* Bodies of the step that begins, for the stages with the textures STATE, vertices, clock, ... */
+template <typename T> Shapes<T> shapes_before(const Job<T> &job)
+{
+	return Shapes<T>(job, step_length(job.texels(STATE_COUNT + 1), job.texels(FROM_UNIFORMS)));
+}
+
+/* The first hit, when the clock has it. */
+template <typename T> struct FirstHit {
+	explicit FirstHit(const Texels<T> &clock)
+		: time(clock.fact(CLOCK_HIT, HIT_TIME)), length(clock.fact(CLOCK_STEP, STEP_LENGTH)),
+		  row(static_cast<int32_t>(clock.fact(CLOCK_HIT, HIT_ROW))), column(static_cast<int32_t>(clock.fact(CLOCK_HIT, HIT_COLUMN))),
+		  done(clock.fact(CLOCK_HIT, HIT_DONE) != 0)
+	{
+	}
+
+	bool in_step() const { return time <= 1; }
+	bool at_wall() const { return column < 0; }
+	int32_t wall() const { return -1 - column; }
+
+	T time, length;
+	int32_t row, column;
+	bool done;
+};
+
+}
+
+#endif

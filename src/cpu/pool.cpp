@@ -1,0 +1,85 @@
+#include "cpu/pool.hpp"
+
+#include <algorithm>
+#include <exception>
+
+namespace carom::cpu {
+
+constexpr uint32_t most_threads = 256; /* a mistyped number should not take the machine down */
+
+Pool::Pool(uint32_t threads)
+{
+	if (threads == 0)
+		threads = std::thread::hardware_concurrency();
+	threads = std::clamp(threads, 1u, most_threads);
+	workers.reserve(threads - 1);
+	try {
+		while (workers.size() + 1 < threads)
+			workers.emplace_back(&Pool::serve, this);
+	} catch (const std::exception &) {
+		/* There are no more threads to be had; the caller can do all the work. */
+	}
+}
+
+Pool::~Pool()
+{
+	{
+		std::lock_guard<std::mutex> lock(mutex);
+		closing = true;
+	}
+	wake.notify_all();
+	for (std::thread &worker : workers)
+		worker.join();
+}
+
+void Pool::run(int32_t rows, int32_t chunk, const Work &work)
+{
+	if (rows <= chunk || workers.empty()) {
+		if (rows > 0)
+			work(0, rows);
+		return;
+	}
+	{
+		std::lock_guard<std::mutex> lock(mutex);
+		job = &work;
+		chunk_size = chunk;
+		left = rows;
+		jobs++;
+	}
+	wake.notify_all();
+	take_chunks(work);
+	std::unique_lock<std::mutex> lock(mutex);
+	job = nullptr; /* who wakes only now is not waited for */
+	idle.wait(lock, [this] { return busy == 0; });
+}
+
+void Pool::take_chunks(const Work &work)
+{
+	for (;;) {
+		int32_t end = left.fetch_sub(chunk_size);
+		if (end <= 0)
+			return;
+		work(std::max(end - chunk_size, 0), end);
+	}
+}
+
+void Pool::serve()
+{
+	uint64_t seen = 0;
+	std::unique_lock<std::mutex> lock(mutex);
+	for (;;) {
+		wake.wait(lock, [&] { return closing || (job && jobs != seen); });
+		if (closing)
+			return;
+		seen = jobs;
+		busy++;
+		const Work &work = *job;
+		lock.unlock();
+		take_chunks(work);
+		lock.lock();
+		if (--busy == 0)
+			idle.notify_one();
+	}
+}
+
+}

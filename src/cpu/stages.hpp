@@ -1,0 +1,55 @@
+/* The stages of the CPU device.
+ *
+ * src/cpu/<slot>/<name>.cpp defines `extern const Stage <slot>_<name>`, one alternative of one slot; the build finds it by
+ * its file name and lists it in `stages`. Everything of a stage is a template on the scalar with two instances: float is
+ * the product, double the tests' oracle. */
+#ifndef CAROM_CPU_STAGES_HPP
+#define CAROM_CPU_STAGES_HPP
+
+#include "cpu/numbers.hpp"
+#include "cpu/pool.hpp"
+#include "cpu/texture.hpp"
+#include "stage.h"
+
+namespace carom::cpu {
+
+template <typename T> struct Convex;
+
+/* Is the point, in the polygon's frame, strictly inside? */
+template <typename T> using InsideTest = bool (*)(const Convex<T> &polygon, const Vec<T> &point);
+
+/* One run of a kernel. */
+template <typename T> struct Job {
+	const Texture *const *textures; /* those of the stage's definition */
+	const int32_t *domain;
+	Pool &pool;
+	InsideTest<T> inside; /* of the chosen alternative */
+
+	Texels<T> texels(int index) const { return Texels<T>(*textures[index]); }
+	Bytes bytes(int index) const { return Bytes(*textures[index]); }
+};
+
+/* Where the textures are that most kernels begin with. */
+enum : int { FROM_LINEAR, FROM_ROTATIONAL, FROM_GEOMETRY, FROM_FORCES, FROM_UNIFORMS, STATE_COUNT };
+
+template <typename T> using Run = void (*)(const Job<T> &job);
+
+struct Kernel {
+	carom_stage stage;
+	Run<float> run;
+	Run<double> run_double;
+};
+
+struct Stage {
+	const char *slot, *name;
+	Kernel kernels[2]; /* those without a function are none */
+	InsideTest<float> inside;
+	InsideTest<double> inside_double;
+};
+
+/* Sorted by slot and name; ends with a null pointer. */
+extern const Stage *const stages[];
+
+}
+
+#endif

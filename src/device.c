@@ -1,0 +1,109 @@
+/* Which device a world runs on. */
+#include "device.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "status.h"
+
+#ifndef __FLT_EVAL_METHOD__
+#define __FLT_EVAL_METHOD__ 0
+#endif
+_Static_assert(__FLT_EVAL_METHOD__ == 0, "floats must be computed as floats, or the bits differ from other devices: build with SSE2");
+
+static bool contains(const char *text, const char *part)
+{
+	size_t size = strlen(part);
+	for (; *text; text++)
+		if (!strncasecmp(text, part, size))
+			return true;
+	return false;
+}
+
+carom_status carom_device_list_create(carom_device_info **devices, size_t *count, carom_error *error)
+{
+	carom_device_info *list = NULL, *grown;
+	size_t found = 0, standard = 0;
+	carom_status status = carom_cl_list(&list, &found, error);
+	if (status)
+		return status;
+	grown = realloc(list, (found + 1) * sizeof *list);
+	if (!grown) {
+		free(list);
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to list the devices");
+	}
+	carom_cpu_info(&grown[found]);
+	while (!grown[standard].works)
+		standard++;
+	grown[standard].is_default = true;
+	*devices = grown;
+	*count = found + 1;
+	return CAROM_OK;
+}
+
+void carom_device_list_destroy(carom_device_info *devices)
+{
+	free(devices);
+}
+
+static bool matches(const carom_device_info *info, const char *name)
+{
+	if (!strcasecmp(name, "auto"))
+		return true;
+	if (!strcasecmp(name, "cpu"))
+		return !info->is_opencl;
+	if (!strcasecmp(name, "opencl"))
+		return info->is_opencl;
+	return contains(info->platform, name) || contains(info->name, name);
+}
+
+static carom_status no_such_device(const char *name, const carom_device_info *list, size_t count, carom_error *error)
+{
+	char known[512] = "";
+	for (size_t i = 0; i < count; i++) {
+		size_t used = strlen(known);
+		snprintf(known + used, sizeof known - used, "%s'%s'", used ? ", " : "", list[i].name);
+	}
+	return carom_fail(error, CAROM_UNKNOWN_NAME, "there is no device '%.128s'; use auto, cpu, opencl or part of one of these names: %s%s", name,
+		known, count > 1 ? "" : " (no OpenCL device was found)");
+}
+
+static carom_status open_one(const carom_device_def *def, const carom_device_info *which, carom_device **device, carom_error *error)
+{
+	if (!which->works)
+		return carom_fail(error, CAROM_DEVICE, "the device '%s' can't be used: %s", which->name, which->reason);
+	return which->is_opencl ? carom_cl_open(def, which, device, error) : carom_cpu_open(def, device, error);
+}
+
+/* The first that opens of those that match: for `auto` and the like a device that fails makes way for the next. */
+carom_status carom_device_open(const carom_device_def *def, carom_device **device, carom_error *error)
+{
+	const char *name = def->name ? def->name : getenv("CAROM_DEVICE");
+	carom_device_info *list;
+	size_t count;
+	bool tried = false;
+	carom_status status = carom_device_list_create(&list, &count, error);
+	if (status)
+		return status;
+	if (!name || !*name)
+		name = "auto";
+	for (size_t i = 0; i < count; i++) {
+		if (!matches(&list[i], name))
+			continue;
+		tried = true;
+		status = open_one(def, &list[i], device, error);
+		if (!status)
+			break;
+	}
+	if (!tried)
+		status = no_such_device(name, list, count, error);
+	carom_device_list_destroy(list);
+	return status;
+}
+
+void carom_device_close(carom_device *device)
+{
+	if (device)
+		device->kind->close(device);
+}

@@ -1,0 +1,159 @@
+#include "stage.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "device.h"
+#include "status.h"
+#include "step/step.h"
+
+#define STATE ROLE_LINEAR, ROLE_ROTATIONAL, ROLE_GEOMETRY, ROLE_FORCES, ROLE_UNIFORMS
+
+const carom_stage_def carom_stages[STAGE_COUNT] = {
+	[STAGE_AABB] = {"aabb", NULL, "aabb", 7, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_AABB}},
+	[STAGE_OVERLAP] = {"overlap", NULL, "overlap", 2, 1, {ROLE_AABB, ROLE_OVERLAP, ROLE_OVERLAP}},
+	[STAGE_TOI_FIRST] = {"toi", NULL, "toi_first", 8, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_OVERLAP, ROLE_HIT_TIMES}},
+	[STAGE_TOI_NEXT] = {"toi", NULL, "toi_next", 9, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_OVERLAP, ROLE_HIT_TIMES, ROLE_HIT_TIMES}},
+	[STAGE_WALLS] = {"walls", NULL, "walls", 7, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_WALLS}},
+	[STAGE_REDUCE] = {"reduce", NULL, "reduce", 1, 1, {ROLE_REDUCED, ROLE_REDUCED}},
+	[STAGE_FIRST] = {"first", NULL, "first", 4, 1, {ROLE_REDUCED, ROLE_WALLS, ROLE_UNIFORMS, ROLE_CLOCK, ROLE_CLOCK}},
+	[STAGE_IMPULSE] = {"impulse", NULL, "impulse", 7, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_IMPULSE}},
+	[STAGE_NO_COLLISION] = {"forward", "no_collision", "forward_no_collision", 6, 2, {STATE, ROLE_CLOCK, ROLE_LINEAR, ROLE_ROTATIONAL}},
+	[STAGE_COLLISION] = {"forward", "collision", "forward_collision", 7, 2, {STATE, ROLE_CLOCK, ROLE_IMPULSE, ROLE_LINEAR, ROLE_ROTATIONAL}},
+};
+
+const carom_slot carom_slots[] = {
+	{"step", offsetof(carom_pipeline, step), "first_impact"},
+	{"aabb", offsetof(carom_pipeline, aabb), "tight"},
+	{"overlap", offsetof(carom_pipeline, overlap), "all_pairs"},
+	{"inside", offsetof(carom_pipeline, inside), "naive"},
+	{"toi", offsetof(carom_pipeline, toi), "circle_quadratic"},
+	{"walls", offsetof(carom_pipeline, walls), "half_planes"},
+	{"reduce", offsetof(carom_pipeline, reduce), "four_six"},
+	{"first", SIZE_MAX, "earliest"},
+	{"impulse", offsetof(carom_pipeline, impulse), "pair_exact"},
+	{"forward", SIZE_MAX, NULL},
+};
+const size_t carom_slot_count = sizeof carom_slots / sizeof *carom_slots;
+
+static const carom_slot *slot_named(const char *name)
+{
+	for (size_t i = 0; i < carom_slot_count; i++)
+		if (!strcmp(carom_slots[i].name, name))
+			return &carom_slots[i];
+	return NULL;
+}
+
+/* The index-th alternative of a slot, whichever side has it; NULL past the last. */
+static const char *alternative_at(const carom_slot *slot, size_t index)
+{
+	size_t known = 0;
+	const char *name;
+	if (!strcmp(slot->name, "step"))
+		return index < carom_step_count ? carom_steps[index]->name : NULL;
+	for (; (name = carom_cl_alternative(slot->name, known)); known++)
+		if (known == index)
+			return name;
+	for (size_t i = 0; (name = carom_cpu_alternative(slot->name, i)); i++)
+		if (!carom_cl_has_alternative(slot->name, name) && known++ == index)
+			return name;
+	return NULL;
+}
+
+static const char *alternative_named(const carom_slot *slot, const char *wanted)
+{
+	const char *name;
+	for (size_t i = 0; (name = alternative_at(slot, i)); i++)
+		if (!strcmp(name, wanted))
+			return name;
+	return NULL;
+}
+
+/* Where the pipeline keeps a slot's choice; NULL where nothing is to choose. */
+static const char **choice(carom_pipeline *pipeline, const carom_slot *slot)
+{
+	return slot->field == SIZE_MAX ? NULL : (const char **)(void *)((char *)pipeline + slot->field);
+}
+
+static void join(char *list, size_t size, const char *name)
+{
+	size_t used = strlen(list);
+	snprintf(list + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+static carom_status unknown_slot(const char *name, carom_error *error)
+{
+	char list[256] = "";
+	for (size_t i = 0; i < carom_slot_count; i++)
+		if (carom_slots[i].field != SIZE_MAX)
+			join(list, sizeof list, carom_slots[i].name);
+	return carom_fail(error, CAROM_UNKNOWN_NAME, "there is no slot '%.64s' to choose for; the slots are %s", name, list);
+}
+
+static carom_status unknown_alternative(const carom_slot *slot, const char *wanted, carom_error *error)
+{
+	char list[256] = "";
+	const char *name;
+	for (size_t i = 0; (name = alternative_at(slot, i)); i++)
+		join(list, sizeof list, name);
+	return carom_fail(error, CAROM_UNKNOWN_NAME, "the slot '%s' has no alternative '%.64s'; it has %s", slot->name, wanted, list);
+}
+
+carom_status carom_pipeline_set(carom_pipeline *pipeline, const char *name, const char *alternative, carom_error *error)
+{
+	const carom_slot *slot = slot_named(name);
+	const char *known;
+	if (!slot || slot->field == SIZE_MAX)
+		return unknown_slot(name, error);
+	known = alternative_named(slot, alternative);
+	if (!known)
+		return unknown_alternative(slot, alternative, error);
+	*choice(pipeline, slot) = known;
+	return CAROM_OK;
+}
+
+const char *carom_pipeline_get(const carom_pipeline *pipeline, const char *name)
+{
+	const carom_slot *slot = slot_named(name);
+	carom_pipeline copy = *pipeline;
+	const char **chosen = slot ? choice(&copy, slot) : NULL;
+	if (!slot)
+		return NULL;
+	return chosen && *chosen ? *chosen : slot->standard;
+}
+
+carom_status carom_pipeline_resolve(const carom_pipeline *pipeline, carom_pipeline *resolved, carom_error *error)
+{
+	carom_pipeline result = {0};
+	for (size_t i = 0; i < carom_slot_count; i++) {
+		carom_status status;
+		if (carom_slots[i].field == SIZE_MAX)
+			continue;
+		status = carom_pipeline_set(&result, carom_slots[i].name, carom_pipeline_get(pipeline, carom_slots[i].name), error);
+		if (status)
+			return status;
+	}
+	*resolved = result;
+	return CAROM_OK;
+}
+
+bool carom_stage_list(size_t index, carom_stage_info *info)
+{
+	for (size_t i = 0; i < carom_slot_count; i++) {
+		const carom_slot *slot = &carom_slots[i];
+		bool is_step = !strcmp(slot->name, "step");
+		const char *name;
+		for (size_t k = 0; (name = alternative_at(slot, k)); k++) {
+			if (index-- > 0)
+				continue;
+			info->slot = slot->name;
+			info->alternative = name;
+			info->is_default = !slot->standard || !strcmp(slot->standard, name);
+			info->on_opencl = is_step || carom_cl_has_alternative(slot->name, name);
+			info->on_cpu = is_step || carom_cpu_has_alternative(slot->name, name);
+			return true;
+		}
+	}
+	return false;
+}

@@ -1,0 +1,119 @@
+/* The step first_impact [2]: the paper's loop. Every pair's hit time is found, the least of them ends the step, and that
+ * hit is answered. */
+#include <string.h>
+
+#include "layout.h"
+#include "status.h"
+#include "step/step.h"
+#include "world.h"
+
+#define TRY(call)                      \
+	do {                               \
+		carom_status status_ = (call); \
+		if (status_)                   \
+			return status_;            \
+	} while (0)
+
+/* How many passes bisection takes when each halves an interval `iterations` times [2.1, table 1]. */
+static int extra_passes(const carom_pipeline *pipeline, const carom_world_def *def)
+{
+	float width = 1.0f;
+	int halvings = 0;
+	if (strcmp(pipeline->toi, "bisection") || def->iterations == 0)
+		return 0;
+	for (; width > def->epsilon; width *= 0.5f)
+		halvings++;
+	return (halvings + (int)def->iterations - 1) / (int)def->iterations - 1;
+}
+
+/* Collision detection [2.1]. */
+static carom_status detect(carom_world *world, int32_t count, carom_error *error)
+{
+	const int32_t columns = (count + OVERLAP_COLUMNS - 1) / OVERLAP_COLUMNS, tiles = (count + OVERLAP_TILE - 1) / OVERLAP_TILE;
+	TRY(carom_run(world, STAGE_AABB, count, 1, 0, 0, error));
+	TRY(carom_run(world, STAGE_OVERLAP, columns, tiles, count, 0, error));
+	carom_swap(world, ROLE_OVERLAP);
+	TRY(carom_run(world, STAGE_TOI_FIRST, columns, count, 0, 0, error));
+	carom_swap(world, ROLE_HIT_TIMES);
+	for (int pass = extra_passes(&world->pipeline, &world->def); pass > 0; pass--) {
+		TRY(carom_run(world, STAGE_TOI_NEXT, columns, count, 0, 0, error));
+		carom_swap(world, ROLE_HIT_TIMES);
+	}
+	return CAROM_OK;
+}
+
+/* The least hit time of all pairs [2.2], by halving the texture until one texel is left. */
+static carom_status reduce(carom_world *world, int32_t count, carom_error *error)
+{
+	carom_pair *reduced = &world->textures[ROLE_REDUCED];
+	int pass = 0;
+	reduced->front = world->textures[ROLE_HIT_TIMES].front;
+	for (int32_t size = count; size > 1; pass++) {
+		size = (size + 1) / 2;
+		reduced->back = world->levels[pass];
+		TRY(carom_run(world, STAGE_REDUCE, size, size, pass, 0, error));
+		reduced->front = reduced->back;
+	}
+	return CAROM_OK;
+}
+
+/* One step. The device decides by its clock whether it ends in a collision: both forward kernels are run, and the one
+ * whose turn it is not does nothing. So nobody waits. */
+static carom_status run(carom_world *world, carom_error *error)
+{
+	const int32_t count = (int32_t)world->body_count, groups = world->def.has_room ? (count + WALLS_GROUP - 1) / WALLS_GROUP : 0;
+	TRY(detect(world, count, error));
+	TRY(reduce(world, count, error));
+	if (groups)
+		TRY(carom_run(world, STAGE_WALLS, groups, 1, count, 0, error));
+	TRY(carom_run(world, STAGE_FIRST, 1, 1, count, groups, error));
+	carom_swap(world, ROLE_CLOCK);
+	/* the response [2.3] */
+	TRY(carom_run(world, STAGE_IMPULSE, 1, 1, 0, 0, error));
+	TRY(carom_run(world, STAGE_NO_COLLISION, count, 1, 0, 0, error));
+	TRY(carom_run(world, STAGE_COLLISION, count, 1, 0, 0, error));
+	carom_swap(world, ROLE_LINEAR);
+	carom_swap(world, ROLE_ROTATIONAL);
+	return CAROM_OK;
+}
+
+static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count)
+{
+	uint64_t n = carom_capacity(body_count), pairs = n * n;
+	uint64_t hit_times = 16 * pairs * (extra_passes(pipeline, def) > 0 ? 2 : 1);
+	return hit_times + 2 * pairs + 16 * pairs / 3 + 16 * (n + n / WALLS_GROUP + 1);
+}
+
+/* Asked for first, so that a scene too large fails at once and without filling the memory. */
+static carom_status check_limits(const carom_world *world, carom_error *error)
+{
+	const carom_device_info *info = &world->device->info;
+	const uint64_t n = world->capacity, size = 16 * n * n, all = memory(&world->pipeline, &world->def, world->body_count);
+	const double gib = 1024.0 * 1024.0 * 1024.0;
+	if (world->device->storage == CAROM_STORAGE_IMAGE && n > info->max_image_size)
+		return carom_fail(error, CAROM_LIMIT, "%zu bodies need an N x N texture of %llu x %llu texels in the step first_impact, and images on '%s' have at "
+			"most %u x %u: take fewer bodies, or buffer storage", world->body_count, (unsigned long long)n, (unsigned long long)n, info->name,
+			info->max_image_size, info->max_image_size);
+	if (size > info->max_allocation || all > info->memory)
+		return carom_fail(error, CAROM_LIMIT, "%zu bodies need an N x N texture of %llu x %llu texels in the step first_impact, %.3g GiB, in all %.3g GiB, "
+			"and '%s' has %.3g GiB, at most %.3g GiB in one texture: take fewer bodies", world->body_count, (unsigned long long)n,
+			(unsigned long long)n, (double)size / gib, (double)all / gib, info->name, (double)info->memory / gib, (double)info->max_allocation / gib);
+	return CAROM_OK;
+}
+
+static carom_status prepare(carom_world *world, carom_error *error)
+{
+	static const float zero[4] = {0}, none[4] = {0.0f, 1.0f, 1.0f, NO_HIT}, no_level[4] = {NO_HIT, 0.0f, 0.0f, 1.0f};
+	const uint32_t n = world->capacity, groups = n / WALLS_GROUP ? n / WALLS_GROUP : 1;
+	TRY(check_limits(world, error));
+	TRY(carom_textures_create(world, ROLE_AABB, false, carom_row_width(n), carom_row_count(n), zero, error));
+	TRY(carom_textures_create(world, ROLE_OVERLAP, true, n / OVERLAP_COLUMNS, n, zero, error));
+	TRY(carom_textures_create(world, ROLE_HIT_TIMES, extra_passes(&world->pipeline, &world->def) > 0, n, n, none, error));
+	TRY(carom_textures_create(world, ROLE_WALLS, false, carom_row_width(groups), carom_row_count(groups), no_level, error));
+	TRY(carom_textures_create(world, ROLE_IMPULSE, false, 1, 1, zero, error));
+	for (uint32_t level = 0, size = n / 2; size > 0; level++, size /= 2)
+		TRY(world->device->kind->create(world->device, TEXELS_FLOAT, size, size, no_level, &world->levels[level], error));
+	return CAROM_OK;
+}
+
+const carom_step carom_step_first_impact = {"first_impact", prepare, run, memory};

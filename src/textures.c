@@ -1,0 +1,260 @@
+/* The textures of the state [2], and their way to the device and back. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout.h"
+#include "status.h"
+#include "world.h"
+
+uint32_t carom_row_width(uint32_t items)
+{
+	return items < ROW_SIZE ? items : ROW_SIZE;
+}
+
+uint32_t carom_row_count(uint32_t items)
+{
+	return items < ROW_SIZE ? 1 : (items + ROW_SIZE - 1) >> ROW_LOG2;
+}
+
+uint32_t carom_capacity(size_t items)
+{
+	uint32_t capacity = 4;
+	while (capacity < items)
+		capacity *= 2;
+	return capacity;
+}
+
+static void destroy_pair(carom_world *world, carom_role role)
+{
+	carom_pair *pair = &world->textures[role];
+	if (pair->back != pair->front)
+		world->device->kind->destroy(world->device, pair->back);
+	world->device->kind->destroy(world->device, pair->front);
+	*pair = (carom_pair){NULL, NULL};
+}
+
+carom_status carom_textures_create(carom_world *world, carom_role role, bool pair, uint32_t width, uint32_t height, const float fill[4],
+	carom_error *error)
+{
+	carom_texel_format format = role == ROLE_OVERLAP ? TEXELS_BYTE : TEXELS_FLOAT;
+	carom_pair *textures = &world->textures[role];
+	carom_status status = world->device->kind->create(world->device, format, width, height, fill, &textures->front, error);
+	if (!status && pair)
+		status = world->device->kind->create(world->device, format, width, height, fill, &textures->back, error);
+	else
+		textures->back = textures->front;
+	return status;
+}
+
+void carom_textures_destroy(carom_world *world)
+{
+	/* Reduced names levels of the pyramid and owns none */
+	world->textures[ROLE_REDUCED] = (carom_pair){NULL, NULL};
+	for (int role = 0; role < ROLE_COUNT; role++)
+		destroy_pair(world, (carom_role)role);
+	for (int i = 0; i < CAROM_MAX_LEVELS; i++) {
+		world->device->kind->destroy(world->device, world->levels[i]);
+		world->levels[i] = NULL;
+	}
+	world->capacity = world->vertex_capacity = 0;
+	world->bodies_current = world->device_current = false;
+}
+
+void carom_swap(carom_world *world, carom_role role)
+{
+	carom_pair *pair = &world->textures[role];
+	carom_texture *front = pair->front;
+	pair->front = pair->back;
+	pair->back = front;
+}
+
+carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w, carom_error *error)
+{
+	const carom_stage_def *def = &carom_stages[stage];
+	carom_texture *textures[CAROM_MAX_TEXTURES];
+	const int32_t domain[4] = {x, y, z, w};
+	for (int i = 0; i < def->input_count + def->output_count; i++) {
+		const carom_pair *pair = &world->textures[def->textures[i]];
+		textures[i] = i < def->input_count ? pair->front : pair->back;
+	}
+	return world->device->kind->run(world->device, stage, textures, domain, error);
+}
+
+static uint32_t texels_of(const carom_body *body)
+{
+	return (body->vertex_count + 1) / 2;
+}
+
+static size_t vertex_texels(const carom_world *world)
+{
+	size_t texels = 0;
+	for (size_t i = 0; i < world->body_count; i++)
+		texels += texels_of(&carom_world_bodies(world)[i]);
+	return texels;
+}
+
+/* The textures that every step has. */
+static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t vertex_capacity, carom_error *error)
+{
+	static const float zero[4] = {0};
+	static const struct {
+		carom_role role;
+		bool pair;
+	} a_body[] = {{ROLE_LINEAR, true}, {ROLE_ROTATIONAL, true}, {ROLE_GEOMETRY, false}, {ROLE_FORCES, false}};
+	carom_status status = CAROM_OK;
+	for (size_t i = 0; !status && i < sizeof a_body / sizeof *a_body; i++)
+		status = carom_textures_create(world, a_body[i].role, a_body[i].pair, carom_row_width(capacity), carom_row_count(capacity), zero, error);
+	if (!status)
+		status = carom_textures_create(world, ROLE_VERTICES, false, carom_row_width(vertex_capacity), carom_row_count(vertex_capacity), zero, error);
+	if (!status)
+		status = carom_textures_create(world, ROLE_UNIFORMS, false, UNIFORMS_WIDTH, 1, zero, error);
+	if (!status)
+		status = carom_textures_create(world, ROLE_CLOCK, true, CLOCK_WIDTH, 1, zero, error);
+	return status;
+}
+
+uint64_t carom_textures_memory(size_t body_count, size_t vertex_count)
+{
+	uint64_t texels = (uint64_t)carom_capacity(body_count) * 6 + carom_capacity((vertex_count + body_count) / 2);
+	return 16 * (texels + UNIFORMS_WIDTH + 2 * CLOCK_WIDTH);
+}
+
+/* Uploads `count` texels, padded with zeros to whole rows; `texels` has room for that. */
+static carom_status upload(carom_world *world, carom_role role, uint32_t count, const float *texels, carom_error *error)
+{
+	return world->device->kind->upload(world->device, world->textures[role].front, carom_row_count(count), texels, error);
+}
+
+static void fill_uniforms(const carom_world *world, float *u)
+{
+	const carom_world_def *def = &world->def;
+	float *room = u + 4 * UNIFORMS_ROOM, *rules = u + 4 * UNIFORMS_RULES;
+	u[WORLD_COUNT] = (float)world->body_count;
+	u[WORLD_TIME_STEP] = def->time_step;
+	u[WORLD_GRAVITY_X] = def->gravity.x;
+	u[WORLD_GRAVITY_Y] = def->gravity.y;
+	room[ROOM_MIN_X] = def->room_min.x;
+	room[ROOM_MIN_Y] = def->room_min.y;
+	room[ROOM_MAX_X] = def->room_max.x;
+	room[ROOM_MAX_Y] = def->room_max.y;
+	rules[RULES_EPSILON] = def->epsilon;
+	rules[RULES_ITERATIONS] = (float)(def->iterations ? def->iterations : 64);
+	rules[RULES_HAS_ROOM] = def->has_room ? 1.0f : 0.0f;
+	rules[RULES_RESTITUTION] = def->restitution;
+}
+
+/* A circle's only vertex is (radius, 0). */
+static void fill_vertices(const carom_world *world, const carom_body *body, float *texels)
+{
+	const carom_vec2 *vertices = world->vertices.items;
+	if (body->vertex_count == 1)
+		texels[VERTICES_X0] = body->radius;
+	for (uint32_t i = 0; body->vertex_count > 1 && i < body->vertex_count; i++) {
+		texels[4 * (i / 2) + (i % 2 ? VERTICES_X1 : VERTICES_X0)] = vertices[body->vertex_first + i].x;
+		texels[4 * (i / 2) + (i % 2 ? VERTICES_Y1 : VERTICES_Y0)] = vertices[body->vertex_first + i].y;
+	}
+}
+
+static carom_status upload_bodies(carom_world *world, carom_error *error)
+{
+	float uniforms[4 * UNIFORMS_WIDTH] = {0};
+	size_t most = world->capacity > world->vertex_capacity ? world->capacity : world->vertex_capacity;
+	float *geometry = calloc(most, 4 * sizeof *geometry), *forces = calloc(most, 4 * sizeof *forces), *vertices = calloc(most, 4 * sizeof *vertices);
+	uint32_t next = 0;
+	carom_status status;
+	if (!geometry || !forces || !vertices) {
+		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
+		goto end;
+	}
+	for (size_t i = 0; i < world->body_count; i++) {
+		const carom_body *body = &carom_world_bodies(world)[i];
+		geometry[4 * i + GEOMETRY_FIRST] = (float)next;
+		geometry[4 * i + GEOMETRY_COUNT] = (float)body->vertex_count;
+		geometry[4 * i + GEOMETRY_MASS] = body->mass;
+		geometry[4 * i + GEOMETRY_INERTIA] = body->inertia;
+		forces[4 * i + FORCES_X] = body->force.x;
+		forces[4 * i + FORCES_Y] = body->force.y;
+		forces[4 * i + FORCES_TORQUE] = body->torque;
+		forces[4 * i + FORCES_RESTITUTION] = body->restitution;
+		fill_vertices(world, body, vertices + 4 * (size_t)next);
+		next += texels_of(body);
+	}
+	fill_uniforms(world, uniforms);
+	status = upload(world, ROLE_GEOMETRY, world->capacity, geometry, error);
+	if (!status)
+		status = upload(world, ROLE_FORCES, world->capacity, forces, error);
+	if (!status)
+		status = upload(world, ROLE_VERTICES, world->vertex_capacity, vertices, error);
+	if (!status)
+		status = upload(world, ROLE_UNIFORMS, 1, uniforms, error);
+end:
+	free(geometry);
+	free(forces);
+	free(vertices);
+	return status;
+}
+
+/* Moves the state between the host's arrays and the front textures, whole rows at a time. */
+static carom_status transfer(carom_world *world, bool down, carom_error *error)
+{
+	const carom_role roles[2] = {ROLE_LINEAR, ROLE_ROTATIONAL};
+	const carom_array *arrays[2] = {&world->linear, &world->rotational};
+	uint32_t rows = carom_row_count((uint32_t)world->body_count), width = carom_row_width(world->capacity);
+	size_t size = world->body_count * 4 * sizeof(float);
+	carom_status status = CAROM_OK;
+	float *texels = calloc((size_t)rows * width, 4 * sizeof *texels);
+	if (!texels)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to move the state of %zu bodies", world->body_count);
+	for (int i = 0; !status && i < 2; i++) {
+		carom_texture *texture = world->textures[roles[i]].front;
+		if (down) {
+			status = world->device->kind->download(world->device, texture, rows, texels, error);
+			if (!status)
+				memcpy(arrays[i]->items, texels, size);
+		} else {
+			memcpy(texels, arrays[i]->items, size);
+			status = world->device->kind->upload(world->device, texture, rows, texels, error);
+		}
+	}
+	free(texels);
+	return status;
+}
+
+carom_status carom_textures_update(carom_world *world, carom_error *error)
+{
+	uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(vertex_texels(world));
+	carom_status status = CAROM_OK;
+	if (capacity != world->capacity || vertex_capacity != world->vertex_capacity) {
+		carom_textures_destroy(world);
+		status = create_all(world, capacity, vertex_capacity, error);
+		world->capacity = capacity;
+		world->vertex_capacity = vertex_capacity;
+		if (!status)
+			status = world->step->prepare(world, error);
+		if (status) {
+			carom_textures_destroy(world);
+			return status;
+		}
+	}
+	if (!world->bodies_current)
+		status = upload_bodies(world, error);
+	if (status)
+		return status;
+	world->bodies_current = true;
+	if (!world->device_current)
+		status = transfer(world, false, error);
+	if (!status)
+		world->device_current = true;
+	return status;
+}
+
+carom_status carom_textures_fetch(carom_world *world, carom_error *error)
+{
+	carom_status status;
+	if (world->host_current)
+		return CAROM_OK;
+	status = transfer(world, true, error);
+	if (!status)
+		world->host_current = true;
+	return status;
+}

@@ -1,0 +1,342 @@
+#include "world.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout.h"
+#include "status.h"
+
+#define MAX_BODIES (1u << 22) /* body indices and counts are exact as floats, and to spare */
+
+void *carom_array_grow(carom_array *array, size_t size)
+{
+	if (array->used + size > array->room) {
+		size_t room = array->room ? array->room : 4096;
+		void *items;
+		while (room < array->used + size)
+			room *= 2;
+		items = realloc(array->items, room);
+		if (!items)
+			return NULL;
+		array->items = items;
+		array->room = room;
+	}
+	array->used += size;
+	return (char *)array->items + array->used - size;
+}
+
+carom_world_def carom_default_world_def(void)
+{
+	carom_world_def def = {.time_step = 1.0f / 60.0f, .restitution = 1.0f, .epsilon = 3.814697265625e-6f /* 2^-18 */};
+	return def;
+}
+
+static bool finite2(carom_vec2 v)
+{
+	return isfinite(v.x) && isfinite(v.y);
+}
+
+static carom_status check_def(const carom_world_def *def, carom_error *error)
+{
+	if (!(def->time_step > 0.0f) || !isfinite(def->time_step))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time_step: found %g, must be above 0 (s)", (double)def->time_step);
+	if (!finite2(def->gravity))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "gravity: must be two finite numbers (m/s^2)");
+	if (!(def->restitution >= 0.0f && def->restitution <= 1.0f))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "restitution: found %g, must be from 0 to 1", (double)def->restitution);
+	if (!(def->epsilon >= 2.384185791015625e-7f && def->epsilon <= 0.5f))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "epsilon: found %g, must be from 2^-22 to 0.5 (of a step)", (double)def->epsilon);
+	if (def->has_room && (!finite2(def->room_min) || !finite2(def->room_max)))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "room: min and max must be two finite numbers each (m)");
+	if (def->has_room && !(def->room_min.x < def->room_max.x && def->room_min.y < def->room_max.y))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "room: min (%g, %g) must be below max (%g, %g)", (double)def->room_min.x,
+			(double)def->room_min.y, (double)def->room_max.x, (double)def->room_max.y);
+	return CAROM_OK;
+}
+
+static const carom_step *step_named(const char *name)
+{
+	for (size_t i = 0; i < carom_step_count; i++)
+		if (!strcmp(carom_steps[i]->name, name))
+			return carom_steps[i];
+	return NULL;
+}
+
+carom_status carom_world_create(const carom_world_def *def, carom_world **world, carom_error *error)
+{
+	carom_device_def device_def = {.name = def->device, .storage = def->storage, .threads = def->threads};
+	carom_world *w;
+	carom_status status = check_def(def, error);
+	if (status)
+		return status;
+	status = carom_pipeline_resolve(&def->pipeline, &device_def.pipeline, error);
+	if (status)
+		return status;
+	w = calloc(1, sizeof *w);
+	if (!w)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a world");
+	w->def = *def;
+	w->pipeline = device_def.pipeline;
+	w->step = step_named(w->pipeline.step);
+	w->host_current = true;
+	if (def->device) {
+		snprintf(w->device_name, sizeof w->device_name, "%s", def->device);
+		w->def.device = w->device_name;
+	}
+	status = carom_device_open(&device_def, &w->device, error);
+	if (status) {
+		carom_world_destroy(w);
+		return status;
+	}
+	*world = w;
+	return CAROM_OK;
+}
+
+void carom_world_destroy(carom_world *world)
+{
+	if (!world)
+		return;
+	if (world->device)
+		carom_textures_destroy(world);
+	carom_device_close(world->device);
+	free(world->bodies.items);
+	free(world->vertices.items);
+	free(world->names.items);
+	free(world->linear.items);
+	free(world->rotational.items);
+	free(world);
+}
+
+static bool outside_room(const carom_world_def *def, carom_vec2 p)
+{
+	return def->has_room && !(p.x >= def->room_min.x && p.x <= def->room_max.x && p.y >= def->room_min.y && p.y <= def->room_max.y);
+}
+
+static bool append_state(carom_world *world, const carom_body_def *def, const carom_body *body)
+{
+	float *linear = carom_array_grow(&world->linear, 4 * sizeof *linear), *rotational = carom_array_grow(&world->rotational, 4 * sizeof *rotational);
+	if (!linear || !rotational)
+		return false;
+	linear[LINEAR_X] = def->position.x;
+	linear[LINEAR_Y] = def->position.y;
+	linear[LINEAR_VX] = def->velocity.x;
+	linear[LINEAR_VY] = def->velocity.y;
+	rotational[ROTATIONAL_ANGLE] = (float)remainder((double)def->angle, 6.28318530717958647692);
+	rotational[ROTATIONAL_VELOCITY] = def->angular_velocity;
+	rotational[ROTATIONAL_RADIUS] = body->bound;
+	rotational[3] = 0.0f;
+	return true;
+}
+
+static bool append_body(carom_world *world, const carom_body_def *def, carom_body *body, const carom_vec2 *vertices)
+{
+	size_t size = body->vertex_count > 1 ? body->vertex_count * sizeof *vertices : 0, name_size = def->name ? strlen(def->name) + 1 : 0;
+	carom_body *slot = carom_array_grow(&world->bodies, sizeof *slot);
+	carom_vec2 *corner = carom_array_grow(&world->vertices, size);
+	char *name = carom_array_grow(&world->names, name_size);
+	if (!slot || (size && !corner) || (name_size && !name) || !append_state(world, def, body))
+		return false;
+	body->vertex_first = (uint32_t)((world->vertices.used - size) / sizeof *vertices);
+	if (size)
+		memcpy(corner, vertices, size);
+	if (name_size) {
+		memcpy(name, def->name, name_size);
+		body->name = world->names.used - name_size + 1;
+	}
+	*slot = *body;
+	world->body_count++;
+	return true;
+}
+
+static carom_status add_one(carom_world *world, const carom_body_def *def, size_t index, carom_error *error)
+{
+	carom_vec2 vertices[CAROM_MAX_VERTICES];
+	carom_body body;
+	carom_status status = carom_body_make(def, world, index, &body, vertices, error);
+	if (status)
+		return status;
+	if (outside_room(&world->def, def->position))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].position: (%g, %g) is outside the room", index, (double)def->position.x,
+			(double)def->position.y);
+	if (!append_body(world, def, &body, vertices))
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for body %zu", index);
+	return CAROM_OK;
+}
+
+carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error)
+{
+	const size_t used[5] = {world->bodies.used, world->vertices.used, world->names.used, world->linear.used, world->rotational.used};
+	size_t before = world->body_count;
+	carom_status status = CAROM_OK;
+	if (count > MAX_BODIES - before)
+		return carom_fail(error, CAROM_LIMIT, "a world holds at most %u bodies", MAX_BODIES);
+	status = carom_textures_fetch(world, error);
+	for (size_t i = 0; !status && i < count; i++)
+		status = add_one(world, &defs[i], i, error);
+	if (status) {
+		world->bodies.used = used[0];
+		world->vertices.used = used[1];
+		world->names.used = used[2];
+		world->linear.used = used[3];
+		world->rotational.used = used[4];
+		world->body_count = before;
+		return status;
+	}
+	if (first)
+		*first = (uint32_t)before;
+	world->bodies_current = world->device_current = false;
+	return CAROM_OK;
+}
+
+size_t carom_world_body_count(const carom_world *world)
+{
+	return world->body_count;
+}
+
+const carom_world_def *carom_world_get_def(const carom_world *world)
+{
+	return &world->def;
+}
+
+double carom_world_time(const carom_world *world)
+{
+	return world->time;
+}
+
+carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error)
+{
+	(void)error;
+	*info = world->device->info;
+	return CAROM_OK;
+}
+
+void carom_world_set_progress(carom_world *world, carom_progress progress, void *context)
+{
+	world->progress = progress;
+	world->progress_context = context;
+}
+
+static carom_status check_range(const carom_world *world, uint32_t first, size_t count, carom_error *error)
+{
+	if (first > world->body_count || count > world->body_count - first)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies %u to %zu: the world has %zu", first, first + count, world->body_count);
+	return CAROM_OK;
+}
+
+carom_status carom_world_get_body(const carom_world *world, uint32_t index, carom_body_info *info, carom_error *error)
+{
+	carom_status status = check_range(world, index, 1, error);
+	const carom_body *body;
+	if (status)
+		return status;
+	body = &carom_world_bodies(world)[index];
+	*info = (carom_body_info){
+		.shape = body->shape, .radius = body->shape == CAROM_POLYGON ? body->bound : body->radius, .vertex_count = body->vertex_count,
+		.vertices = body->vertex_count > 1 ? (const carom_vec2 *)world->vertices.items + body->vertex_first : NULL,
+		.mass = body->mass, .inertia = body->inertia, .density = body->density, .restitution = body->restitution, .force = body->force,
+		.torque = body->torque, .is_static = body->is_static, .recentred_by = body->recentred_by, .color = body->color,
+		.name = body->name ? (const char *)world->names.items + body->name - 1 : NULL,
+	};
+	return CAROM_OK;
+}
+
+carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error)
+{
+	carom_status status = check_range(world, first, count, error);
+	if (!status)
+		status = carom_textures_fetch(world, error);
+	if (status)
+		return status;
+	for (size_t i = 0; i < count; i++) {
+		const float *l = (const float *)world->linear.items + 4 * (first + i), *r = (const float *)world->rotational.items + 4 * (first + i);
+		states[i] = (carom_body_state){{l[LINEAR_X], l[LINEAR_Y]}, r[ROTATIONAL_ANGLE], {l[LINEAR_VX], l[LINEAR_VY]}, r[ROTATIONAL_VELOCITY]};
+	}
+	return CAROM_OK;
+}
+
+static carom_status check_state(const carom_world *world, uint32_t index, const carom_body_state *s, carom_error *error)
+{
+	if (!finite2(s->position) || !finite2(s->velocity) || !isfinite(s->angle) || !isfinite(s->angular_velocity))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the state of body %u has a number that is not finite", index);
+	if (outside_room(&world->def, s->position))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the position of body %u, (%g, %g), is outside the room", index, (double)s->position.x,
+			(double)s->position.y);
+	if (carom_world_bodies(world)[index].is_static && (s->velocity.x != 0.0f || s->velocity.y != 0.0f || s->angular_velocity != 0.0f))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and can't be given a velocity", index);
+	return CAROM_OK;
+}
+
+carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
+{
+	carom_status status = check_range(world, first, count, error);
+	for (size_t i = 0; !status && i < count; i++)
+		status = check_state(world, first + (uint32_t)i, &states[i], error);
+	if (!status)
+		status = carom_textures_fetch(world, error);
+	if (status)
+		return status;
+	for (size_t i = 0; i < count; i++) {
+		float *l = (float *)world->linear.items + 4 * (first + i), *r = (float *)world->rotational.items + 4 * (first + i);
+		l[LINEAR_X] = states[i].position.x;
+		l[LINEAR_Y] = states[i].position.y;
+		l[LINEAR_VX] = states[i].velocity.x;
+		l[LINEAR_VY] = states[i].velocity.y;
+		r[ROTATIONAL_ANGLE] = (float)remainder((double)states[i].angle, 6.28318530717958647692);
+		r[ROTATIONAL_VELOCITY] = states[i].angular_velocity;
+	}
+	world->device_current = false;
+	return CAROM_OK;
+}
+
+carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error)
+{
+	carom_status status = check_range(world, index, 1, error);
+	carom_body *body;
+	if (status)
+		return status;
+	body = &carom_world_bodies(world)[index];
+	if (!finite2(force) || !isfinite(torque))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
+	if (body->is_static)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and feels no force", index);
+	body->force = force;
+	body->torque = torque;
+	world->bodies_current = false;
+	return CAROM_OK;
+}
+
+uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count)
+{
+	carom_pipeline pipeline;
+	const carom_step *step;
+	if (carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
+		return 0;
+	step = step_named(pipeline.step);
+	return carom_textures_memory(body_count, vertex_count) + step->memory(&pipeline, def, body_count);
+}
+
+static uint64_t hash_float(uint64_t hash, float x)
+{
+	uint32_t bits;
+	memcpy(&bits, &x, sizeof bits);
+	for (int i = 0; i < 4; i++)
+		hash = (hash ^ ((bits >> 8 * i) & 0xFF)) * 1099511628211u;
+	return hash;
+}
+
+carom_status carom_world_hash(carom_world *world, uint64_t *hash, carom_error *error)
+{
+	uint64_t h = 14695981039346656037u;
+	carom_status status = carom_textures_fetch(world, error);
+	if (status)
+		return status;
+	for (size_t i = 0; i < world->body_count; i++) {
+		const float *l = (const float *)world->linear.items + 4 * i, *r = (const float *)world->rotational.items + 4 * i;
+		for (int k = 0; k < 4; k++)
+			h = hash_float(h, l[k]);
+		h = hash_float(hash_float(h, r[ROTATIONAL_ANGLE]), r[ROTATIONAL_VELOCITY]);
+	}
+	*hash = h;
+	return CAROM_OK;
+}

@@ -1,0 +1,85 @@
+/* A world: the bodies as the host knows them, and the textures of the device. */
+#ifndef CAROM_WORLD_H
+#define CAROM_WORLD_H
+
+#include "carom.h"
+#include "device.h"
+#include "step/step.h"
+
+/* A body as it is kept: what carom_body_info tells, with offsets instead of pointers. */
+typedef struct carom_body {
+	carom_shape shape;
+	float radius;       /* as given; 0 for a polygon */
+	float bound;        /* of the circle about the centre of mass */
+	uint32_t vertex_first, vertex_count; /* in world->vertices; count 1 and none there for a circle */
+	float mass, inertia, density, restitution, torque;
+	carom_vec2 force, recentred_by;
+	uint32_t color;
+	bool is_static;
+	size_t name;        /* offset + 1 in world->names, 0 for none */
+} carom_body;
+
+/* A growing array of bytes. */
+typedef struct carom_array {
+	void *items;
+	size_t used, room; /* bytes */
+} carom_array;
+
+/* Where `size` more bytes go; NULL if there is no memory. */
+void *carom_array_grow(carom_array *array, size_t size);
+
+/* Front and back; the same texture twice where there is only one. */
+typedef struct carom_pair {
+	carom_texture *front, *back;
+} carom_pair;
+
+#define CAROM_MAX_LEVELS 16
+
+struct carom_world {
+	carom_world_def def;       /* as given, its pipeline too */
+	carom_pipeline pipeline;   /* resolved */
+	char device_name[128];     /* what def.device points to */
+	const carom_step *step;
+	carom_device *device;
+
+	carom_array bodies;        /* carom_body */
+	carom_array vertices;      /* carom_vec2 */
+	carom_array names;
+	carom_array linear, rotational; /* four floats a body */
+	size_t body_count;
+	bool bodies_current;       /* the device's constant textures are those of the bodies */
+	bool device_current;       /* the device has the host's state */
+	bool host_current;         /* the host has the device's state */
+
+	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
+	uint32_t vertex_capacity;  /* texels of Vertices, likewise */
+	carom_pair textures[ROLE_COUNT];
+	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
+	float stalled;             /* steps in a row that did not get on */
+	double time;               /* s */
+	carom_progress progress;
+	void *progress_context;
+};
+
+/* bodies.c */
+carom_status carom_body_make(const carom_body_def *def, const carom_world *world, size_t index, carom_body *body, carom_vec2 *vertices,
+	carom_error *error);
+carom_body *carom_world_bodies(const carom_world *world);
+
+/* textures.c: texels of a texture of one texel an item, folded into rows */
+uint32_t carom_row_width(uint32_t items);
+uint32_t carom_row_count(uint32_t items);
+uint32_t carom_capacity(size_t items); /* the power of two that holds them, at least 4 */
+carom_status carom_textures_create(carom_world *world, carom_role role, bool pair, uint32_t width, uint32_t height, const float fill[4],
+	carom_error *error);
+void carom_textures_destroy(carom_world *world);
+/* Makes the device's textures those of the host, creating them if they are too small or not there. */
+carom_status carom_textures_update(carom_world *world, carom_error *error);
+/* Brings the state back to the host. */
+carom_status carom_textures_fetch(carom_world *world, carom_error *error);
+uint64_t carom_textures_memory(size_t body_count, size_t vertex_count);
+/* Runs a stage over the world's textures: fronts to read, backs to write. */
+carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w, carom_error *error);
+void carom_swap(carom_world *world, carom_role role);
+
+#endif
