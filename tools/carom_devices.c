@@ -1,0 +1,67 @@
+/* carom devices: what there is to run on.
+ * SPDX-License-Identifier: MIT */
+#include "carom_tool.h"
+
+static void print_facts(const carom_device_info *device)
+{
+	char memory[32], allocation[32];
+	printf("    %u %s", (unsigned)device->compute_units, device->is_opencl ? "compute units" : "cores");
+	if (device->clock_mhz)
+		printf(" at %u MHz", (unsigned)device->clock_mhz);
+	printf(", %s of memory", format_bytes(device->memory, memory, sizeof memory));
+	if (device->max_allocation)
+		printf(", a texture at most %s", format_bytes(device->max_allocation, allocation, sizeof allocation));
+	putchar('\n');
+	if (!device->is_opencl)
+		return;
+	if (device->has_images) {
+		printf("    images: sides up to %u texels\n", (unsigned)device->max_image_size);
+	} else {
+		printf("    images: none; textures are kept in buffers\n");
+	}
+}
+
+static void print_device(const carom_device_info *device)
+{
+	printf("%s%s%s", device->platform, *device->platform ? ": " : "", device->name);
+	printf("%s%s%s%s\n", *device->version ? " (" : "", device->version, *device->version ? ")" : "",
+		device->is_default ? ", the default" : "");
+	if (!device->works) {
+		printf("    does not work: %s\n", *device->reason ? device->reason : "for a reason unknown");
+	} else if (device->exact) {
+		printf("    works; exact: the same bits as on every other exact device\n");
+	} else {
+		printf("    works; not exact: divides or takes roots otherwise rounded, so results differ in the last bits\n");
+	}
+	print_facts(device);
+}
+
+static int devices_main(int argc, char **argv)
+{
+	struct common_options options = {0};
+	carom_error error;
+	carom_device_info *devices = NULL;
+	size_t count = 0;
+	int code = parse_options(&devices_command, argc, argv, &options);
+	if (code >= 0)
+		return code;
+	if (carom_device_list_create(&devices, &count, &error) != CAROM_OK)
+		return report(&error);
+	for (size_t k = 0; k < count; k++)
+		print_device(&devices[k]);
+	carom_device_list_destroy(devices);
+	return finish_output();
+}
+
+static const struct option options_table[] = {{NULL, NULL, NULL, 0, NULL}};
+
+const struct command devices_command = {
+	.name = "devices",
+	.arguments = "",
+	.summary = "Lists what OpenCL offers here, what Carom can do with each, and the default",
+	.details = "\nEach device by platform and name: parts of either are what --device takes. The CPU fallback is always there.\n"
+			   "The default is what --device auto takes: the fastest device that works. Every device is listed, whatever "
+			   "--device says.\n",
+	.options = options_table,
+	.main = devices_main,
+};

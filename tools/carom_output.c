@@ -1,0 +1,159 @@
+/* What `carom run` writes: states, pictures, frames, the table of the steps.
+ * SPDX-License-Identifier: MIT */
+#include "carom_run.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- Before the run ---- */
+
+/* Begins the file and gives it up: what could go wrong at the end goes wrong now. */
+static carom_status try_path(const char *path, carom_error *error)
+{
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	carom_status status = path ? carom_file_create(path, &file, &stream, error) : CAROM_OK;
+	carom_file_destroy(file);
+	return status;
+}
+
+static carom_status frame_path(const struct run *run, char *path, size_t size, carom_error *error)
+{
+	int length = snprintf(path, size, "%s/frame_%06llu.png", run->options->frames, (unsigned long long)run->frames_done);
+	return length < (int)size ? CAROM_OK : wrong(error, "--frames: the path is too long");
+}
+
+static carom_status make_folder(const char *path, carom_error *error)
+{
+	struct stat there;
+	if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &there) == 0 && S_ISDIR(there.st_mode)))
+		return CAROM_OK;
+	wrong(error, "--frames: %s: can't be made a folder: %s", path, strerror(errno));
+	error->status = CAROM_IO;
+	return CAROM_IO;
+}
+
+static carom_status prepare_frames(const struct run *run, carom_error *error)
+{
+	char path[4096];
+	carom_status status = make_folder(run->options->frames, error);
+	if (status == CAROM_OK)
+		status = frame_path(run, path, sizeof path, error);
+	return status == CAROM_OK ? try_path(path, error) : status;
+}
+
+static carom_status prepare_pictures(struct run *run, carom_error *error)
+{
+	const struct run_options *options = run->options;
+	run->render = carom_default_render_def();
+	if (options->size[0])
+		run->render.width = options->size[0], run->render.height = options->size[1];
+	run->render.has_camera = run->scene->has_camera;
+	run->render.camera = run->scene->camera;
+	run->render.has_inset = options->has_inset;
+	run->render.inset = options->inset;
+	run->pixels = malloc((size_t)run->render.width * run->render.height * 4);
+	if (run->pixels)
+		return CAROM_OK;
+	wrong(error, "there is not enough memory for a picture of %u x %u pixels", run->render.width, run->render.height);
+	error->status = CAROM_OUT_OF_MEMORY;
+	return error->status;
+}
+
+carom_status prepare_outputs(struct run *run, carom_error *error)
+{
+	const struct run_options *options = run->options;
+	carom_status status = try_path(options->out, error);
+	if (status == CAROM_OK)
+		status = try_path(options->png, error);
+	if (status == CAROM_OK && options->frames)
+		status = prepare_frames(run, error);
+	if (status == CAROM_OK && (options->png || options->frames))
+		status = prepare_pictures(run, error);
+	if (status == CAROM_OK && options->stats)
+		status = carom_file_create(options->stats, &run->stats_file, &run->stats, error);
+	if (run->stats)
+		fputs("step,time_s,advanced_s,hits,kinetic_energy_j,momentum_x,momentum_y,angular_momentum,max_penetration_m\n",
+			run->stats);
+	return status;
+}
+
+/* ---- During the run ---- */
+
+static carom_status write_picture(struct run *run, const char *path, carom_error *error)
+{
+	carom_status status = carom_world_render(run->world, &run->render, run->pixels, error);
+	return status == CAROM_OK ? carom_png_write(path, run->pixels, run->render.width, run->render.height, error) : status;
+}
+
+double next_frame(const struct run *run)
+{
+	return run->options->frames ? (double)run->frames_done / run->options->fps : INFINITY;
+}
+
+carom_status write_frame(struct run *run, carom_error *error)
+{
+	char path[4096];
+	carom_status status = frame_path(run, path, sizeof path, error);
+	if (status == CAROM_OK)
+		status = write_picture(run, path, error);
+	if (status == CAROM_OK)
+		run->frames_done++;
+	return status;
+}
+
+carom_status write_row(struct run *run, const carom_report *step, carom_error *error)
+{
+	carom_measure measure;
+	carom_status status = carom_world_measure(run->world, &measure, error);
+	if (status != CAROM_OK)
+		return status;
+	fprintf(run->stats, "%llu,%.12g,%.12g,%llu,%.12g,%.12g,%.12g,%.12g,%.12g\n", (unsigned long long)run->total.steps,
+		carom_world_time(run->world), step->advanced, (unsigned long long)step->hits, measure.kinetic_energy, measure.momentum_x,
+		measure.momentum_y, measure.angular_momentum, measure.max_penetration);
+	return CAROM_OK;
+}
+
+/* ---- After the run ---- */
+
+static int tell(const struct run *run, carom_status status, const char *path, const carom_error *error)
+{
+	if (status != CAROM_OK)
+		return report(error);
+	say(&run->options->common, "wrote %s", path);
+	return EXIT_DONE;
+}
+
+static int worse(int a, int b)
+{
+	return a == EXIT_DONE ? b : a;
+}
+
+int write_outputs(struct run *run)
+{
+	const struct run_options *options = run->options;
+	carom_error error;
+	int code = EXIT_DONE;
+	if (run->stats_file) {
+		code = tell(run, carom_file_commit(run->stats_file, &error), options->stats, &error);
+		run->stats_file = NULL;
+	}
+	if (run->frames_done > 0)
+		say(&options->common, "wrote %llu frames into %s", (unsigned long long)run->frames_done, options->frames);
+	if (options->png)
+		code = worse(code, tell(run, write_picture(run, options->png, &error), options->png, &error));
+	if (options->out) {
+		const carom_camera *camera = run->scene->has_camera ? &run->scene->camera : NULL;
+		code = worse(code, tell(run, carom_world_write_scene(run->world, camera, options->out, &error), options->out, &error));
+	}
+	return code;
+}
+
+void destroy_outputs(struct run *run)
+{
+	carom_file_destroy(run->stats_file);
+	free(run->pixels);
+}

@@ -1,0 +1,233 @@
+/* carom run: simulates a scene.
+ * SPDX-License-Identifier: MIT */
+#include "carom_run.h"
+
+#include <string.h>
+
+#define MAX_PICTURE_SIDE 16384u
+#define DEFAULT_TIME 1.0
+#define DEFAULT_FPS 30.0
+
+/* ---- Options ---- */
+
+static carom_status read_size(const char *text, void *target, carom_error *error)
+{
+	uint32_t *size = target;
+	unsigned width = 0, height = 0;
+	int length = 0;
+	bool digits = strspn(text, "0123456789x") == strlen(text) && strlen(text) <= 11; /* no sign, no space, no overflow */
+	if (!digits || sscanf(text, "%ux%u%n", &width, &height, &length) != 2 || text[length] || width < 1 || height < 1 ||
+		width > MAX_PICTURE_SIDE || height > MAX_PICTURE_SIDE)
+		return wrong(error, "found \"%s\"; allowed: WxH in pixels, each 1 to %u", text, MAX_PICTURE_SIDE);
+	size[0] = width;
+	size[1] = height;
+	return CAROM_OK;
+}
+
+static carom_status read_inset(const char *text, void *target, carom_error *error)
+{
+	struct run_options *options = target;
+	carom_inset *inset = &options->inset;
+	int length = 0;
+	if (sscanf(text, "%f,%f,%f,%f%n", &inset->min.x, &inset->min.y, &inset->size.x, &inset->size.y, &length) != 4 ||
+		text[length] || !(inset->size.x > 0) || !(inset->size.y > 0))
+		return wrong(error, "found \"%s\"; allowed: X,Y,W,H in metres, the lower left corner and a size above 0", text);
+	options->has_inset = true;
+	return CAROM_OK;
+}
+
+static carom_status read_time(const char *text, void *target, carom_error *error)
+{
+	double seconds = 0;
+	if (read_number(text, &seconds, error) != CAROM_OK || seconds < 0)
+		return wrong(error, "found \"%s\"; allowed: seconds, 0 or more", text);
+	*(double *)target = seconds;
+	return CAROM_OK;
+}
+
+static const struct option options_table[] = {
+	{"steps", "N", read_count, offsetof(struct run_options, steps), "run N steps"},
+	{"time", "SECONDS", read_time, offsetof(struct run_options, time),
+		"run so many seconds of simulated time; 1 if neither --steps nor --time is given"},
+	{"out", "STATE.json", read_text, offsetof(struct run_options, out),
+		"write the last state as a scene that goes on with the same bits"},
+	{"png", "FRAME.png", read_text, offsetof(struct run_options, png), "write a picture of the last state"},
+	{"frames", "DIR", read_text, offsetof(struct run_options, frames),
+		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing"},
+	{"fps", "F", read_positive, offsetof(struct run_options, fps), "frames for a simulated second; default 30"},
+	{"stats", "FILE.csv", read_text, offsetof(struct run_options, stats),
+		"write a table with a row a step: time, hits, energy, momenta, deepest penetration"},
+	{"hash", NULL, NULL, offsetof(struct run_options, hash), "print a 64-bit hash of the last state, 16 hexadecimal digits"},
+	{"size", "WxH", read_size, offsetof(struct run_options, size), "pixels of the pictures; default 1280x720"},
+	{"inset", "X,Y,W,H", read_inset, 0,
+		"draw the part of the scene with this lower left corner and size, in metres, again, enlarged, in a corner of the "
+		"pictures"},
+	{NULL, NULL, NULL, 0, NULL},
+};
+
+static carom_status check_options(struct run_options *options, carom_error *error)
+{
+	if (options->steps != NO_STEPS && options->time >= 0)
+		return wrong(error, "--steps and --time exclude each other; give one of them");
+	if (options->fps > 0 && !options->frames)
+		return wrong(error, "--fps needs --frames DIR");
+	if ((options->size[0] || options->has_inset) && !options->png && !options->frames)
+		return wrong(error, "%s needs a picture: --png or --frames", options->size[0] ? "--size" : "--inset");
+	if (options->steps == NO_STEPS && options->time < 0)
+		options->time = DEFAULT_TIME;
+	if (options->fps <= 0)
+		options->fps = DEFAULT_FPS;
+	return CAROM_OK;
+}
+
+/* ---- What is said ---- */
+
+static void say_scene(const struct common_options *options, const carom_scene *scene)
+{
+	char memory[32];
+	size_t vertices = 0;
+	for (size_t k = 0; k < scene->body_count; k++) {
+		const carom_body_def *body = &scene->bodies[k];
+		vertices += body->shape == CAROM_CIRCLE ? 1 : body->shape == CAROM_REGULAR ? body->sides : body->vertex_count;
+	}
+	format_bytes(carom_world_memory(&scene->world, scene->body_count, vertices), memory, sizeof memory);
+	say(options, "%s: %zu bodies, which take %s on the device", options->arguments[0], scene->body_count, memory);
+}
+
+static void say_device(const struct common_options *options, const carom_world *world)
+{
+	carom_device_info device;
+	if (carom_world_get_device(world, &device, NULL) != CAROM_OK)
+		return;
+	say(options, "runs on %s%s%s%s", device.platform, *device.platform ? ": " : "", device.name,
+		device.exact ? "" : ", which is not exact: other devices' results differ in the last bits");
+}
+
+/* Positions are centres of mass; a polygon given about another point is drawn elsewhere than its vertices say. */
+static void say_recentred(const struct common_options *options, const carom_world *world)
+{
+	size_t count = 0, first = 0;
+	carom_vec2 by = {0, 0};
+	for (size_t k = 0; k < carom_world_body_count(world); k++) {
+		carom_body_info body;
+		if (carom_world_get_body(world, (uint32_t)k, &body, NULL) != CAROM_OK)
+			return;
+		if (body.recentred_by.x == 0 && body.recentred_by.y == 0)
+			continue;
+		if (count++ == 0) {
+			first = k;
+			by = body.recentred_by;
+		}
+	}
+	if (count > 0)
+		say(options, "vertices recentred on the centre of mass in %zu %s, first bodies[%zu], where it was (%.9g, %.9g)", count,
+			count == 1 ? "body" : "bodies", first, (double)by.x, (double)by.y);
+}
+
+static void say_done(const struct run *run)
+{
+	const carom_report *total = &run->total;
+	say(&run->options->common, "%llu steps, %llu hits, %.6g s simulated in %.3g s (%.4g steps/s)",
+		(unsigned long long)total->steps, (unsigned long long)total->hits, total->advanced, run->seconds,
+		run->seconds > 0 ? (double)total->steps / run->seconds : 0.0);
+}
+
+/* ---- The run ---- */
+
+static int print_hash(struct run *run)
+{
+	carom_error error;
+	uint64_t hash;
+	if (carom_world_hash(run->world, &hash, &error) != CAROM_OK)
+		return report(&error);
+	printf("%016llx\n", (unsigned long long)hash);
+	return finish_output();
+}
+
+/* Whatever comes in between, the state reached is written: it may have taken hours. */
+static int run_world(struct run *run)
+{
+	carom_error error;
+	carom_status status = simulate(run, &error);
+	int code = EXIT_DONE;
+	say_done(run);
+	if (status != CAROM_OK)
+		code = report(&error);
+	if (run->interrupted) {
+		fprintf(stderr, "carom: interrupted after %llu steps\n", (unsigned long long)run->total.steps);
+		code = EXIT_FAILED;
+	}
+	if (code != EXIT_DONE && (run->options->out || run->options->png))
+		fprintf(
+			stderr, "carom: what is written shows the last good state, after %llu steps\n", (unsigned long long)run->total.steps);
+	int written = write_outputs(run);
+	if (code == EXIT_DONE)
+		code = written;
+	return code == EXIT_DONE && run->options->hash ? print_hash(run) : code;
+}
+
+static int run_scene(const struct run_options *options, carom_scene *scene)
+{
+	struct run run = {.options = options, .scene = scene};
+	const struct common_options *common = &options->common;
+	carom_error error;
+	int code;
+	carom_status status = apply_options(common, &scene->world, &error);
+	if (status == CAROM_OK)
+		status = prepare_outputs(&run, &error);
+	if (status == CAROM_OK) {
+		say_scene(common, scene);
+		status = carom_scene_create_world(scene, &run.world, &error);
+	}
+	if (status == CAROM_OK) {
+		say_device(common, run.world);
+		say_recentred(common, run.world);
+		code = run_world(&run);
+	} else {
+		code = report(&error);
+	}
+	destroy_outputs(&run);
+	carom_world_destroy(run.world);
+	return code;
+}
+
+static int run_main(int argc, char **argv)
+{
+	struct run_options options = {.steps = NO_STEPS, .time = -1};
+	carom_scene *scene = NULL;
+	carom_error error;
+	int code = parse_options(&run_command, argc, argv, &options.common);
+	if (code >= 0)
+		return code;
+	if (check_options(&options, &error) != CAROM_OK)
+		return report(&error);
+	const char *path = options.common.arguments[0];
+	if (strcmp(path, "-") == 0)
+		options.common.arguments[0] = path = "/dev/stdin";
+	if (carom_scene_read(path, &scene, &error) != CAROM_OK)
+		return report_input(&error);
+	code = run_scene(&options, scene);
+	carom_scene_destroy(scene);
+	return code;
+}
+
+const struct command run_command = {
+	.name = "run",
+	.arguments = "SCENE.json",
+	.least_arguments = 1,
+	.most_arguments = 1,
+	.summary = "Simulates a scene and writes states, pictures and tables",
+	.details =
+		"\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
+		"\nA step lasts the scene's time step at most; one of `first_impact` ends at the first hit, so --steps counts those, "
+		"and\n"
+		"--time counts simulated seconds. With --time, the step before the end or before a frame is cut short to end there; in "
+		"the\n"
+		"table such a row may hold several steps of `first_impact`. With --steps no step is cut short, and a frame shows the end "
+		"of\n"
+		"the step that its time falls into.\n"
+		"\nOutputs are written when the run ends, also when it is interrupted (SIGINT, SIGTERM) or a step fails: they then show\n"
+		"the last good state, and the exit code is 1. A file is whole or as it was before.\n",
+	.options = options_table,
+	.main = run_main,
+};

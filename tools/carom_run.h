@@ -1,0 +1,70 @@
+/* What the files of `carom run` share.
+ * SPDX-License-Identifier: MIT */
+#ifndef CAROM_RUN_H
+#define CAROM_RUN_H
+
+#include "carom_tool.h"
+
+struct run_options {
+	struct common_options common;
+	uint64_t steps;                         /* NO_STEPS if not given */
+	double time;                            /* s; below 0 if not given */
+	const char *out, *png, *stats, *frames; /* paths; NULL if not asked for */
+	double fps;                             /* 0 if not given */
+	bool hash;
+	uint32_t size[2]; /* pixels; 0 if not given */
+	bool has_inset;
+	carom_inset inset;
+};
+
+#define NO_STEPS UINT64_MAX
+
+/* The bar on a terminal. */
+struct progress {
+	bool shown; /* stderr is a terminal, and nobody said --quiet */
+	bool drawn;
+	double begun, last; /* wall_seconds */
+};
+
+struct run {
+	const struct run_options *options;
+	const carom_scene *scene;
+	carom_world *world;
+	carom_render_def render;
+	uint8_t *pixels;        /* NULL if no picture is asked for */
+	carom_file *stats_file; /* NULL if no table is asked for */
+	FILE *stats;
+	uint64_t frames_done;
+	uint64_t chunk; /* steps until the next look at the clock */
+	carom_report total;
+	bool interrupted;
+	double seconds; /* of wall time spent in steps and what belongs to them */
+	struct progress progress;
+};
+
+/* ---- carom_simulate.c */
+
+/* All the steps that were asked for, with their frames and rows. On failure or interruption `run` tells how far it came. */
+carom_status simulate(struct run *run, carom_error *error);
+
+/* ---- carom_output.c */
+
+/* Fails where an output could not be written in the end, before hours are spent on it, and opens the table. */
+carom_status prepare_outputs(struct run *run, carom_error *error);
+/* Simulated seconds at which the next frame is due; infinite if no frames are asked for. */
+double next_frame(const struct run *run);
+carom_status write_frame(struct run *run, carom_error *error);
+/* A row for the step just done. */
+carom_status write_row(struct run *run, const carom_report *step, carom_error *error);
+/* The last state, the picture, the table. Tries each even if one fails; the exit code. */
+int write_outputs(struct run *run);
+void destroy_outputs(struct run *run);
+
+/* ---- carom_progress.c */
+
+void begin_progress(struct progress *progress, bool quiet);
+/* Draws the bar if it is time to. `done` is the part done, 0..1. */
+void show_progress(struct progress *progress, double done, uint64_t steps, double simulated);
+void end_progress(struct progress *progress);
+
+#endif

@@ -1,0 +1,86 @@
+/* What the files of the carom command share. Of the library it sees carom.h alone, as any user does.
+ * SPDX-License-Identifier: MIT */
+#ifndef CAROM_TOOL_H
+#define CAROM_TOOL_H
+
+#include "carom.h"
+
+#if defined(__GNUC__)
+#define TOOL_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define TOOL_PRINTF(text, first)
+#endif
+
+enum {
+	EXIT_DONE = 0,
+	EXIT_FAILED = 1, /* the work failed: a device, a disk */
+	EXIT_WRONG = 2,  /* the call or the input was wrong */
+};
+
+#define MAX_ARGUMENTS 4
+#define MAX_SETS 32
+
+/* The options that every command takes, and what stands between the options. Every command's options begin with it. */
+struct common_options {
+	const char *device; /* NULL if not given */
+	carom_storage storage;
+	const char *sets[MAX_SETS]; /* "slot=alternative" */
+	size_t set_count;
+	bool quiet, help, version;
+	const char *arguments[MAX_ARGUMENTS];
+	size_t argument_count;
+};
+
+/* Reads an option's value into `target`, or says in `error` what was found and what is allowed. */
+typedef carom_status read_option(const char *text, void *target, carom_error *error);
+
+struct option {
+	const char *name;  /* without the dashes; NULL ends a table */
+	const char *value; /* what the help calls its value; NULL for a flag, whose target is a bool */
+	read_option *read; /* NULL for a flag */
+	size_t offset;     /* in the command's options */
+	const char *help;
+};
+
+struct command {
+	const char *name;
+	const char *arguments; /* for the help: "SCENE.json", or "" */
+	size_t least_arguments, most_arguments;
+	const char *summary; /* a line */
+	const char *details; /* paragraphs for the help */
+	const struct option *options;
+	int (*main)(int argc, char **argv); /* the exit code; argv[0] is the command's name */
+};
+
+extern const struct command run_command, generate_command, devices_command, stages_command;
+
+/* ---- carom_options.c */
+
+/* Fills in *options, whose defaults are set. Answers -1 to go on, else the exit code: help was given, or the call is wrong. */
+int parse_options(const struct command *command, int argc, char **argv, struct common_options *options);
+void print_command_help(const struct command *command);
+read_option read_text;     /* into a const char * */
+read_option read_count;    /* into a uint64_t */
+read_option read_number;   /* into a double, finite */
+read_option read_positive; /* into a double, above 0 */
+/* What the common options say of the world. */
+carom_status apply_options(const struct common_options *options, carom_world_def *world, carom_error *error);
+
+/* ---- carom_report.c */
+
+/* Fills in *error; answers CAROM_INVALID_ARGUMENT. */
+carom_status wrong(carom_error *error, const char *format, ...) TOOL_PRINTF(2, 3);
+/* "carom: ..." on stderr, then the build log if there is one; answers the exit code for it. */
+int report(const carom_error *error);
+/* The same for a file that was to be read: what can't be read is wrong input. */
+int report_input(const carom_error *error);
+/* A line on stderr, "carom: ...", unless --quiet. */
+void say(const struct common_options *options, const char *format, ...) TOOL_PRINTF(2, 3);
+/* Flushes stdout; EXIT_FAILED, and says so, if what was printed did not get through. */
+int finish_output(void);
+/* "1.5 MiB" */
+const char *format_bytes(uint64_t bytes, char *text, size_t size);
+/* s, from any beginning, never going back */
+double wall_seconds(void);
+
+#endif
