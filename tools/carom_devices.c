@@ -59,9 +59,9 @@ const struct command devices_command = {
 	.name = "devices",
 	.arguments = "",
 	.summary = "Lists what OpenCL offers here, what Carom can do with each, and the default",
-	.details = "\nEach device by platform and name: parts of either are what --device takes. The CPU fallback is always there.\n"
-			   "The default is what --device auto takes: the fastest device that works. Every device is listed, whatever "
-			   "--device says.\n",
+	.details = "\nEach device by platform and name: parts of either are what --device takes. The CPU fallback is\n"
+			   "always there. The default is what --device auto takes: the fastest device that works. Every device\n"
+			   "is listed, whatever --device says.\n",
 	.options = options_table,
 	.main = devices_main,
 };

@@ -142,11 +142,10 @@ const struct command generate_command = {
 	.name = "generate",
 	.arguments = "",
 	.summary = "Writes a scene of many moving bodies in a square room",
-	.details = "\nThe bodies stand in random order, so that neighbours in the file are none in the room; no two touch, and none "
-			   "touches a\n"
-			   "wall. --shape and --count must be given. How full a room can be depends on the shape: the circles around the "
-			   "bodies must\n"
-			   "not touch either, which for many bodies allows a fill of about 0.88 with circles and 0.36 with triangles.\n",
+	.details = "\nThe bodies stand in random order, so that neighbours in the file are none in the room; no two touch,\n"
+			   "and none touches a wall. --shape and --count must be given. How full a room can be depends on the\n"
+			   "shape: the circles around the bodies must not touch either, which for many bodies allows a fill of\n"
+			   "about 0.88 with circles and 0.36 with triangles.\n",
 	.options = options_table,
 	.main = generate_main,
 };

@@ -217,17 +217,14 @@ const struct command run_command = {
 	.least_arguments = 1,
 	.most_arguments = 1,
 	.summary = "Simulates a scene and writes states, pictures and tables",
-	.details =
-		"\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
-		"\nA step lasts the scene's time step at most; one of `first_impact` ends at the first hit, so --steps counts those, "
-		"and\n"
-		"--time counts simulated seconds. With --time, the step before the end or before a frame is cut short to end there; in "
-		"the\n"
-		"table such a row may hold several steps of `first_impact`. With --steps no step is cut short, and a frame shows the end "
-		"of\n"
-		"the step that its time falls into.\n"
-		"\nOutputs are written when the run ends, also when it is interrupted (SIGINT, SIGTERM) or a step fails: they then show\n"
-		"the last good state, and the exit code is 1. A file is whole or as it was before.\n",
+	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
+			   "\nA step lasts the scene's time step at most; one of `first_impact` ends at the first hit, so --steps\n"
+			   "counts those, and --time counts simulated seconds. With --time, the step before the end or before a\n"
+			   "frame is cut short to end there; in the table such a row may hold several steps of `first_impact`.\n"
+			   "With --steps no step is cut short, and a frame shows the end of the step that its time falls into.\n"
+			   "\nOutputs are written when the run ends, also when it is interrupted (SIGINT, SIGTERM) or a step\n"
+			   "fails: they then show the last good state, and the exit code is 1. A file is whole or as it was\n"
+			   "before.\n",
 	.options = options_table,
 	.main = run_main,
 };

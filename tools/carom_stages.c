@@ -28,9 +28,8 @@ const struct command stages_command = {
 	.name = "stages",
 	.arguments = "",
 	.summary = "Lists every slot of the pipeline, its alternatives and the devices that have them",
-	.details = "\nAn alternative is chosen by --set SLOT=NAME, or in the \"pipeline\" of a scene. Slots are listed in the order "
-			   "in which a\n"
-			   "step runs them.\n",
+	.details = "\nAn alternative is chosen by --set SLOT=NAME, or in the \"pipeline\" of a scene. Slots are listed in\n"
+			   "the order in which a step runs them.\n",
 	.options = options_table,
 	.main = stages_main,
 };
