@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define MAX_SIDE 16384
 #define FIT_MARGIN 1.06    /* the height that a default camera shows for each metre it must show */
@@ -343,12 +344,6 @@ static carom_status read_scene(carom_world *world, scene *s, carom_error *error)
 	return carom_world_get_states(world, 0, s->count, s->states, error);
 }
 
-static void clear_pixels(uint8_t *pixels, size_t count)
-{
-	for (size_t k = 0; k < 4 * count; k++)
-		pixels[k] = 255;
-}
-
 carom_status carom_world_render(carom_world *world, const carom_render_def *def, uint8_t *pixels, carom_error *error)
 {
 	carom_draw_list list = {0};
@@ -367,7 +362,7 @@ carom_status carom_world_render(carom_world *world, const carom_render_def *def,
 	if (status == CAROM_OK && list.out_of_memory)
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to draw %zu bodies", s.count);
 	if (status == CAROM_OK) {
-		clear_pixels(pixels, (size_t)def->width * def->height);
+		memset(pixels, 255, (size_t)def->width * def->height * 4);
 		carom_raster(&list, pixels, def->width);
 	}
 	carom_draw_list_free(&list);
