@@ -36,6 +36,8 @@ void show_progress(struct progress *progress, double done, uint64_t steps, doubl
 	double now = wall_seconds(), elapsed = now - progress->begun;
 	if (!progress->shown || now - progress->last < INTERVAL)
 		return;
+	if (done > 1)
+		done = 1;
 	double rest = done > 0 ? elapsed * (1 - done) / done : 1e9;
 	int filled = (int)(done * BAR);
 	fprintf(stderr, "\r[%.*s%.*s] %3.0f%%  %llu steps  %.4g s  %.3g steps/s  %s left\033[K", filled, "########################",

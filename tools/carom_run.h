@@ -35,7 +35,6 @@ struct run {
 	carom_file *stats_file; /* NULL if no table is asked for */
 	FILE *stats;
 	uint64_t frames_done;
-	uint64_t chunk; /* steps until the next look at the clock */
 	carom_report total;
 	bool interrupted;
 	double seconds; /* of wall time spent in steps and what belongs to them */
