@@ -213,6 +213,7 @@ typedef struct carom_world_def {
 	                          environment's CAROM_DEVICE, else auto */
 	carom_storage storage; /* default CAROM_STORAGE_AUTO */
 	uint32_t threads;      /* of the CPU fallback; 0 (the default) for one a core */
+	bool profile;          /* measure each kernel, for carom_world_profile; default false, since it takes time itself */
 } carom_world_def;
 
 typedef struct carom_world carom_world;
@@ -267,6 +268,17 @@ CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
 /* Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes on its device. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
+
+/* What a kernel took since the world was created: by OpenCL's profiling events, or the wall clock on the CPU fallback. */
+typedef struct carom_kernel_time {
+	const char *kernel; /* "toi_first", ... */
+	double seconds;
+	uint64_t launches;
+} carom_kernel_time;
+
+/* Fills in the index-th kernel's (from 0, in the order of a step); false past the last, or where the world's def has no
+ * `profile`. */
+CAROM_API bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *time);
 
 /* What is measured of a state, in double precision on the host. Static bodies do not count. */
 typedef struct carom_measure {

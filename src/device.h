@@ -36,12 +36,15 @@ typedef struct carom_device_class {
 		carom_error *error);
 	/* Hands all that was run to the device, without waiting. */
 	carom_status (*flush)(carom_device *device, carom_error *error);
+	/* Brings device->times up to date, after waiting. */
+	void (*profile)(carom_device *device);
 } carom_device_class;
 
 struct carom_device {
 	const carom_device_class *kind;
 	carom_device_info info;
 	carom_storage storage; /* what it really uses; BUFFER for the CPU */
+	carom_kernel_time times[STAGE_COUNT]; /* where the def asked for a profile */
 };
 
 typedef struct carom_device_def {
@@ -49,6 +52,7 @@ typedef struct carom_device_def {
 	carom_storage storage;
 	uint32_t threads;       /* of the CPU device, 0 for one a core */
 	carom_pipeline pipeline; /* resolved */
+	bool profile;
 } carom_device_def;
 
 /* Opens the device of that name: CAROM_UNKNOWN_NAME lists what there is. */

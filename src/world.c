@@ -65,7 +65,7 @@ static const carom_step *step_named(const char *name)
 
 carom_status carom_world_create(const carom_world_def *def, carom_world **world, carom_error *error)
 {
-	carom_device_def device_def = {.name = def->device, .storage = def->storage, .threads = def->threads};
+	carom_device_def device_def = {.name = def->device, .storage = def->storage, .threads = def->threads, .profile = def->profile};
 	carom_world *w;
 	carom_status status = check_def(def, error);
 	if (status)
@@ -215,6 +215,16 @@ void carom_world_set_progress(carom_world *world, carom_progress progress, void 
 {
 	world->progress = progress;
 	world->progress_context = context;
+}
+
+bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *time)
+{
+	if (!world->def.profile || index >= STAGE_COUNT)
+		return false;
+	world->device->kind->profile(world->device);
+	*time = world->device->times[index];
+	time->kernel = carom_stages[index].kernel;
+	return true;
 }
 
 static carom_status check_range(const carom_world *world, uint32_t first, size_t count, carom_error *error)

@@ -13,7 +13,7 @@
 	X(clGetProgramBuildInfo) X(clReleaseProgram) X(clCreateKernel) X(clReleaseKernel) X(clSetKernelArg)                   \
 	X(clCreateBuffer) X(clCreateImage) X(clReleaseMemObject) X(clEnqueueFillBuffer) X(clEnqueueFillImage)                 \
 	X(clEnqueueWriteBuffer) X(clEnqueueReadBuffer) X(clEnqueueWriteImage) X(clEnqueueReadImage)                           \
-	X(clEnqueueNDRangeKernel) X(clFlush) X(clFinish)
+	X(clEnqueueNDRangeKernel) X(clFlush) X(clFinish) X(clGetEventProfilingInfo) X(clReleaseEvent)
 
 typedef struct carom_cl_api {
 #define CAROM_CL_MEMBER(name) __typeof__(&name) name;

@@ -7,6 +7,8 @@
 #include "cl/api.h"
 #include "status.h"
 
+#define MAX_PENDING 1024
+
 /* The last argument set, to spare the calls that would change nothing. */
 typedef struct bound_kernel {
 	cl_kernel kernel; /* NULL where the alternative has none */
@@ -20,6 +22,10 @@ typedef struct cl_device {
 	cl_command_queue queue;
 	cl_program program;
 	bound_kernel kernels[STAGE_COUNT];
+	bool profile;
+	size_t pending; /* launches whose times are not read yet */
+	cl_event events[MAX_PENDING];
+	carom_stage event_stages[MAX_PENDING];
 } cl_device;
 
 struct carom_texture {
@@ -168,6 +174,34 @@ static size_t local_size(carom_stage stage)
 	return stage == STAGE_FIRST || stage == STAGE_IMPULSE ? 1 : 64;
 }
 
+/* Adds up what the launches so far took, and forgets them. */
+static void read_profile(carom_device *device)
+{
+	cl_device *d = of(device);
+	d->cl.clFinish(d->queue);
+	for (size_t i = 0; i < d->pending; i++) {
+		carom_kernel_time *time = &device->times[d->event_stages[i]];
+		cl_ulong start = 0, end = 0;
+		d->cl.clGetEventProfilingInfo(d->events[i], CL_PROFILING_COMMAND_START, sizeof start, &start, NULL);
+		d->cl.clGetEventProfilingInfo(d->events[i], CL_PROFILING_COMMAND_END, sizeof end, &end, NULL);
+		d->cl.clReleaseEvent(d->events[i]);
+		time->seconds += 1e-9 * (double)(end - start);
+		time->launches++;
+	}
+	d->pending = 0;
+}
+
+/* Where the next launch's event goes; NULL where nothing is measured. */
+static cl_event *next_event(cl_device *d, carom_stage stage)
+{
+	if (!d->profile)
+		return NULL;
+	if (d->pending == MAX_PENDING)
+		read_profile(&d->base);
+	d->event_stages[d->pending] = stage;
+	return &d->events[d->pending];
+}
+
 static carom_status run_stage(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
 {
 	cl_device *d = of(device);
@@ -176,11 +210,14 @@ static carom_status run_stage(carom_device *device, carom_stage stage, carom_tex
 	size_t global[2] = {((size_t)domain[0] + local[0] - 1) / local[0] * local[0], domain[1] > 1 ? (size_t)domain[1] : 1};
 	cl_int4 size = {{domain[0], domain[1], domain[2], domain[3]}};
 	cl_uint next = 0;
+	cl_event *event = next_event(d, stage);
 	cl_int code = bind_textures(d, stage, textures, &next);
 	if (!code)
 		code = d->cl.clSetKernelArg(kernel, next, sizeof size, &size);
 	if (!code)
-		code = d->cl.clEnqueueNDRangeKernel(d->queue, kernel, 2, NULL, global, local, 0, NULL, NULL);
+		code = d->cl.clEnqueueNDRangeKernel(d->queue, kernel, 2, NULL, global, local, 0, NULL, event);
+	if (!code && event)
+		d->pending++;
 	return code ? device_fail(d, error, code, carom_stages[stage].kernel) : CAROM_OK;
 }
 
@@ -193,6 +230,8 @@ static carom_status flush(carom_device *device, carom_error *error)
 static void close_device(carom_device *device)
 {
 	cl_device *d = of(device);
+	for (size_t i = 0; i < d->pending; i++)
+		d->cl.clReleaseEvent(d->events[i]);
 	for (int i = 0; i < STAGE_COUNT; i++)
 		if (d->kernels[i].kernel)
 			d->cl.clReleaseKernel(d->kernels[i].kernel);
@@ -205,7 +244,7 @@ static void close_device(carom_device *device)
 	free(d);
 }
 
-static const carom_device_class cl_class = {close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush};
+static const carom_device_class cl_class = {close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush, read_profile};
 
 static carom_status create_kernels(cl_device *d, carom_error *error)
 {
@@ -238,7 +277,7 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 	d->context = d->cl.clCreateContext(properties, 1, &found->device, NULL, NULL, &code);
 	if (code)
 		return device_fail(d, error, code, "no context can be made");
-	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, 0, &code);
+	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, def->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
 	if (code)
 		return device_fail(d, error, code, "no queue can be made");
 	status = carom_cl_build(&d->cl, d->context, found->device, &def->pipeline, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact,
@@ -277,6 +316,7 @@ carom_status carom_cl_open(const carom_device_def *def, const carom_device_info 
 	}
 	d->base.kind = &cl_class;
 	d->base.info = mine->info;
+	d->profile = def->profile;
 	status = set_up(d, def, mine, error);
 end:
 	free(found);
