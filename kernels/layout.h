@@ -82,11 +82,18 @@
 #define AABB_MAX_X 2
 #define AABB_MAX_Y 3
 
-/* Overlap [2.1]: one byte a pair, four columns a texel, so that the format is one that every device has. Bits: */
+/* Overlap [2.1]: one byte a pair, 1 if the AABBs overlap; four columns a texel, so that the format is one that every
+ * device has. Ping-pong: the back keeps the step before. */
 #define OVERLAP_COLUMNS 4
-#define OVERLAP_NOW 1    /* the AABBs overlap */
-#define OVERLAP_BEFORE 2 /* they did a step ago: HitTimes holds something old there */
-#define OVERLAP_TILE 4   /* rows that one work-item of the overlap slot does */
+
+/* Tiles: one texel a tile of TILE x TILE pairs, ping-pong. A tile where nothing overlaps costs no more than this texel:
+ * its pairs in HitTimes say NO_HIT from earlier steps. First byte, bits: */
+#define TILE 8
+#define TILE_COLUMNS (TILE / OVERLAP_COLUMNS) /* texels of Overlap in a tile's row */
+#define TILES_NOW 1         /* a pair overlaps in this step */
+#define TILES_BEFORE 2      /* one did in the step before: HitTimes holds something old */
+#define TILES_LONG_BEFORE 4 /* one did two steps ago: so does the Overlap that is overwritten */
+#define OVERLAP_GROUP 4     /* tiles, one above the other, that a work-item of the overlap slot does */
 
 /* HitTimes [2.1], row i, column j < i; what is not written in a step is NO_HIT from the steps before */
 #define HITTIMES_MIN 0  /* the interval that encloses the hit */
@@ -95,7 +102,8 @@
 #define HITTIMES_HIT 3  /* part of the step, in [0, 1], or NO_HIT */
 #define NO_HIT 2.0f
 
-/* Reduced [2.2], each level half the size of the one before, the last one texel */
+/* TileHits: the first hit of each tile; Reduced [2.2]: its levels, each a half (tiled: a TILE-th) of the one before, the
+ * last one texel. Both: */
 #define REDUCED_HIT 0 /* the least HITTIMES_HIT below, and where it is */
 #define REDUCED_ROW 1
 #define REDUCED_COLUMN 2

@@ -1,11 +1,22 @@
 /* What all alternatives of the reduce slot share [2.2]: a texel holds the least hit time below it and where it is. Of
  * equal times the one of the lower row, then of the lower column, is the less, so that every order gives the same. */
 
+float4 candidate_none(void)
+{
+	return (float4)(NO_HIT, 0.0f, 0.0f, 1.0f);
+}
+
+/* A texel of HitTimes and where it stands. */
+float4 candidate(float4 hit, int x, int y)
+{
+	return (float4)(CHANNEL(hit, HITTIMES_HIT), (float)y, (float)x, CHANNEL(hit, HITTIMES_DONE));
+}
+
 /* The texel (row y, column x) of the texture to reduce: HitTimes in pass 0, the level before in the others. */
 float4 reduced_load(TEX_IN(source), int x, int y, int pass)
 {
 	float4 texel = TEX_LOAD(source, x, y);
-	return pass > 0 ? texel : (float4)(CHANNEL(texel, HITTIMES_HIT), (float)y, (float)x, CHANNEL(texel, HITTIMES_DONE));
+	return pass > 0 ? texel : candidate(texel, x, y);
 }
 
 float4 earlier(float4 a, float4 b)

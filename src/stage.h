@@ -19,8 +19,11 @@ typedef enum carom_role {
 	ROLE_UNIFORMS,   /* UNIFORMS_WIDTH x 1 */
 	ROLE_CLOCK,      /* pair, CLOCK_WIDTH x 1 */
 	ROLE_AABB,       /* one texel a body */
+	ROLE_TILES,      /* pair of bytes, N / TILE x N / TILE */
 	ROLE_OVERLAP,    /* pair of bytes, N / OVERLAP_COLUMNS x N */
+	ROLE_OVERLAP_BEFORE, /* the back of Overlap, to read */
 	ROLE_HIT_TIMES,  /* N x N; a pair where toi takes several passes */
+	ROLE_TILE_HITS,  /* N / TILE x N / TILE */
 	ROLE_WALLS,      /* one texel WALLS_GROUP bodies */
 	ROLE_REDUCED,    /* pair: the level before and the level to make */
 	ROLE_IMPULSE,    /* 1 x 1 */
@@ -29,11 +32,12 @@ typedef enum carom_role {
 
 typedef enum carom_stage {
 	STAGE_AABB,         /* domain: (bodies) */
-	STAGE_OVERLAP,      /* (columns of four, tiles of OVERLAP_TILE rows, bodies) */
-	STAGE_TOI_FIRST,    /* (columns of four, rows) */
+	STAGE_OVERLAP,      /* (tile columns, groups of OVERLAP_GROUP tile rows, bodies) */
+	STAGE_TOI_FIRST,    /* (tile columns, tile rows, bodies) */
 	STAGE_TOI_NEXT,     /* the same; only some alternatives have it */
 	STAGE_WALLS,        /* (groups, 1, bodies) */
-	STAGE_REDUCE,       /* (m, m, pass) */
+	STAGE_REDUCE,       /* (m, m, pass): from HitTimes on */
+	STAGE_REDUCE_TILES, /* (m, m, live size of the source): from TileHits on; an alternative has either this or STAGE_REDUCE */
 	STAGE_FIRST,        /* (1, 1, bodies, groups; 0 groups where there is no room) */
 	STAGE_IMPULSE,      /* (1) */
 	STAGE_NO_COLLISION, /* (bodies) */
@@ -41,7 +45,7 @@ typedef enum carom_stage {
 	STAGE_COUNT
 } carom_stage;
 
-#define CAROM_MAX_TEXTURES 10
+#define CAROM_MAX_TEXTURES 14
 
 typedef struct carom_stage_def {
 	const char *slot;

@@ -18,7 +18,7 @@ uint32_t carom_row_count(uint32_t items)
 
 uint32_t carom_capacity(size_t items)
 {
-	uint32_t capacity = 4;
+	uint32_t capacity = TILE;
 	while (capacity < items)
 		capacity *= 2;
 	return capacity;
@@ -36,7 +36,7 @@ static void destroy_pair(carom_world *world, carom_role role)
 carom_status carom_textures_create(carom_world *world, carom_role role, bool pair, uint32_t width, uint32_t height, const float fill[4],
 	carom_error *error)
 {
-	carom_texel_format format = role == ROLE_OVERLAP ? TEXELS_BYTE : TEXELS_FLOAT;
+	carom_texel_format format = role == ROLE_OVERLAP || role == ROLE_TILES ? TEXELS_BYTE : TEXELS_FLOAT;
 	carom_pair *textures = &world->textures[role];
 	carom_status status = world->device->kind->create(world->device, format, width, height, fill, &textures->front, error);
 	if (!status && pair)
@@ -48,8 +48,8 @@ carom_status carom_textures_create(carom_world *world, carom_role role, bool pai
 
 void carom_textures_destroy(carom_world *world)
 {
-	/* Reduced names levels of the pyramid and owns none */
-	world->textures[ROLE_REDUCED] = (carom_pair){NULL, NULL};
+	/* these two name textures of other roles, and own none */
+	world->textures[ROLE_REDUCED] = world->textures[ROLE_OVERLAP_BEFORE] = (carom_pair){NULL, NULL};
 	for (int role = 0; role < ROLE_COUNT; role++)
 		destroy_pair(world, (carom_role)role);
 	for (int i = 0; i < CAROM_MAX_LEVELS; i++) {

@@ -69,7 +69,7 @@ carom_body *carom_world_bodies(const carom_world *world);
 /* textures.c: texels of a texture of one texel an item, folded into rows */
 uint32_t carom_row_width(uint32_t items);
 uint32_t carom_row_count(uint32_t items);
-uint32_t carom_capacity(size_t items); /* the power of two that holds them, at least 4 */
+uint32_t carom_capacity(size_t items); /* the power of two that holds them, at least TILE */
 carom_status carom_textures_create(carom_world *world, carom_role role, bool pair, uint32_t width, uint32_t height, const float fill[4],
 	carom_error *error);
 void carom_textures_destroy(carom_world *world);

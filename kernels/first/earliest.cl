@@ -27,7 +27,8 @@ __kernel void first(TEX_IN(reduced), TEX_IN(walls), TEX_IN(uniforms), TEX_IN(clo
 		time = (float4)(elapsed.x, elapsed.y, remaining.x, remaining.y);
 		counts = (float4)(CHANNEL(counts, COUNTS_STEPS) + 1.0f, CHANNEL(counts, COUNTS_HITS) + (resolved ? 1.0f : 0.0f), 0.0f, 0.0f);
 	} else {
-		hit = (float4)(NO_HIT, 0.0f, 0.0f, 1.0f);
+		float4 last = TEX_LOAD(clock, CLOCK_HIT, 0); /* who it was that stalled */
+		hit = (float4)(NO_HIT, CHANNEL(last, HIT_ROW), CHANNEL(last, HIT_COLUMN), 1.0f);
 		step = (float4)(0.0f, 0.0f, stalled, CHANNEL(step, STEP_ENDED));
 	}
 	TEX_STORE(now, CLOCK_HIT, 0, hit);

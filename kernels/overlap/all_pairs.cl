@@ -1,30 +1,61 @@
-/* OverlapAABB [2.1]: every pair of the lower triangle; a work-item does a tile of 4 x 4 pairs. */
+/* OverlapAABB [2.1]: every pair of the lower triangle, eight columns at once; a work-item does a few tiles. */
 
-uint overlap_bits(float4 a, float4 b, bool pair, uint before)
+/* Eight columns' boxes. */
+typedef struct boxes {
+	float8 min_x, min_y, max_x, max_y;
+	int8 index;
+} boxes;
+
+boxes boxes_load(TEX_IN(aabb), int j)
 {
-	bool apart = CHANNEL(a, AABB_MAX_X) < CHANNEL(b, AABB_MIN_X) || CHANNEL(b, AABB_MAX_X) < CHANNEL(a, AABB_MIN_X)
-		|| CHANNEL(a, AABB_MAX_Y) < CHANNEL(b, AABB_MIN_Y) || CHANNEL(b, AABB_MAX_Y) < CHANNEL(a, AABB_MIN_Y);
-	uint old = (before & OVERLAP_NOW) ? OVERLAP_BEFORE : 0u;
-	return pair && !apart ? (old | OVERLAP_NOW) : old;
+	boxes b;
+	float4 t[TILE];
+	for (int k = 0; k < TILE; k++)
+		t[k] = ROW_LOAD(aabb, j + k);
+	b.index = (int8)(j, j + 1, j + 2, j + 3, j + 4, j + 5, j + 6, j + 7);
+#define EIGHT(channel)                                                                                                          \
+	(float8)(CHANNEL(t[0], channel), CHANNEL(t[1], channel), CHANNEL(t[2], channel), CHANNEL(t[3], channel),                     \
+		CHANNEL(t[4], channel), CHANNEL(t[5], channel), CHANNEL(t[6], channel), CHANNEL(t[7], channel))
+	b.min_x = EIGHT(AABB_MIN_X);
+	b.min_y = EIGHT(AABB_MIN_Y);
+	b.max_x = EIGHT(AABB_MAX_X);
+	b.max_y = EIGHT(AABB_MAX_Y);
+#undef EIGHT
+	return b;
 }
 
-__kernel void overlap(TEX_IN(aabb), BYTES_IN(before), BYTES_OUT(now), int4 domain)
+/* -1 in the columns whose boxes overlap that of row i, 0 in the others and from the diagonal on */
+int8 overlaps(TEX_IN(aabb), boxes b, int i)
 {
-	int count = domain.z, column = get_global_id(0), tile = get_global_id(1);
-	int j = column * OVERLAP_COLUMNS;
-	if (column >= domain.x || tile >= domain.y || column > tile)
+	float4 a = ROW_LOAD(aabb, i);
+	return (b.index < i) & (b.min_x <= CHANNEL(a, AABB_MAX_X)) & (b.max_x >= CHANNEL(a, AABB_MIN_X))
+		& (b.min_y <= CHANNEL(a, AABB_MAX_Y)) & (b.max_y >= CHANNEL(a, AABB_MIN_Y));
+}
+
+void overlap_store(TEX_IN(aabb), BYTES_OUT(now), boxes b, int column, int i)
+{
+	uint8 bits = as_uint8(overlaps(TEX(aabb), b, i)) & 1u;
+	BYTES_STORE(now, TILE_COLUMNS * column, i, bits.lo);
+	BYTES_STORE(now, TILE_COLUMNS * column + 1, i, bits.hi);
+}
+
+__kernel void overlap(TEX_IN(aabb), BYTES_IN(before), BYTES_OUT(now), BYTES_OUT(tiles), int4 domain)
+{
+	int column = get_global_id(0), first = get_global_id(1) * OVERLAP_GROUP, last = min(first + OVERLAP_GROUP, domain.x);
+	if (column >= domain.x || column >= last)
 		return;
-	float4 b0 = ROW_LOAD(aabb, j), b1 = ROW_LOAD(aabb, j + 1), b2 = ROW_LOAD(aabb, j + 2), b3 = ROW_LOAD(aabb, j + 3);
-	for (int row = 0; row < OVERLAP_TILE; row++) {
-		int i = tile * OVERLAP_TILE + row;
-		if (i >= count)
-			return;
-		float4 a = ROW_LOAD(aabb, i);
-		uint4 old = BYTES_LOAD(before, column, i), new;
-		new.x = overlap_bits(a, b0, j < i, old.x);
-		new.y = overlap_bits(a, b1, j + 1 < i, old.y);
-		new.z = overlap_bits(a, b2, j + 2 < i, old.z);
-		new.w = overlap_bits(a, b3, j + 3 < i, old.w);
-		BYTES_STORE(now, column, i, new);
+	boxes b = boxes_load(TEX(aabb), column * TILE);
+	for (int row = max(first, column); row < last; row++) {
+		int8 any_row = (int8)(0);
+		int end = min((row + 1) * TILE, domain.z);
+		for (int i = row * TILE; i < end; i++)
+			any_row |= overlaps(TEX(aabb), b, i);
+		uint old = BYTES_LOAD(before, column, row).x;
+		uint state = (any(any_row) ? TILES_NOW : 0u) | ((old & TILES_NOW) ? TILES_BEFORE : 0u) | ((old & TILES_BEFORE) ? TILES_LONG_BEFORE : 0u);
+		BYTES_STORE(tiles, column, row, (uint4)(state, 0u, 0u, 0u));
+		if (!(state & (TILES_NOW | TILES_LONG_BEFORE)))
+			continue;
+		for (int i = row * TILE; i < end; i++)
+			overlap_store(TEX(aabb), TEX(now), b, column, i);
 	}
 }

@@ -64,21 +64,31 @@ float4 pair_next(STATE_IN, TEX_IN(vertices), float4 hit, int i, int j, float len
 		CHANNEL(hit, HITTIMES_MAX), TEX_LOAD(uniforms, UNIFORMS_RULES, 0));
 }
 
-__kernel void toi_next(STATE_IN, TEX_IN(vertices), TEX_IN(clock), BYTES_IN(overlap), TEX_IN(before), TEX_OUT(hits), int4 domain)
+__kernel void toi_next(STATE_IN, TEX_IN(vertices), TEX_IN(clock), BYTES_IN(tiles), BYTES_IN(overlap), BYTES_IN(before), TEX_IN(old_hits),
+	TEX_OUT(hits), TEX_OUT(tile_hits), int4 domain)
 {
-	int column = get_global_id(0), i = get_global_id(1), j = column * OVERLAP_COLUMNS;
-	if (column >= domain.x || i >= domain.y || j >= i)
+	int column = get_global_id(0), row = get_global_id(1);
+	if (column >= domain.x || row >= domain.y || column > row)
 		return;
-	uint4 bits = BYTES_LOAD(overlap, column, i);
-	if (!(bits.x | bits.y | bits.z | bits.w))
+	uint state = BYTES_LOAD(tiles, column, row).x;
+	if (!(state & (TILES_NOW | TILES_BEFORE)))
 		return;
 	float length = step_length(TEX(uniforms), TEX(clock));
-	if (bits.x)
-		TEX_STORE(hits, j, i, pair_next(STATE, TEX(vertices), TEX_LOAD(before, j, i), i, j, length));
-	if (bits.y)
-		TEX_STORE(hits, j + 1, i, pair_next(STATE, TEX(vertices), TEX_LOAD(before, j + 1, i), i, j + 1, length));
-	if (bits.z)
-		TEX_STORE(hits, j + 2, i, pair_next(STATE, TEX(vertices), TEX_LOAD(before, j + 2, i), i, j + 2, length));
-	if (bits.w)
-		TEX_STORE(hits, j + 3, i, pair_next(STATE, TEX(vertices), TEX_LOAD(before, j + 3, i), i, j + 3, length));
+	float4 first = candidate_none();
+	int end = min((row + 1) * TILE, domain.z);
+	for (int i = row * TILE; i < end; i++) {
+		for (int four = TILE_COLUMNS * column; four < TILE_COLUMNS * (column + 1); four++) {
+			uint4 old = overlap_load(TEX(before), (state & TILES_BEFORE) != 0, four, i)
+				| overlap_load(TEX(overlap), (state & TILES_NOW) != 0, four, i);
+			for (int k = 0; k < OVERLAP_COLUMNS; k++) {
+				int j = four * OVERLAP_COLUMNS + k;
+				if (!byte_of(old, k))
+					continue;
+				float4 hit = pair_next(STATE, TEX(vertices), TEX_LOAD(old_hits, j, i), i, j, length);
+				TEX_STORE(hits, j, i, hit);
+				first = earlier(first, candidate(hit, j, i));
+			}
+		}
+	}
+	TEX_STORE(tile_hits, column, row, first);
 }

@@ -26,33 +26,42 @@ static int extra_passes(const carom_pipeline *pipeline, const carom_world_def *d
 	return (halvings + (int)def->iterations - 1) / (int)def->iterations - 1;
 }
 
+static int32_t tiles_of(int32_t count)
+{
+	return (count + TILE - 1) / TILE;
+}
+
 /* Collision detection [2.1]. */
 static carom_status detect(carom_world *world, int32_t count, carom_error *error)
 {
-	const int32_t columns = (count + OVERLAP_COLUMNS - 1) / OVERLAP_COLUMNS, tiles = (count + OVERLAP_TILE - 1) / OVERLAP_TILE;
+	const int32_t tiles = tiles_of(count), groups = (tiles + OVERLAP_GROUP - 1) / OVERLAP_GROUP;
 	TRY(carom_run(world, STAGE_AABB, count, 1, 0, 0, error));
-	TRY(carom_run(world, STAGE_OVERLAP, columns, tiles, count, 0, error));
+	TRY(carom_run(world, STAGE_OVERLAP, tiles, groups, count, 0, error));
 	carom_swap(world, ROLE_OVERLAP);
-	TRY(carom_run(world, STAGE_TOI_FIRST, columns, count, 0, 0, error));
+	carom_swap(world, ROLE_TILES);
+	world->textures[ROLE_OVERLAP_BEFORE].front = world->textures[ROLE_OVERLAP].back;
+	TRY(carom_run(world, STAGE_TOI_FIRST, tiles, tiles, count, 0, error));
 	carom_swap(world, ROLE_HIT_TIMES);
 	for (int pass = extra_passes(&world->pipeline, &world->def); pass > 0; pass--) {
-		TRY(carom_run(world, STAGE_TOI_NEXT, columns, count, 0, 0, error));
+		TRY(carom_run(world, STAGE_TOI_NEXT, tiles, tiles, count, 0, error));
 		carom_swap(world, ROLE_HIT_TIMES);
 	}
 	return CAROM_OK;
 }
 
-/* The least hit time of all pairs [2.2], by halving the texture until one texel is left. */
+/* The least hit time of all pairs [2.2], by halving the texture (or by taking whole tiles) until one texel is left. */
 static carom_status reduce(carom_world *world, int32_t count, carom_error *error)
 {
 	carom_pair *reduced = &world->textures[ROLE_REDUCED];
-	int pass = 0;
-	reduced->front = world->textures[ROLE_HIT_TIMES].front;
-	for (int32_t size = count; size > 1; pass++) {
-		size = (size + 1) / 2;
+	const bool tiled = world->device->kind->has(world->device, STAGE_REDUCE_TILES);
+	int32_t size = tiled ? tiles_of(count) : count;
+	reduced->front = world->textures[tiled ? ROLE_TILE_HITS : ROLE_HIT_TIMES].front;
+	for (int pass = 0; size > 1; pass++) {
+		const int32_t half = (size + 1) / 2, m = tiled ? tiles_of(size) : half;
 		reduced->back = world->levels[pass];
-		TRY(carom_run(world, STAGE_REDUCE, size, size, pass, 0, error));
+		TRY(carom_run(world, tiled ? STAGE_REDUCE_TILES : STAGE_REDUCE, m, m, tiled ? size : pass, 0, error));
 		reduced->front = reduced->back;
+		size = m;
 	}
 	return CAROM_OK;
 }
@@ -77,11 +86,33 @@ static carom_status run(carom_world *world, carom_error *error)
 	return CAROM_OK;
 }
 
+/* The size of the first level of the reduction, and how much smaller each is than the one before. */
+static uint32_t first_level(const carom_pipeline *pipeline, uint32_t capacity, uint32_t *ratio)
+{
+	const bool tiled = !strcmp(pipeline->reduce, "tiled");
+	*ratio = tiled ? TILE : 2;
+	return tiled ? (capacity + TILE * TILE - 1) / (TILE * TILE) : capacity / 2;
+}
+
+static uint32_t next_level(uint32_t size, uint32_t ratio)
+{
+	return size > 1 ? (size + ratio - 1) / ratio : 0;
+}
+
+static uint64_t levels_memory(const carom_pipeline *pipeline, uint64_t capacity)
+{
+	uint32_t ratio;
+	uint64_t all = 0;
+	for (uint32_t size = first_level(pipeline, (uint32_t)capacity, &ratio); size > 0; size = next_level(size, ratio))
+		all += 16 * (uint64_t)size * size;
+	return all;
+}
+
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count)
 {
 	uint64_t n = carom_capacity(body_count), pairs = n * n;
 	uint64_t hit_times = 16 * pairs * (extra_passes(pipeline, def) > 0 ? 2 : 1);
-	return hit_times + 2 * pairs + 16 * pairs / 3 + 16 * (n + n / WALLS_GROUP + 1);
+	return hit_times + 2 * pairs + levels_memory(pipeline, n) + (16 + 8) * pairs / (TILE * TILE) + 16 * (n + n / WALLS_GROUP + 1);
 }
 
 /* Asked for first, so that a scene too large fails at once and without filling the memory. */
@@ -105,13 +136,16 @@ static carom_status prepare(carom_world *world, carom_error *error)
 {
 	static const float zero[4] = {0}, none[4] = {0.0f, 1.0f, 1.0f, NO_HIT}, no_level[4] = {NO_HIT, 0.0f, 0.0f, 1.0f};
 	const uint32_t n = world->capacity, groups = n / WALLS_GROUP ? n / WALLS_GROUP : 1;
+	uint32_t ratio, size = first_level(&world->pipeline, n, &ratio);
 	TRY(check_limits(world, error));
 	TRY(carom_textures_create(world, ROLE_AABB, false, carom_row_width(n), carom_row_count(n), zero, error));
 	TRY(carom_textures_create(world, ROLE_OVERLAP, true, n / OVERLAP_COLUMNS, n, zero, error));
 	TRY(carom_textures_create(world, ROLE_HIT_TIMES, extra_passes(&world->pipeline, &world->def) > 0, n, n, none, error));
+	TRY(carom_textures_create(world, ROLE_TILES, true, n / TILE, n / TILE, zero, error));
+	TRY(carom_textures_create(world, ROLE_TILE_HITS, false, n / TILE, n / TILE, no_level, error));
 	TRY(carom_textures_create(world, ROLE_WALLS, false, carom_row_width(groups), carom_row_count(groups), no_level, error));
 	TRY(carom_textures_create(world, ROLE_IMPULSE, false, 1, 1, zero, error));
-	for (uint32_t level = 0, size = n / 2; size > 0; level++, size /= 2)
+	for (int level = 0; size > 0; level++, size = next_level(size, ratio))
 		TRY(world->device->kind->create(world->device, TEXELS_FLOAT, size, size, no_level, &world->levels[level], error));
 	return CAROM_OK;
 }
