@@ -208,7 +208,7 @@ static carom_status make_circle(const carom_body_def *def, carom_body *body)
 
 static carom_status make_polygon(const carom_body_def *def, size_t index, carom_body *body, carom_vec2 *vertices, carom_error *error)
 {
-	point p[CAROM_MAX_VERTICES], centre, rounded[CAROM_MAX_VERTICES];
+	point p[CAROM_MAX_VERTICES] = {{0.0, 0.0}}, centre, rounded[CAROM_MAX_VERTICES];
 	double second, area, bound = 0.0;
 	uint32_t n = def->shape == CAROM_REGULAR ? def->sides : def->vertex_count;
 	carom_status status;

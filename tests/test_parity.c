@@ -74,6 +74,16 @@ static carom_world *oracle_of(const carom_world_def *def)
 	return world;
 }
 
+static uint32_t level_size(uint32_t capacity, int level)
+{
+	uint32_t size = capacity / TILE;
+	if (level >= 0)
+		return capacity >> (level + 1);
+	for (; level < 0; level++)
+		size = (size + TILE - 1) / TILE;
+	return size;
+}
+
 static texels extent(carom_role role, int level)
 {
 	texels t = {0, 1, 0, NULL};
@@ -81,10 +91,12 @@ static texels extent(carom_role role, int level)
 	switch (role) {
 	case ROLE_OVERLAP: t.width = capacity / OVERLAP_COLUMNS, t.rows = COUNT; break;
 	case ROLE_HIT_TIMES: t.width = capacity, t.rows = COUNT; break;
+	case ROLE_TILES:
+	case ROLE_TILE_HITS: t.width = t.rows = capacity / TILE; break;
 	case ROLE_WALLS: t.width = capacity / WALLS_GROUP; break;
 	case ROLE_CLOCK: t.width = CLOCK_WIDTH; break;
 	case ROLE_IMPULSE: t.width = 1; break;
-	case ROLE_REDUCED: t.width = t.rows = capacity >> (level + 1); break;
+	case ROLE_REDUCED: t.width = t.rows = level_size(capacity, level); break;
 	default: t.width = capacity; break;
 	}
 	t.used = (size_t)t.width * t.rows * 4;
@@ -114,6 +126,7 @@ static double tolerance(carom_role role, size_t channel, double expected)
 {
 	switch (role) {
 	case ROLE_HIT_TIMES:
+	case ROLE_TILE_HITS:
 	case ROLE_REDUCED:
 	case ROLE_WALLS: return 2e-3;
 	case ROLE_CLOCK: return 1e-5 + 1e-5 * fabs(expected);
@@ -138,7 +151,7 @@ static void compare_values(bench *b, carom_role role, const texels *oracle, cons
 		b->decisions += decides && is_hit(role, expected + i);
 		b->disputed += disputed;
 		for (size_t k = 0; k < 4 && !disputed; k++)
-			b->wrong_values += !(fabs(texel[k] - expected[i + k]) <= tolerance(role, k, expected[i + k]));
+			b->wrong_values += fabs(texel[k] - expected[i + k]) <= tolerance(role, k, expected[i + k]) ? 0 : 1;
 	}
 }
 
@@ -162,11 +175,12 @@ static void share(bench *b, carom_role role, const texels *t)
 
 static void judge_output(bench *b, carom_role role, int level)
 {
-	size_t size = role == ROLE_OVERLAP ? 1 : sizeof(float);
+	bool bytes = role == ROLE_OVERLAP || role == ROLE_TILES;
+	size_t size = bytes ? 1 : sizeof(float);
 	texels reference = fetch(b->reference, role, level, size, true), found = fetch(b->device, role, level, size, true);
-	texels oracle = fetch(b->oracle, role, level, role == ROLE_OVERLAP ? 1 : sizeof(double), true);
+	texels oracle = fetch(b->oracle, role, level, bytes ? 1 : sizeof(double), true);
 	compare_bits(b, &reference, &found, size);
-	if (role == ROLE_OVERLAP)
+	if (bytes)
 		compare_bytes(b, &oracle, &found);
 	else
 		compare_values(b, role, &oracle, &found);
@@ -176,7 +190,8 @@ static void judge_output(bench *b, carom_role role, int level)
 	free(oracle.data);
 }
 
-static void run_stage(bench *b, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w)
+/* `level` of the reduction: from 0 where sizes are halved, from -1 down where tiles are taken. */
+static void run_level(bench *b, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w, int level)
 {
 	const carom_stage_def *def = &carom_stages[stage];
 	carom_world *const worlds[3] = {b->reference, b->oracle, b->device};
@@ -184,7 +199,12 @@ static void run_stage(bench *b, carom_stage stage, int32_t x, int32_t y, int32_t
 	for (int i = 0; i < 3; i++)
 		scenery_check(carom_run(worlds[i], stage, x, y, z, w, &error), &error);
 	for (int i = def->input_count; i < def->input_count + def->output_count; i++)
-		judge_output(b, def->textures[i], stage == STAGE_REDUCE ? z : 0);
+		judge_output(b, def->textures[i], level);
+}
+
+static void run_stage(bench *b, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w)
+{
+	run_level(b, stage, x, y, z, w, 0);
 }
 
 static void swap_all(bench *b, carom_role role)
@@ -197,15 +217,21 @@ static void swap_all(bench *b, carom_role role)
 static void run_reduction(bench *b)
 {
 	carom_world *const worlds[3] = {b->reference, b->oracle, b->device};
-	int32_t size = COUNT;
+	const bool tiled = b->device->device->kind->has(b->device->device, STAGE_REDUCE_TILES);
+	int32_t size = tiled ? (COUNT + TILE - 1) / TILE : COUNT;
 	for (int pass = 0; size > 1; pass++) {
-		size = (size + 1) / 2;
+		const int32_t live = size;
+		size = tiled ? (size + TILE - 1) / TILE : (size + 1) / 2;
 		for (int i = 0; i < 3; i++) {
 			carom_pair *reduced = &worlds[i]->textures[ROLE_REDUCED];
-			reduced->front = pass ? worlds[i]->levels[pass - 1] : worlds[i]->textures[ROLE_HIT_TIMES].front;
+			carom_texture *start = worlds[i]->textures[tiled ? ROLE_TILE_HITS : ROLE_HIT_TIMES].front;
+			reduced->front = pass ? worlds[i]->levels[pass - 1] : start;
 			reduced->back = worlds[i]->levels[pass];
 		}
-		run_stage(b, STAGE_REDUCE, size, size, pass, 0);
+		if (tiled)
+			run_level(b, STAGE_REDUCE_TILES, size, size, live, 0, -1 - pass);
+		else
+			run_level(b, STAGE_REDUCE, size, size, pass, 0, pass);
 	}
 	for (int i = 0; i < 3; i++)
 		worlds[i]->textures[ROLE_REDUCED].front = worlds[i]->textures[ROLE_REDUCED].back;
@@ -225,15 +251,19 @@ static void start_clock(bench *b)
 /* The stages of one step in order, each judged. */
 static void run_step(bench *b)
 {
-	const int32_t columns = (COUNT + 3) / 4, groups = (COUNT + WALLS_GROUP - 1) / WALLS_GROUP;
+	carom_world *const worlds[3] = {b->reference, b->oracle, b->device};
+	const int32_t tiles = (COUNT + TILE - 1) / TILE, groups = (COUNT + WALLS_GROUP - 1) / WALLS_GROUP;
 	start_clock(b);
 	run_stage(b, STAGE_AABB, COUNT, 1, 0, 0);
-	run_stage(b, STAGE_OVERLAP, columns, columns, COUNT, 0);
+	run_stage(b, STAGE_OVERLAP, tiles, (tiles + OVERLAP_GROUP - 1) / OVERLAP_GROUP, COUNT, 0);
 	swap_all(b, ROLE_OVERLAP);
-	run_stage(b, STAGE_TOI_FIRST, columns, COUNT, 0, 0);
+	swap_all(b, ROLE_TILES);
+	for (int i = 0; i < 3; i++)
+		worlds[i]->textures[ROLE_OVERLAP_BEFORE].front = worlds[i]->textures[ROLE_OVERLAP].back;
+	run_stage(b, STAGE_TOI_FIRST, tiles, tiles, COUNT, 0);
 	swap_all(b, ROLE_HIT_TIMES);
 	for (int pass = 0; pass < 3 && b->reference->device->kind->has(b->reference->device, STAGE_TOI_NEXT); pass++) {
-		run_stage(b, STAGE_TOI_NEXT, columns, COUNT, 0, 0);
+		run_stage(b, STAGE_TOI_NEXT, tiles, tiles, COUNT, 0);
 		swap_all(b, ROLE_HIT_TIMES);
 	}
 	run_stage(b, STAGE_WALLS, groups, 1, COUNT, 0);

@@ -1,0 +1,153 @@
+/* Two convex bodies at one time: the axis that separates them best, and their contact. CONTRACT.md, "The geometry of two
+ * convex bodies at time t". */
+#ifndef CAROM_CPU_CONVEX_HPP
+#define CAROM_CPU_CONVEX_HPP
+
+#include "cpu/body.hpp"
+
+namespace carom::cpu {
+
+/* A's and B's, B seen from A. */
+template <typename T> struct Pose {
+	Vec<T> d, v;     /* from A to B, in the world */
+	Vec<T> ra, rb;   /* rotations */
+	T wa, wb;        /* angular velocities */
+	Vec<T> relative; /* takes B's frame to A's */
+
+	Pose swapped() const { return {-d, -v, rb, ra, wb, wa, turn_back(rb, ra)}; }
+	Vec<T> to_a(const Vec<T> &point_of_b) const { return turn(relative, point_of_b) + turn_back(ra, d); }
+};
+
+template <typename T> Pose<T> pose(const Convex<T> &a, const Convex<T> &b, T t)
+{
+	Vec<T> x = b.x - a.x, v = b.v - a.v, acceleration = b.a - a.a;
+	Vec<T> ra = rotation_of(a.angle_at(t)), rb = rotation_of(b.angle_at(t));
+	return {place(x, v, acceleration, t), v + t * acceleration, ra, rb, a.angular_velocity_at(t), b.angular_velocity_at(t),
+		turn_back(ra, rb)};
+}
+
+template <typename T> T pair_slop(const Body<T> &a, const Body<T> &b)
+{
+	return (larger(largest(a.x), largest(b.x)) + (a.radius + b.radius)) * SLOP;
+}
+
+/* The speed below which an approach is lost in rounding. */
+template <typename T> T pair_stillness(const Body<T> &a, const Body<T> &b)
+{
+	T straight = (span(a.v) + span(a.a)) + (span(b.v) + span(b.a));
+	T turning = (std::abs(a.w) + std::abs(a.b)) * a.radius + (std::abs(b.w) + std::abs(b.b)) * b.radius;
+	return (straight + turning) * APPROACH;
+}
+
+template <typename T> struct Lowest {
+	T height;
+	int32_t vertex;
+};
+
+/* The point of the body least along m. */
+template <typename T> Lowest<T> lowest(const Convex<T> &body, const Vec<T> &m)
+{
+	if (body.is_circle())
+		return {-body.radius, 0};
+	Lowest<T> least{inner(m, body.vertex(0)), 0};
+	for (int32_t k = 1; k < body.count; k++) {
+		T height = inner(m, body.vertex(k));
+		if (height < least.height)
+			least = {height, k};
+	}
+	return least;
+}
+
+constexpr int32_t no_face = -1;
+
+template <typename T> struct Axis {
+	bool from_b;     /* the reference body is B */
+	Vec<T> n;        /* unit, outward, in the reference's frame */
+	T offset, gap;   /* of the reference along n; from there to the other, the incident body */
+	int32_t deepest; /* vertex of the incident body */
+	int32_t face;    /* of the reference; no_face: it is a corner, or a circle */
+};
+
+template <typename T> Axis<T> axis_along(const Convex<T> &b, const Pose<T> &pose, const Vec<T> &n, T offset, int32_t face)
+{
+	Lowest<T> low = lowest(b, turn_back(pose.relative, n));
+	T gap = (inner(n, turn_back(pose.ra, pose.d)) - offset) + low.height;
+	return {false, n, offset, gap, low.vertex, face};
+}
+
+/* The face of A that B is farthest in front of, or least behind. */
+template <typename T> Axis<T> face_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
+{
+	Axis<T> best{};
+	for (int32_t e = 0; e < a.count; e++) {
+		Vec<T> from = a.vertex(e), edge = a.vertex(a.after(e)) - from;
+		T s = norm(edge);
+		Vec<T> n(edge.y() / s, -edge.x() / s);
+		Axis<T> axis = axis_along(b, pose, n, inner(n, from), e);
+		if (e == 0 || axis.gap > best.gap)
+			best = axis;
+	}
+	return best;
+}
+
+/* From a corner of A to a point of B, both in A's frame. */
+template <typename T>
+Axis<T> corner_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, const Vec<T> &from, const Vec<T> &to,
+	const Axis<T> &fallback)
+{
+	Vec<T> e = to - from;
+	T s = norm(e);
+	if (!(s > 0))
+		return fallback;
+	Vec<T> n(e.x() / s, e.y() / s);
+	Axis<T> axis = axis_along(b, pose, n, -lowest<T>(a, -n).height, no_face);
+	return axis.gap > fallback.gap ? axis : fallback;
+}
+
+/* A's best face, or where the bodies are apart and B is nearest to one of its ends, that corner. */
+template <typename T> Axis<T> polygon_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
+{
+	Axis<T> face = face_axis(a, b, pose);
+	if (!(face.gap + (b.is_circle() ? b.radius : 0) > 0))
+		return face;
+	Vec<T> point = b.is_circle() ? turn_back(pose.ra, pose.d) : pose.to_a(b.vertex(face.deepest));
+	Vec<T> from = a.vertex(face.face), to = a.vertex(a.after(face.face)), edge = to - from;
+	T along = inner(edge, point - from);
+	if (along < 0)
+		return corner_axis(a, b, pose, from, point, face);
+	if (along > inner(edge, edge))
+		return corner_axis(a, b, pose, to, point, face);
+	return face;
+}
+
+template <typename T> Axis<T> circle_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
+{
+	Vec<T> e = turn_back(pose.ra, pose.d);
+	T s = norm(e);
+	Vec<T> n = s == 0 ? Vec<T>(1, 0) : Vec<T>(e.x() / s, e.y() / s);
+	return {false, n, a.radius, (s - a.radius) - b.radius, 0, no_face};
+}
+
+template <typename T> Axis<T> axis_from_b(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
+{
+	Axis<T> axis = polygon_axis(b, a, pose.swapped());
+	axis.from_b = true;
+	return axis;
+}
+
+template <typename T> Axis<T> best_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
+{
+	if (a.is_circle() && b.is_circle())
+		return circle_axis(a, b, pose);
+	if (b.is_circle())
+		return polygon_axis(a, b, pose);
+	Axis<T> from_b = axis_from_b(a, b, pose);
+	if (a.is_circle())
+		return from_b;
+	Axis<T> from_a = polygon_axis(a, b, pose);
+	return from_b.gap > from_a.gap ? from_b : from_a;
+}
+
+}
+
+#endif

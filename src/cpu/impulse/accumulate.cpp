@@ -1,0 +1,24 @@
+#include "cpu/impulse.hpp"
+
+namespace carom::cpu {
+
+/* The paper's: each point as if it were the only one [2.3]. */
+template <typename T> static Impulses<T> each_alone(const Collision<T> &collision)
+{
+	Impulses<T> j{};
+	for (int i = 0; i < 2; i++) {
+		if (collision.approaches(i))
+			j.at[i] = collision.alone(i);
+	}
+	return j;
+}
+
+template <typename T> static void accumulate(const Job<T> &job)
+{
+	find_impulse(job, each_alone<T>);
+}
+
+extern const Stage impulse_accumulate;
+const Stage impulse_accumulate{"impulse", "accumulate", {{STAGE_IMPULSE, accumulate<float>, accumulate<double>}}, nullptr, nullptr};
+
+}

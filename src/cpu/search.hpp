@@ -1,0 +1,81 @@
+/* The search of toi separating: conservative advancement. No time of the step is skipped at which the bodies could touch, so
+ * nothing tunnels. CONTRACT.md, "toi". */
+#ifndef CAROM_CPU_SEARCH_HPP
+#define CAROM_CPU_SEARCH_HPP
+
+#include "cpu/toi.hpp"
+
+namespace carom::cpu {
+
+/* When the circles about the bodies touch, or a time before that. */
+template <typename T> T circles_touch(const Convex<T> &a, const Convex<T> &b, T slop)
+{
+	Vec<T> d = b.x - a.x, v = b.v - a.v, acceleration = b.a - a.a;
+	T push = norm(acceleration), reach = (a.radius + b.radius) + slop, way = norm(d) - reach;
+	if (way <= 0)
+		return 0;
+	if (push > 0)
+		return way / (norm(v) + push);
+	T square = inner(v, v), x = cross(d, v), approach = inner(d, v), under = (reach * reach) * square - x * x;
+	if (approach >= 0 || under < 0)
+		return infinite<T>;
+	return (way * (norm(d) + reach)) / (std::sqrt(under) - approach);
+}
+
+/* How the incident body can move against the axis while the reference turns with it, for the rest of the step. */
+template <typename T> struct Bounds {
+	T base, rate, bend, turning_rate;
+	Vec<T> m;
+};
+
+template <typename T>
+Bounds<T> bounds(const Convex<T> &reference, const Convex<T> &incident, const Pose<T> &pose, const Axis<T> &axis, T t)
+{
+	T rest = 1 - t, push = norm(incident.a - reference.a);
+	T speed = norm(pose.v) + push * rest, reach = norm(pose.d) + speed * rest;
+	T twist = std::abs(reference.b), relative_twist = std::abs(reference.b - incident.b);
+	T spin = std::abs(pose.wa) + twist * rest, turning = std::abs(pose.wa - pose.wb) + relative_twist * rest;
+	T bend = (((turning * turning) * incident.radius + (spin * spin) * reach) + (2 * spin) * speed) +
+		((push + twist * reach) + relative_twist * incident.radius);
+	Vec<T> n = turn(pose.ra, axis.n);
+	T rate = inner(n, pose.v) + pose.wa * cross(n, pose.d);
+	return {inner(n, pose.d) - axis.offset, rate, bend, pose.wa - pose.wb, turn_back(pose.relative, axis.n)};
+}
+
+/* For how long after t the axis surely goes on separating them. */
+template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a, const Axis<T> &axis, T t)
+{
+	const Convex<T> &reference = axis.from_b ? pair.b : pair.a, &incident = axis.from_b ? pair.a : pair.b;
+	const Bounds<T> to = bounds(reference, incident, axis.from_b ? pose_of_a.swapped() : pose_of_a, axis, t);
+	T margin = T(0.5) * pair.slop;
+	if (incident.is_circle())
+		return first_root(larger((to.base - incident.radius) - margin, T(0)), to.rate, to.bend);
+	T least = infinite<T>;
+	for (int32_t k = 0; k < incident.count; k++) {
+		Vec<T> vertex = incident.vertex(k);
+		T gap = larger((to.base + inner(to.m, vertex)) - margin, T(0));
+		least = smaller(least, first_root(gap, to.rate + to.turning_rate * cross(to.m, vertex), to.bend));
+	}
+	return least;
+}
+
+template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
+{
+	T t = circles_touch(pair.a, pair.b, pair.slop);
+	for (int k = 0; k < SEARCH_LIMIT; k++) {
+		if (!(t <= 1))
+			return no_hit<T>();
+		Pose<T> pose_at_t = pose(pair.a, pair.b, t);
+		Axis<T> axis = best_axis(pair.a, pair.b, pose_at_t);
+		bool touching = axis.gap <= pair.slop;
+		if (touching && pair.approaches(pose_at_t, axis))
+			return hit_at(t);
+		T safe = safe_time(pair, pose_at_t, axis, t);
+		t = t + (touching ? larger(safe, T(SEARCH_FLOOR)) : safe);
+	}
+	return pause_at(smaller(t, T(1)));
+}
+
+}
+
+#endif
