@@ -10,6 +10,12 @@ float coupling(body a, body b, contact c, int i, int k)
 	return (mass + ref) + inc;
 }
 
+/* The impulses' torque about the centre from which the levers go. */
+float torque_of(contact c, float2 lever0, float2 lever1, float2 j)
+{
+	return cross2(lever0, c.n) * j.x + (c.count > 1 ? cross2(lever1, c.n) * j.y : 0.0f);
+}
+
 /* The alternative's own: impulses (j0, j1) at the contact's points that part the reference a and the incident body b. */
 float2 contact_impulses(body a, body b, contact c, float restitution, float stillness);
 
@@ -23,7 +29,7 @@ float4 room_impulse(STATE_IN, TEX_IN(vertices), float4 hit, float length)
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
 	float2 j = contact_impulses(walls, k, c, larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)), wall_stillness(k));
 	float total = j.x + j.y;
-	float torque = cross2(c.inc[0], n) * j.x + cross2(c.inc[1], n) * j.y;
+	float torque = torque_of(c, c.inc[0], c.inc[1], j);
 	return (float4)((total * n.x) / length, (total * n.y) / length, torque / length, 0.0f);
 }
 
@@ -35,8 +41,8 @@ float4 pair_impulse(STATE_IN, TEX_IN(vertices), float4 hit, float length)
 	contact c = contact_at(TEX(vertices), a, b, p, best_axis(TEX(vertices), a, b, p), slop);
 	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, stillness) : contact_impulses(a, b, c, restitution, stillness);
 	float total = j.x + j.y;
-	float ref = -(cross2(c.ref[0], c.n) * j.x + cross2(c.ref[1], c.n) * j.y) / length;
-	float inc = (cross2(c.inc[0], c.n) * j.x + cross2(c.inc[1], c.n) * j.y) / length;
+	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
+	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;
 	float2 push = (float2)((total * c.n.x) / length, (total * c.n.y) / length);
 	return c.swapped ? (float4)(push.x, push.y, inc, ref) : (float4)(-push.x, -push.y, ref, inc);
 }

@@ -114,11 +114,18 @@ static texels fetch(carom_world *world, carom_role role, int level, size_t size,
 	return t;
 }
 
-static void compare_bits(bench *b, const texels *expected, const texels *found, size_t size)
+static void compare_bits(bench *b, carom_role role, const texels *expected, const texels *found, size_t size)
 {
-	for (size_t i = 0; i < expected->used; i += 4)
-		if (memcmp((const char *)expected->data + i * size, (const char *)found->data + i * size, 4 * size))
-			b->wrong_bits++;
+	for (size_t i = 0; i < expected->used; i += 4) {
+		const char *e = (const char *)expected->data + i * size, *f = (const char *)found->data + i * size;
+		if (!memcmp(e, f, 4 * size))
+			continue;
+		if (!b->wrong_bits++ && size == sizeof(float))
+			print_message("texel %zu of role %d: %a %a %a %a, expected %a %a %a %a\n", i / 4, (int)role, (double)((const float *)(const void *)f)[0],
+				(double)((const float *)(const void *)f)[1], (double)((const float *)(const void *)f)[2], (double)((const float *)(const void *)f)[3],
+				(double)((const float *)(const void *)e)[0], (double)((const float *)(const void *)e)[1], (double)((const float *)(const void *)e)[2],
+				(double)((const float *)(const void *)e)[3]);
+	}
 }
 
 /* Is a number, given its role and channel, near the oracle's? Hit times may move where a hit is grazing. */
@@ -179,7 +186,7 @@ static void judge_output(bench *b, carom_role role, int level)
 	size_t size = bytes ? 1 : sizeof(float);
 	texels reference = fetch(b->reference, role, level, size, true), found = fetch(b->device, role, level, size, true);
 	texels oracle = fetch(b->oracle, role, level, bytes ? 1 : sizeof(double), true);
-	compare_bits(b, &reference, &found, size);
+	compare_bits(b, role, &reference, &found, size);
 	if (bytes)
 		compare_bytes(b, &oracle, &found);
 	else
