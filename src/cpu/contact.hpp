@@ -13,8 +13,9 @@ template <typename T> struct Contact {
 	bool from_b; /* B is the reference and A is incident, else the other way round */
 	Vec<T> n;    /* from the reference to the incident body, in the world */
 	int count = 0;
-	Vec<T> ref[2], inc[2]; /* levers, from the bodies' centres */
-	T rate[2];             /* at which the points part */
+	/* Levers, from the bodies' centres; 0 where there is no second point, and then it counts nothing. */
+	Vec<T> ref[2] = {{0, 0}, {0, 0}}, inc[2] = {{0, 0}, {0, 0}};
+	T rate[2] = {0, 0}; /* at which the points part */
 
 	void add(const Vec<T> &from_ref, const Vec<T> &from_inc, T point_rate)
 	{
@@ -23,10 +24,7 @@ template <typename T> struct Contact {
 		rate[count++] = point_rate;
 	}
 
-	bool approaches(T stillness) const
-	{
-		return (count > 0 && rate[0] < -stillness) || (count > 1 && rate[1] < -stillness);
-	}
+	bool approaches(T stillness) const { return (count > 0 && rate[0] < -stillness) || (count > 1 && rate[1] < -stillness); }
 };
 
 /* The pose is the reference's. */
@@ -72,8 +70,8 @@ template <typename T> Segment<T> clipped(Segment<T> edge, const Convex<T> &refer
 }
 
 template <typename T>
-void add_face_points(Contact<T> &contact, const Convex<T> &reference, const Convex<T> &incident, const Pose<T> &pose,
-	const Axis<T> &axis, T slop)
+void add_face_points(
+	Contact<T> &contact, const Convex<T> &reference, const Convex<T> &incident, const Pose<T> &pose, const Axis<T> &axis, T slop)
 {
 	Segment<T> edge = clipped(incident_edge(incident, pose, axis), reference, axis);
 	auto add = [&](const Vec<T> &p) {

@@ -92,8 +92,8 @@ template <typename T> Axis<T> face_axis(const Convex<T> &a, const Convex<T> &b, 
 
 /* From a corner of A to a point of B, both in A's frame. */
 template <typename T>
-Axis<T> corner_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, const Vec<T> &from, const Vec<T> &to,
-	const Axis<T> &fallback)
+Axis<T> corner_axis(
+	const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, const Vec<T> &from, const Vec<T> &to, const Axis<T> &fallback)
 {
 	Vec<T> e = to - from;
 	T s = norm(e);

@@ -82,11 +82,13 @@ static carom_status create(carom_device *device, carom_texel_format format, uint
 {
 	const uint64_t texels = uint64_t(width) * height, bytes = texels * channel_count * scalar_size<T>(format);
 	if (width < 1 || height < 1 || width > longest_side || height > longest_side)
-		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels: the CPU device takes sides of 1 to %u",
-			width, height, longest_side);
+		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels: the CPU device takes sides of 1 to %u", width, height,
+			longest_side);
 	if (bytes > device->info.max_allocation)
-		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels takes %llu MiB: the CPU device takes at most %llu MiB, "
-			"half of the memory, for one", width, height, static_cast<unsigned long long>(bytes >> 20),
+		return carom_fail(error, CAROM_LIMIT,
+			"a texture of %u x %u texels takes %llu MiB: the CPU device takes at most %llu MiB, "
+			"half of the memory, for one",
+			width, height, static_cast<unsigned long long>(bytes >> 20),
 			static_cast<unsigned long long>(device->info.max_allocation >> 20));
 	std::unique_ptr<void, Free> memory(std::calloc(texels, channel_count * scalar_size<T>(format)));
 	std::unique_ptr<Texture> made(new (std::nothrow) Texture{format, width, height, std::move(memory)});
@@ -160,7 +162,8 @@ template <typename T> static bool has(const carom_device *device, carom_stage st
 	return stage < STAGE_COUNT && static_cast<const Device<T> *>(device)->kernels[stage] != nullptr;
 }
 
-template <typename T> static void run_kernel(Device<T> &device, carom_stage stage, const Texture *const *textures, const int32_t *domain)
+template <typename T>
+static void run_kernel(Device<T> &device, carom_stage stage, const Texture *const *textures, const int32_t *domain)
 {
 	using Clock = std::chrono::steady_clock;
 	const Clock::time_point start = device.profiled ? Clock::now() : Clock::time_point();
@@ -172,8 +175,8 @@ template <typename T> static void run_kernel(Device<T> &device, carom_stage stag
 }
 
 template <typename T>
-static carom_status run(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4],
-	carom_error *error)
+static carom_status run(
+	carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
 try {
 	if (!has<T>(device, stage))
 		return carom_fail(error, CAROM_DEVICE, "the CPU device has no kernel for stage %d", static_cast<int>(stage));
@@ -231,11 +234,16 @@ static carom_status unknown(carom_error *error, const carom_pipeline &pipeline, 
 	return carom_fail(error, CAROM_UNKNOWN_NAME, "the CPU device has no %s `%s`", slot, name ? name : "");
 }
 
+/* Not every alternative has them. */
+static bool is_optional(int stage)
+{
+	return stage == STAGE_TOI_NEXT || stage == STAGE_REDUCE || stage == STAGE_REDUCE_TILES;
+}
+
 template <typename T> static carom_status check(const Device<T> &device, const carom_pipeline &pipeline, carom_error *error)
 {
 	for (int stage = 0; stage < STAGE_COUNT; stage++) {
-		const bool may_miss = stage == STAGE_TOI_NEXT || stage == STAGE_REDUCE || stage == STAGE_REDUCE_TILES;
-		if (!device.kernels[stage] && !may_miss)
+		if (!device.kernels[stage] && !is_optional(stage))
 			return unknown(error, pipeline, carom_stages[stage].slot);
 	}
 	if (!device.kernels[STAGE_REDUCE] && !device.kernels[STAGE_REDUCE_TILES])

@@ -34,8 +34,8 @@ template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const
 {
 	const Convex<T> body = shapes.convex(hit.row);
 	T restitution = larger(shapes.restitution(hit.row), shapes.rule(RULES_RESTITUTION));
-	return {wall_contact(body, room_wall(shapes, hit.wall()), hit.time, wall_slop(body)), wall_stillness(body), restitution,
-		0, body.inverse_mass, 0, body.inverse_inertia};
+	return {wall_contact(body, room_wall(shapes, hit.wall()), hit.time, wall_slop(body)), wall_stillness(body), restitution, 0,
+		body.inverse_mass, 0, body.inverse_inertia};
 }
 
 template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
@@ -45,18 +45,17 @@ template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const
 	const Axis<T> axis = best_axis(a, b, at_hit);
 	const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
 	return {contact_at(a, b, at_hit, axis, pair_slop(a, b)), pair_stillness(a, b),
-		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
-		inc.inverse_inertia};
+		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass,
+		ref.inverse_inertia, inc.inverse_inertia};
 }
 
 template <typename T> void put_impulse(const Texels<T> &impulse, const Collision<T> &collision, const Impulses<T> &j, T length)
 {
 	const Contact<T> &c = collision.contact;
-	bool two = c.count > 1;
 	T sum = j.at[0] + j.at[1];
 	T push_x = (sum * c.n.x()) / length, push_y = (sum * c.n.y()) / length;
-	T on_inc = (cross(c.inc[0], c.n) * j.at[0] + (two ? cross(c.inc[1], c.n) * j.at[1] : 0)) / length;
-	T on_ref = -(cross(c.ref[0], c.n) * j.at[0] + (two ? cross(c.ref[1], c.n) * j.at[1] : 0)) / length;
+	T on_inc = (cross(c.inc[0], c.n) * j.at[0] + cross(c.inc[1], c.n) * j.at[1]) / length;
+	T on_ref = -(cross(c.ref[0], c.n) * j.at[0] + cross(c.ref[1], c.n) * j.at[1]) / length;
 	if (c.from_b)
 		impulse.set(0, 0, push_x, push_y, on_inc, on_ref);
 	else

@@ -2,21 +2,10 @@
 #ifndef CAROM_CPU_REDUCE_HPP
 #define CAROM_CPU_REDUCE_HPP
 
+#include "cpu/candidate.hpp"
 #include "cpu/stages.hpp"
 
 namespace carom::cpu {
-
-template <typename T> struct Candidate {
-	T hit, row, column, done;
-};
-
-template <typename T> Candidate<T> first_of(const Candidate<T> &a, const Candidate<T> &b)
-{
-	/* Without branches, so that it can be done to vectors. */
-	bool same_row = (b.row == a.row) & (b.column < a.column);
-	bool less = (b.hit < a.hit) | ((b.hit == a.hit) & ((b.row < a.row) | same_row));
-	return {less ? b.hit : a.hit, less ? b.row : a.row, less ? b.column : a.column, less ? b.done : a.done};
-}
 
 /* HitTimes as candidates, for the first pass. */
 template <typename T> class HitTimesSource
@@ -36,11 +25,7 @@ template <typename T> class ReducedSource
 {
 public:
 	explicit ReducedSource(const Texels<T> &reduced) : texels(reduced) {}
-	Candidate<T> at(int32_t x, int32_t y) const
-	{
-		return {texels.at(x, y, REDUCED_HIT), texels.at(x, y, REDUCED_ROW), texels.at(x, y, REDUCED_COLUMN),
-			texels.at(x, y, REDUCED_DONE)};
-	}
+	Candidate<T> at(int32_t x, int32_t y) const { return candidate_at(texels, x, y); }
 
 private:
 	Texels<T> texels;

@@ -68,6 +68,7 @@ public:
 	}
 
 	uint8_t *row(int32_t y) const { return bytes + static_cast<size_t>(y) * stride; }
+	uint8_t *texel(int32_t x, int32_t y) const { return row(y) + static_cast<size_t>(x) * channel_count; }
 
 private:
 	uint8_t *bytes;

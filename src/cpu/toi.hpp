@@ -2,10 +2,11 @@
 #ifndef CAROM_CPU_TOI_HPP
 #define CAROM_CPU_TOI_HPP
 
+#include "cpu/candidate.hpp"
 #include "cpu/contact.hpp"
-#include "cpu/reduce.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace carom::cpu {
 
@@ -46,35 +47,73 @@ template <typename T> struct Pair {
 	}
 };
 
-/* Calls visit(row, column, now) for every pair of a tile that overlaps now, or did a step before. */
-template <typename Visit> void visit_tile(const Bytes &overlap, const Bytes &before, int32_t row, int32_t column, int32_t last, int state, Visit visit)
+/* Where the slot's textures are in the list, after STATE, vertices and clock. */
+enum : int { FROM_TILES = STATE_COUNT + 2, FROM_OVERLAP, FROM_OVERLAP_BEFORE, TOI_COUNT };
+
+static_assert(TILE == sizeof(uint64_t), "a row of a tile is looked at as one number");
+
+inline bool are_zero(const uint8_t *bytes)
 {
-	for (int32_t i = row * TILE; i < last; i++) {
-		for (int32_t j = column * TILE; j < (column + 1) * TILE; j++) {
-			const bool now = state & TILES_NOW && overlap.row(i)[j], old = state & TILES_BEFORE && before.row(i)[j];
-			if (now || old)
-				visit(i, j, now);
-		}
-	}
+	uint64_t all;
+	std::memcpy(&all, bytes, sizeof all);
+	return all == 0;
 }
 
-/* The pairs to look at, tile by tile: `find(row, column, now)` gives the pair's texel of HitTimes. */
-template <typename T, typename Find> void visit_pairs(const Job<T> &job, const Texels<T> &hit_times, const Texels<T> &tile_hits, Find find)
+/* Looks at the tiles: `find(row, column, now)` gives the texel of a pair that overlaps now or only did before. */
+template <typename T, typename Find> class TileSearch
 {
-	const Bytes tiles = job.bytes(STATE_COUNT + 2), overlap = job.bytes(STATE_COUNT + 3), before = job.bytes(STATE_COUNT + 4);
-	job.pool.run(job.domain[1], 4, [&](int32_t begin, int32_t end) {
+public:
+	TileSearch(const Job<T> &job, const Texels<T> &to, const Find &find_hit)
+		: tiles(job.bytes(FROM_TILES)), overlap(job.bytes(FROM_OVERLAP)), overlap_before(job.bytes(FROM_OVERLAP_BEFORE)),
+		  hit_times(to), find(find_hit), count(job.domain[2])
+	{
+	}
+
+	/* Writes HitTimes; the first hit of what it writes goes to `first`. False: there was nothing to write. */
+	bool search(int32_t c, int32_t r, Candidate<T> &first) const
+	{
+		static const uint8_t none[TILE] = {};
+		const uint8_t tile = *tiles.texel(c, r);
+		if (!(tile & (TILES_NOW | TILES_BEFORE)))
+			return false;
+		for (int32_t i = r * TILE; i < std::min((r + 1) * TILE, count); i++) {
+			const uint8_t *before = tile & TILES_BEFORE ? overlap_before.row(i) + c * TILE : none;
+			search_row(i, c * TILE, overlap.row(i) + c * TILE, before, first);
+		}
+		return true;
+	}
+
+private:
+	void search_row(int32_t row, int32_t column, const uint8_t *now, const uint8_t *before, Candidate<T> &first) const
+	{
+		if (are_zero(now) && are_zero(before))
+			return;
+		for (int32_t k = 0; k < TILE; k++) {
+			if (!now[k] && !before[k])
+				continue;
+			const HitTime<T> hit = find(row, column + k, now[k] != 0);
+			hit_times.set(column + k, row, hit.min, hit.max, hit.done, hit.hit);
+			first = first_of(first, {hit.hit, static_cast<T>(row), static_cast<T>(column + k), hit.done});
+		}
+	}
+
+	const Bytes tiles, overlap, overlap_before;
+	const Texels<T> hit_times;
+	const Find &find;
+	const int32_t count;
+};
+
+/* Writes HitTimes and TileHits, which are the textures from `output` on. */
+template <typename T, typename Find> void search_tiles(const Job<T> &job, int output, const Find &find)
+{
+	const TileSearch<T, Find> tiles(job, job.texels(output), find);
+	const Texels<T> tile_hits = job.texels(output + 1);
+	job.pool.run(job.domain[1], 2, [&](int32_t begin, int32_t end) {
 		for (int32_t r = begin; r < end; r++) {
 			for (int32_t c = 0; c <= r; c++) {
-				const int state = tiles.row(r)[4 * c];
-				if (!(state & (TILES_NOW | TILES_BEFORE)))
-					continue;
-				Candidate<T> first{NO_HIT, 0, 0, 1};
-				visit_tile(overlap, before, r, c, std::min((r + 1) * TILE, job.domain[2]), state, [&](int32_t i, int32_t j, bool now) {
-					const HitTime<T> hit = find(i, j, now);
-					hit_times.set(j, i, hit.min, hit.max, hit.done, hit.hit);
-					first = first_of(first, Candidate<T>{hit.hit, static_cast<T>(i), static_cast<T>(j), hit.done});
-				});
-				tile_hits.set(c, r, first.hit, first.row, first.column, first.done);
+				Candidate<T> first = no_candidate<T>;
+				if (tiles.search(c, r, first))
+					put_candidate(tile_hits, c, r, first);
 			}
 		}
 	});
@@ -84,7 +123,7 @@ template <typename T, typename Find> void visit_pairs(const Job<T> &job, const T
 template <typename T, typename Find> void find_hits(const Job<T> &job, Find find)
 {
 	const Shapes<T> shapes = shapes_before(job);
-	visit_pairs(job, job.texels(STATE_COUNT + 5), job.texels(STATE_COUNT + 6), [&](int32_t row, int32_t column, bool now) {
+	search_tiles(job, TOI_COUNT, [&](int32_t row, int32_t column, bool now) {
 		if (!now || (shapes.is_static(row) && shapes.is_static(column)))
 			return no_hit<T>();
 		const Convex<T> a = shapes.convex(row), b = shapes.convex(column);

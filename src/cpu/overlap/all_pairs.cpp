@@ -1,51 +1,100 @@
 #include "cpu/stages.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace carom::cpu {
 
-/* The columns of one tile against row i: bit k is set where column k's box overlaps the row's, below the diagonal. */
-template <typename T> static uint32_t overlaps(const Texels<T> &boxes, int32_t first, int32_t i)
-{
-	const int32_t fold = first >> ROW_LOG2, at = first & (ROW_SIZE - 1);
-	const T *min_x = boxes.row(fold, AABB_MIN_X) + at, *min_y = boxes.row(fold, AABB_MIN_Y) + at;
-	const T *max_x = boxes.row(fold, AABB_MAX_X) + at, *max_y = boxes.row(fold, AABB_MAX_Y) + at;
-	const T left = boxes.of(i, AABB_MIN_X), bottom = boxes.of(i, AABB_MIN_Y);
-	const T right = boxes.of(i, AABB_MAX_X), top = boxes.of(i, AABB_MAX_Y);
-	uint32_t bits = 0;
-	for (int32_t k = 0; k < TILE; k++) {
-		bool apart = (right < min_x[k]) | (max_x[k] < left) | (top < min_y[k]) | (max_y[k] < bottom);
-		bits |= static_cast<uint32_t>(!apart & (first + k < i)) << k;
+static_assert(ROW_SIZE % TILE == 0, "a tile's columns lie in one row of the texture");
+
+/* The boxes of TILE bodies, one channel each. */
+template <typename T> struct Columns {
+	const T *min_x, *min_y, *max_x, *max_y;
+
+	Columns(const Texels<T> &boxes, int32_t first)
+		: min_x(&boxes.of(first, AABB_MIN_X)), min_y(&boxes.of(first, AABB_MIN_Y)), max_x(&boxes.of(first, AABB_MAX_X)),
+		  max_y(&boxes.of(first, AABB_MAX_Y))
+	{
 	}
-	return bits;
+};
+
+template <typename T> struct Box {
+	T min_x, min_y, max_x, max_y;
+
+	Box(const Columns<T> &columns, int32_t k)
+		: min_x(columns.min_x[k]), min_y(columns.min_y[k]), max_x(columns.max_x[k]), max_y(columns.max_y[k])
+	{
+	}
+
+	/* Without branches, so that compilers can make vectors of it. */
+	bool is_apart(const Columns<T> &columns, int32_t k) const
+	{
+		return (max_x < columns.min_x[k]) | (columns.max_x[k] < min_x) | (max_y < columns.min_y[k]) | (columns.max_y[k] < min_y);
+	}
+};
+
+/* Most tiles are found to be empty here: the loop that the stage's time goes to. */
+template <typename T> static bool are_apart(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns)
+{
+	int32_t apart[TILE];
+	std::fill(apart, apart + TILE, -1);
+	for (int32_t i = 0; i < row_count; i++) {
+		const Box<T> row(rows, i);
+		for (int32_t k = 0; k < TILE; k++)
+			apart[k] &= row.is_apart(columns, k) ? -1 : 0;
+	}
+	int32_t all = -1;
+	for (int32_t bits : apart)
+		all &= bits;
+	return all != 0;
 }
 
-/* What a tile's texel says, from what it said a step ago. */
-static int tile_state(bool any, int old)
+/* The tile's rows of Overlap; is there anything in them? */
+template <typename T>
+static bool write_tile(
+	const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, bool diagonal, uint8_t bytes[TILE][TILE])
 {
-	return (any ? TILES_NOW : 0) | (old & TILES_NOW ? TILES_BEFORE : 0) | (old & TILES_BEFORE ? TILES_LONG_BEFORE : 0);
+	bool any = false;
+	for (int32_t i = 0; i < row_count; i++) {
+		const Box<T> row(rows, i);
+		for (int32_t k = 0; k < TILE; k++) {
+			bool overlap = (!diagonal || k < i) && !row.is_apart(columns, k);
+			bytes[i][k] = overlap;
+			any |= overlap;
+		}
+	}
+	return any;
+}
+
+/* Tile (c, r) of a world of `count` bodies. */
+template <typename T>
+static void do_tile(
+	const Texels<T> &boxes, int32_t c, int32_t r, int32_t count, const uint8_t *before, const Bytes &overlap, uint8_t *now)
+{
+	const Columns<T> rows(boxes, r * TILE), columns(boxes, c * TILE);
+	const int32_t row_count = std::min(TILE, count - r * TILE);
+	uint8_t bytes[TILE][TILE] = {};
+	int bits = (*before & TILES_NOW ? TILES_BEFORE : 0) | (*before & TILES_BEFORE ? TILES_LONG_BEFORE : 0);
+	if ((c == r || !are_apart(rows, row_count, columns)) && write_tile(rows, row_count, columns, c == r, bytes))
+		bits |= TILES_NOW;
+	if (bits & (TILES_NOW | TILES_LONG_BEFORE)) {
+		for (int32_t i = 0; i < row_count; i++)
+			std::memcpy(overlap.row(r * TILE + i) + c * TILE, bytes[i], TILE);
+	}
+	const uint8_t texel[channel_count] = {static_cast<uint8_t>(bits)};
+	std::memcpy(now, texel, sizeof texel);
 }
 
 /* The paper's broad phase: every pair [2.1]. */
 template <typename T> static void all_pairs(const Job<T> &job)
 {
 	const Texels<T> boxes = job.texels(0);
-	const Bytes before = job.bytes(1), now = job.bytes(2), tiles = job.bytes(3);
+	const Bytes before = job.bytes(1), overlap = job.bytes(2), now = job.bytes(3);
 	const int32_t count = job.domain[2];
-	job.pool.run(job.domain[0], 8, [&](int32_t begin, int32_t end) {
+	job.pool.run((count + TILE - 1) / TILE, 8, [&](int32_t begin, int32_t end) {
 		for (int32_t r = begin; r < end; r++) {
-			const int32_t last = std::min((r + 1) * TILE, count);
-			for (int32_t c = 0; c <= r; c++) {
-				uint32_t bits[TILE] = {}, any = 0;
-				for (int32_t i = r * TILE; i < last; i++)
-					any |= bits[i % TILE] = overlaps(boxes, c * TILE, i);
-				const int state = tile_state(any != 0, before.row(r)[4 * c]);
-				tiles.row(r)[4 * c] = static_cast<uint8_t>(state);
-				for (int32_t i = r * TILE; i < last && state & (TILES_NOW | TILES_LONG_BEFORE); i++) {
-					for (int32_t k = 0; k < TILE; k++)
-						now.row(i)[c * TILE + k] = (bits[i % TILE] >> k) & 1;
-				}
-			}
+			for (int32_t c = 0; c <= r; c++)
+				do_tile(boxes, c, r, count, before.texel(c, r), overlap, now.texel(c, r));
 		}
 	});
 }

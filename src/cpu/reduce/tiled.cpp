@@ -1,22 +1,32 @@
-#include "cpu/reduce.hpp"
+#include "cpu/candidate.hpp"
+#include "cpu/stages.hpp"
 
 #include <algorithm>
 
 namespace carom::cpu {
 
-/* Whole tiles at a time, from the tiles' first hits on, the diagonal with them. */
+/* The first candidate of the tile, in a square of live size `size` of which what lies above the diagonal is not looked at. */
+template <typename T> static Candidate<T> first_in_tile(const Texels<T> &source, int32_t x, int32_t y, int32_t size)
+{
+	Candidate<T> first = candidate_at(source, x * TILE, y * TILE);
+	for (int32_t row = y * TILE; row < std::min((y + 1) * TILE, size); row++) {
+		const T *hits = source.row(row, REDUCED_HIT);
+		for (int32_t column = x * TILE; column < std::min((x + 1) * TILE, row + 1); column++) {
+			if (hits[column] <= first.hit)
+				first = first_of(first, candidate_at(source, column, row));
+		}
+	}
+	return first;
+}
+
+/* Begins with the first hits of the tiles that toi looked at, and takes a whole tile of them a fragment. */
 template <typename T> static void tiled(const Job<T> &job)
 {
-	const ReducedSource<T> source(job.texels(0));
-	const int32_t size = job.domain[2];
-	reduce_from(job, source, [size](const auto &from, int32_t y, int32_t, auto put) {
-		for (int32_t x = 0; x <= y; x++) {
-			Candidate<T> first{NO_HIT, 0, 0, 1};
-			for (int32_t row = y * TILE; row < std::min((y + 1) * TILE, size); row++) {
-				for (int32_t column = x * TILE; column < (x + 1) * TILE && column <= row; column++)
-					first = first_of(first, from.at(column, row));
-			}
-			put(x, first);
+	const Texels<T> source = job.texels(0), target = job.texels(1);
+	job.pool.run(job.domain[1], 8, [&](int32_t begin, int32_t end) {
+		for (int32_t y = begin; y < end; y++) {
+			for (int32_t x = 0; x <= y; x++)
+				put_candidate(target, x, y, first_in_tile(source, x, y, job.domain[2]));
 		}
 	});
 }

@@ -57,8 +57,8 @@ template <typename T> static void first(const Job<T> &job)
 template <typename T> static void next(const Job<T> &job)
 {
 	const Shapes<T> shapes = shapes_before(job);
-	const Texels<T> front = job.texels(STATE_COUNT + 5);
-	visit_pairs(job, job.texels(STATE_COUNT + 6), job.texels(STATE_COUNT + 7), [&](int32_t row, int32_t column, bool) {
+	const Texels<T> front = job.texels(TOI_COUNT);
+	search_tiles(job, TOI_COUNT + 1, [&](int32_t row, int32_t column, bool) {
 		const HitTime<T> hit{front.at(column, row, HITTIMES_MIN), front.at(column, row, HITTIMES_MAX),
 			front.at(column, row, HITTIMES_DONE), front.at(column, row, HITTIMES_HIT)};
 		if (hit.done != 0)
@@ -69,7 +69,7 @@ template <typename T> static void next(const Job<T> &job)
 }
 
 extern const Stage toi_bisection;
-const Stage toi_bisection{
-	"toi", "bisection", {{STAGE_TOI_FIRST, first<float>, first<double>}, {STAGE_TOI_NEXT, next<float>, next<double>}}, nullptr, nullptr};
+const Stage toi_bisection{"toi", "bisection",
+	{{STAGE_TOI_FIRST, first<float>, first<double>}, {STAGE_TOI_NEXT, next<float>, next<double>}}, nullptr, nullptr};
 
 }
