@@ -1,0 +1,246 @@
+/* The carom command from outside: exit codes, what it says, what it writes.
+ * SPDX-License-Identifier: MIT */
+#include "command.h"
+
+/* ---- Calls ---- */
+
+static void help_is_complete(void **state)
+{
+	(void)state;
+	static const char *const names[] = {"run", "generate", "devices", "stages"};
+	static const char *const run_options[] = {"--steps N", "--time SECONDS", "--out STATE.json", "--png FRAME.png",
+		"--frames DIR", "--fps F", "--stats FILE.csv", "--hash", "--size WxH", "--inset X,Y,W,H", "--device NAME",
+		"--storage KIND", "--set SLOT=NAME", "--quiet", "--help", "--version"};
+	char line[64];
+	check("$C --help", 0, "");
+	assert_string_equal(call.err, "");
+	for (size_t k = 0; k < COUNT(names); k++)
+		assert_non_null(strstr(call.out, names[k]));
+	for (size_t k = 0; k < COUNT(names); k++) {
+		snprintf(line, sizeof line, "$C %s --help", names[k]);
+		check(line, 0, "");
+		assert_non_null(strstr(call.out, "--device NAME"));
+		assert_string_equal(call.err, "");
+	}
+	check("$C run nothing.json --help", 0, "");
+	for (size_t k = 0; k < COUNT(run_options); k++)
+		assert_non_null(strstr(call.out, run_options[k]));
+}
+
+static void version_is_the_librarys(void **state)
+{
+	(void)state;
+	char wanted[64];
+	snprintf(wanted, sizeof wanted, "carom %s\n", carom_version());
+	check("$C --version", 0, "");
+	assert_string_equal(call.out, wanted);
+	check("$C run --version", 0, "");
+	assert_string_equal(call.out, wanted);
+}
+
+static void wrong_calls_exit_with_2(void **state)
+{
+	(void)state;
+	static const struct {
+		const char *line, *said;
+	} calls[] = {
+		{"$C", "the command is missing; allowed: run, generate, devices, stages"},
+		{"$C rum", "rum: no such command; allowed: run, generate"},
+		{"$C run", "SCENE.json is missing"},
+		{"$C run scenes/mixed.json scenes/mixed.json", "one argument too many"},
+		{"$C run scenes/mixed.json --step 3", "--step: no such option"},
+		{"$C run scenes/mixed.json -s 3", "-s: no such option"},
+		{"$C run scenes/mixed.json --steps", "--steps: the value is missing"},
+		{"$C run scenes/mixed.json --steps -1", "--steps: found \"-1\"; allowed: a whole number"},
+		{"$C run scenes/mixed.json --steps 1e3", "--steps: found \"1e3\"; allowed: a whole number"},
+		{"$C run scenes/mixed.json --steps 99999999999999999999", "allowed: a whole number"},
+		{"$C run scenes/mixed.json --time nan", "--time: found \"nan\"; allowed: seconds, 0 or more"},
+		{"$C run scenes/mixed.json --steps 1 --time 1", "--steps and --time exclude each other"},
+		{"$C run scenes/mixed.json --fps 25", "--fps needs --frames"},
+		{"$C run scenes/mixed.json --frames $D/f --fps 0", "--fps: found \"0\"; allowed: a number above 0"},
+		{"$C run scenes/mixed.json --size 640x480", "--size needs a picture"},
+		{"$C run scenes/mixed.json --png $D/p.png --size 640", "--size: found \"640\"; allowed: WxH"},
+		{"$C run scenes/mixed.json --png $D/p.png --size 0x480", "allowed: WxH in pixels, each 1 to 16384"},
+		{"$C run scenes/mixed.json --png $D/p.png --inset 0,0,1", "--inset: found \"0,0,1\"; allowed: X,Y,W,H"},
+		{"$C run scenes/mixed.json --png $D/p.png --inset 0,0,1,0", "allowed: X,Y,W,H"},
+		{"$C run scenes/mixed.json --quiet=yes", "--quiet takes no value"},
+		{"$C run scenes/mixed.json --storage disk", "--storage: found \"disk\"; allowed: image, buffer"},
+		{"$C run scenes/mixed.json --set toi", "--set: found \"toi\"; allowed: slot=alternative"},
+		{"$C run scenes/mixed.json --set toi=guess", "circle_quadratic"},
+		{"$C run scenes/mixed.json --set tio=bisection", "toi"},
+		{"$C run scenes/mixed.json --device abacus", "abacus"},
+		{"CAROM_DEVICE=abacus $C run scenes/mixed.json", "abacus"},
+		{"$C run no/such/scene.json", "no/such/scene.json: can't be read: No such file"},
+		{"$C run tests", "tests: can't be read: Is a directory"},
+		{"$C run tests/bad/radius_negative.json", "bodies[1].circle.radius: found -1; allowed: a number above 0"},
+		{"$C run tests/bad/polygon_concave.json", "bodies[1].polygon.vertices"},
+		{"$C run - --steps 0", "/dev/stdin:1:0: not valid JSON"},
+		{"$C generate --count 3", "--shape is missing"},
+		{"$C generate --shape circle", "--count is missing"},
+		{"$C generate --shape oval --count 3", "--shape: found \"oval\"; allowed: triangle, square, regular:K, circle, mixed"},
+		{"$C generate --shape regular:2 --count 3", "allowed: regular:K with K sides, 3 to 64"},
+		{"$C generate --shape circle --count 4194305", "--count: found \"4194305\"; allowed: a whole number from 1 to 4194304"},
+		{"$C generate --shape circle --count 100 --fill 0.95", "can't be packed to a fill of 0.95; allowed: up to 0.8"},
+		{"$C generate --shape circle --count 100 --fill 0", "--fill: found \"0\"; allowed: a number above 0"},
+		{"$C generate --shape circle --count 100 --fill 1e-20", "so wide that floats"},
+		{"$C devices here", "one argument too many"},
+	};
+	for (size_t k = 0; k < COUNT(calls); k++) {
+		check(calls[k].line, 2, calls[k].said);
+		if (strncmp(call.err, "carom: ", 7) != 0 || *call.out)
+			fail_msg("%s: stdout \"%s\", stderr \"%s\"", calls[k].line, call.out, call.err);
+	}
+}
+
+static void devices_and_stages_are_listed(void **state)
+{
+	(void)state;
+	check("$C devices", 0, "");
+	assert_non_null(strstr(call.out, ", the default\n"));
+	assert_non_null(strstr(call.out, "works"));
+	check("$C stages", 0, "");
+	assert_non_null(strstr(call.out, "step       first_impact"));
+	assert_non_null(strstr(call.out, "toi"));
+	assert_non_null(strstr(call.out, "default"));
+	check("$C stages >/dev/full", 1, "standard output can't be written");
+}
+
+/* ---- Runs ---- */
+
+/* A run of 40 steps with all its outputs; what it prints is its hash. */
+static void check_outputs(const char *device)
+{
+	char line[512], stats[65536], hash[32], png[64];
+	snprintf(line, sizeof line,
+		"$C run scenes/mixed.json --steps 40 --out $D/state.json --png=$D/picture.png --stats $D/table.csv "
+		"--hash --size 320x180 --inset -2,-2,4,4 --device %s",
+		device);
+	check(line, 0, "40 steps");
+	assert_int_equal(strlen(call.out), 17);
+	assert_int_equal(strspn(call.out, "0123456789abcdef"), 16);
+	snprintf(hash, sizeof hash, "%.20s", call.out);
+	assert_null(strchr(call.err, '\r')); /* no bar where there is no terminal */
+	read_into("table.csv", stats, sizeof stats);
+	assert_int_equal(strncmp(stats,
+						 "step,time_s,advanced_s,hits,kinetic_energy_j,momentum_x,momentum_y,angular_momentum,"
+						 "max_penetration_m\n1,",
+						 103),
+		0);
+	int lines = 0;
+	for (const char *at = stats; *at; at++)
+		lines += *at == '\n';
+	assert_int_equal(lines, 41);
+	read_into("picture.png", png, sizeof png);
+	assert_memory_equal(png, "\x89PNG\r\n\x1A\n", 8);
+	check("$C run $D/state.json --steps 0 --hash --quiet --device cpu", 0, NULL);
+	assert_string_equal(call.out, hash);
+	assert_string_equal(call.err, "");
+	/* neither rows, frames, the chunks they make, nor stopping and resuming change a bit */
+	snprintf(line, sizeof line, "$C run scenes/mixed.json --steps 40 --hash --device %s", device);
+	check(line, 0, NULL);
+	assert_string_equal(call.out, hash);
+	snprintf(line, sizeof line,
+		"$C run scenes/mixed.json --steps 40 --frames $D/frames --fps 500 --size 64x36 --hash --device %s", device);
+	check(line, 0, "frames into");
+	assert_string_equal(call.out, hash);
+	snprintf(line, sizeof line,
+		"$C run scenes/mixed.json --steps 15 --quiet --out $D/half.json --device %s && "
+		"$C run $D/half.json --steps 25 --quiet --hash --device %s",
+		device, device);
+	check(line, 0, "");
+	assert_string_equal(call.out, hash);
+	check("rm -r $D/frames $D/*.json $D/*.csv $D/*.png", 0, "");
+}
+
+static void outputs_are_written_on_the_cpu(void **state)
+{
+	(void)state;
+	check_outputs("cpu");
+}
+
+static void outputs_are_written_on_opencl(void **state)
+{
+	(void)state;
+	if (!has_opencl())
+		skip();
+	check_outputs("opencl");
+	check_outputs("opencl --storage buffer");
+}
+
+static void frames_are_at_equal_times(void **state)
+{
+	(void)state;
+	check("$C run scenes/billiard_break.json --time 0.1 --frames $D/frames --fps 50 --size 64x32 --device cpu", 0,
+		"wrote 6 frames");
+	check("ls $D/frames", 0, "");
+	assert_string_equal(
+		call.out, "frame_000000.png\nframe_000001.png\nframe_000002.png\nframe_000003.png\nframe_000004.png\nframe_000005.png\n");
+	check("rm -r $D/frames", 0, "");
+}
+
+static void a_scene_may_come_through_a_pipe(void **state)
+{
+	(void)state;
+	char hash[32];
+	check("$C generate --shape circle --count 16 | $C run - --steps 10 --hash --device cpu", 0, "/dev/stdin: 16 bodies");
+	snprintf(hash, sizeof hash, "%.20s", call.out);
+	check("$C generate --shape circle --count 16 --out $D/s.json --quiet && $C run $D/s.json --steps 10 --hash --quiet --device "
+		  "cpu",
+		0, "");
+	assert_string_equal(call.out, hash);
+	assert_string_equal(call.err, "");
+	check("rm $D/s.json", 0, "");
+}
+
+static void failures_exit_with_1_and_keep_the_old(void **state)
+{
+	(void)state;
+	check("echo old >$D/old", 0, "");
+	check("$C run scenes/mixed.json --steps 1 --device cpu --out $D/old --png $D/no/p.png", 1,
+		"no/p.png: can't be written: No such file");
+	check("$C run scenes/mixed.json --time 1e9 --device cpu --out $D", 1, "can't be written: Is a directory");
+	check("$C run scenes/mixed.json --steps 1 --device cpu --frames $D/old", 1, "can't be made a folder");
+	check("cat $D/old", 0, "");
+	assert_string_equal(call.out, "old\n");
+	check("rm $D/old; ls $D", 0, "");
+	assert_string_equal(call.out, "err\nout\n");
+	if (access("/dev/full", W_OK) != 0)
+		return;
+	check("$C run scenes/mixed.json --steps 1 --device cpu --out /dev/full", 1, "/dev/full: can't be written: No space left");
+	check("$C run scenes/mixed.json --steps 1 --device cpu --png /dev/full", 1, "/dev/full: can't be written");
+	check("$C run scenes/mixed.json --steps 1 --device cpu --stats /dev/full", 1, "/dev/full: can't be written");
+	check("$C run scenes/mixed.json --steps 1 --device cpu --hash --quiet >/dev/full", 1, "standard output can't be written");
+	check("$C generate --shape circle --count 100 --out /dev/full", 1, "/dev/full: can't be written");
+}
+
+static void an_interruption_writes_what_there_is(void **state)
+{
+	(void)state;
+	char state_text[65536];
+	check("$C run scenes/mixed.json --time 1e6 --device cpu --hash --out $D/state.json --stats $D/table.csv & pid=$!; sleep 1; "
+		  "kill -TERM $pid; wait $pid",
+		1, "interrupted after");
+	assert_string_equal(call.out, ""); /* the hash of a state that was not asked for would mislead */
+	assert_non_null(strstr(call.err, "last good state"));
+	read_into("state.json", state_text, sizeof state_text);
+	check("$C run $D/state.json --steps 1 --quiet --device cpu && tail -c 1 $D/table.csv", 0, "");
+	assert_string_equal(call.out, "\n");
+	check("rm $D/state.json $D/table.csv", 0, "");
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(help_is_complete),
+		cmocka_unit_test(version_is_the_librarys),
+		cmocka_unit_test(wrong_calls_exit_with_2),
+		cmocka_unit_test(devices_and_stages_are_listed),
+		cmocka_unit_test(outputs_are_written_on_the_cpu),
+		cmocka_unit_test(outputs_are_written_on_opencl),
+		cmocka_unit_test(frames_are_at_equal_times),
+		cmocka_unit_test(a_scene_may_come_through_a_pipe),
+		cmocka_unit_test(failures_exit_with_1_and_keep_the_old),
+		cmocka_unit_test(an_interruption_writes_what_there_is),
+	};
+	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);
+}

@@ -1,0 +1,221 @@
+/* Files that are whole or not there, and PNG files.
+ * SPDX-License-Identifier: MIT */
+#include "carom.h"
+
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <png.h>
+
+#include <cmocka.h>
+
+static char folder[] = "/tmp/carom-test-XXXXXX";
+
+static const char *in_folder(const char *name)
+{
+	static char path[256];
+	snprintf(path, sizeof path, "%s/%s", folder, name);
+	return path;
+}
+
+static void put_file(const char *name, const char *text)
+{
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	carom_error error = {0};
+	if (carom_file_create(in_folder(name), &file, &stream, &error) != CAROM_OK)
+		fail_msg("%s", error.text);
+	fputs(text, stream);
+	if (carom_file_commit(file, &error) != CAROM_OK)
+		fail_msg("%s", error.text);
+}
+
+static void assert_text(const char *name, const char *wanted)
+{
+	char text[64] = "";
+	FILE *file = fopen(in_folder(name), "r");
+	assert_non_null(file);
+	assert_true(fread(text, 1, sizeof text - 1, file) == strlen(wanted));
+	fclose(file);
+	assert_string_equal(text, wanted);
+}
+
+static int count_files(void)
+{
+	DIR *opened = opendir(folder);
+	int count = 0;
+	assert_non_null(opened);
+	while (readdir(opened))
+		count++;
+	closedir(opened);
+	return count - 2; /* . and .. */
+}
+
+static void a_file_appears_when_it_is_whole(void **state)
+{
+	(void)state;
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	assert_int_equal(carom_file_create(in_folder("whole"), &file, &stream, NULL), CAROM_OK);
+	fputs("all of it", stream);
+	fflush(stream);
+	assert_int_not_equal(access(in_folder("whole"), F_OK), 0);
+	assert_int_equal(carom_file_commit(file, NULL), CAROM_OK);
+	assert_text("whole", "all of it");
+	assert_int_equal(count_files(), 1);
+	unlink(in_folder("whole"));
+}
+
+static void a_file_given_up_leaves_the_old_one(void **state)
+{
+	(void)state;
+	carom_file *file = NULL, *other = NULL;
+	FILE *stream = NULL, *other_stream = NULL;
+	put_file("old", "old");
+	assert_int_equal(carom_file_create(in_folder("old"), &file, &stream, NULL), CAROM_OK);
+	assert_int_equal(carom_file_create(in_folder("old"), &other, &other_stream, NULL), CAROM_OK); /* two at once */
+	fputs("new", stream);
+	fputs("other", other_stream);
+	carom_file_destroy(file);
+	assert_text("old", "old");
+	assert_int_equal(carom_file_commit(other, NULL), CAROM_OK);
+	assert_text("old", "other");
+	carom_file_destroy(NULL);
+	assert_int_equal(count_files(), 1);
+	unlink(in_folder("old"));
+}
+
+static void links_and_permissions_stay(void **state)
+{
+	(void)state;
+	struct stat there;
+	char link[256];
+	put_file("target", "old");
+	assert_int_equal(chmod(in_folder("target"), 0640), 0);
+	snprintf(link, sizeof link, "%s", in_folder("link"));
+	assert_int_equal(symlink("target", link), 0);
+	put_file("link", "new");
+	assert_text("target", "new");
+	assert_int_equal(lstat(link, &there), 0);
+	assert_true(S_ISLNK(there.st_mode));
+	assert_int_equal(stat(link, &there), 0);
+	assert_int_equal(there.st_mode & 0777, 0640);
+	unlink(link);
+	unlink(in_folder("target"));
+}
+
+static void assert_refused(const char *path, const char *reason)
+{
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	carom_error error = {0};
+	assert_int_equal(carom_file_create(path, &file, &stream, &error), CAROM_IO);
+	if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, reason))
+		fail_msg("expected \"%s\", got \"%s\"", reason, error.text);
+	assert_null(file);
+}
+
+static void what_cannot_be_written_is_named(void **state)
+{
+	(void)state;
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	assert_refused(folder, "Is a directory");
+	assert_refused("/nowhere/at all", "No such file or directory");
+	assert_int_equal(carom_file_create("", &file, &stream, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_file_create(NULL, &file, &stream, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_file_commit(NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(count_files(), 0);
+}
+
+/* /dev/full stands for a full disk; devices are written into, never replaced. */
+static void a_full_disk_is_an_error(void **state)
+{
+	(void)state;
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	carom_error error = {0};
+	struct stat there;
+	static const uint8_t pixels[4 * 4];
+	if (access("/dev/full", W_OK) != 0) {
+		print_message("SKIPPED: there is no /dev/full\n");
+		skip();
+	}
+	assert_int_equal(carom_file_create("/dev/full", &file, &stream, NULL), CAROM_OK);
+	fputs("too much", stream);
+	assert_int_equal(carom_file_commit(file, &error), CAROM_IO);
+	assert_non_null(strstr(error.text, "/dev/full: can't be written: No space left"));
+	for (int k = 0; k < 2; k++) { /* a failure in the middle, not at the end */
+		assert_int_equal(carom_file_create("/dev/full", &file, &stream, NULL), CAROM_OK);
+		for (int i = 0; i < 1000000; i++)
+			fputs("too much", stream);
+		assert_int_equal(carom_file_commit(file, &error), CAROM_IO);
+	}
+	assert_int_equal(carom_png_write("/dev/full", pixels, 2, 2, &error), CAROM_IO);
+	assert_non_null(strstr(error.text, "/dev/full: can't be written"));
+	assert_int_equal(stat("/dev/full", &there), 0);
+	assert_true(S_ISCHR(there.st_mode));
+}
+
+static void pixels_read_back(void **state)
+{
+	(void)state;
+	enum { WIDTH = 37, HEIGHT = 23 };
+	static uint8_t pixels[WIDTH * HEIGHT * 4], read[WIDTH * HEIGHT * 4];
+	carom_error error = {0};
+	png_image image = {.version = PNG_IMAGE_VERSION};
+	for (size_t k = 0; k < sizeof pixels; k++)
+		pixels[k] = k % 4 == 3 ? 255 : (uint8_t)(k * k / 7);
+	if (carom_png_write(in_folder("picture.png"), pixels, WIDTH, HEIGHT, &error) != CAROM_OK)
+		fail_msg("%s", error.text);
+	assert_true(png_image_begin_read_from_file(&image, in_folder("picture.png")));
+	assert_true(image.width == WIDTH && image.height == HEIGHT && !(image.format & PNG_FORMAT_FLAG_ALPHA));
+	image.format = PNG_FORMAT_RGBA;
+	assert_true(png_image_finish_read(&image, NULL, read, 0, NULL));
+	assert_memory_equal(pixels, read, sizeof pixels);
+	unlink(in_folder("picture.png"));
+}
+
+static void bad_pictures_are_refused(void **state)
+{
+	(void)state;
+	static const uint8_t pixels[4];
+	carom_error error = {0};
+	assert_int_equal(carom_png_write(in_folder("p.png"), pixels, 0, 1, &error), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_png_write(in_folder("p.png"), pixels, 1, 1000001, &error), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_png_write(in_folder("p.png"), NULL, 1, 1, &error), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_png_write(NULL, pixels, 1, 1, &error), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_png_write("/nowhere/p.png", pixels, 1, 1, &error), CAROM_IO);
+	assert_int_equal(count_files(), 0);
+}
+
+static int make_folder(void **state)
+{
+	(void)state;
+	return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+	(void)state;
+	return rmdir(folder); /* fails if a temporary file was left in it */
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(a_file_appears_when_it_is_whole),
+		cmocka_unit_test(a_file_given_up_leaves_the_old_one),
+		cmocka_unit_test(links_and_permissions_stay),
+		cmocka_unit_test(what_cannot_be_written_is_named),
+		cmocka_unit_test(a_full_disk_is_an_error),
+		cmocka_unit_test(pixels_read_back),
+		cmocka_unit_test(bad_pictures_are_refused),
+	};
+	return cmocka_run_group_tests_name("file", tests, make_folder, remove_folder);
+}
