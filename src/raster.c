@@ -7,7 +7,8 @@
 #include <stdlib.h>
 
 #define PI 3.141592653589793
-#define LEAST_OPACITY 0.15 /* of a body that is far smaller than a pixel: it still shows on the ground */
+#define LEAST_OPACITY 0.15 /* of a dot far smaller than a pixel: it still shows on the ground */
+#define LINE_OPACITY 0.75  /* at least, of a line however thin: of a body of five pixels or more */
 #define FARTHEST 1000000   /* pixels: beyond any picture, and far from an int's end */
 #define LANES 8            /* pixels at a time: a fixed count lets the compiler use SIMD */
 
@@ -101,12 +102,14 @@ static double growth(double breadth)
 	return clamp((1 - breadth) / 2, 0, 0.5);
 }
 
-static void paint_shape(carom_draw_shape *shape, const carom_paint *paint, double breadth)
+static void paint_shape(carom_draw_shape *shape, const carom_paint *paint, double breadth, double length)
 {
-	shape->fill = paint->fill;
+	double least_opacity = clamp(LEAST_OPACITY * length, LEAST_OPACITY, LINE_OPACITY);
+	bool is_line = breadth < 1 && least_opacity >= LINE_OPACITY;
+	shape->fill = is_line ? paint->outline : paint->fill; /* two outlines and nothing between them */
 	shape->outline = paint->outline;
 	shape->width = (float)clamp(breadth / 8, 0, paint->width);
-	shape->opacity = (float)(clamp(paint->opacity, 0, 1) * clamp(breadth, LEAST_OPACITY, 1));
+	shape->opacity = (float)(clamp(paint->opacity, 0, 1) * clamp(breadth, least_opacity, 1));
 }
 
 /* The pixels whose centres may be within half a pixel of what lies between two corners. */
@@ -141,7 +144,7 @@ void carom_draw_disc(carom_draw_list *list, carom_pixels clip, carom_point cente
 	carom_draw_shape *shape = add_shape(list, touched, 1);
 	if (!shape)
 		return;
-	paint_shape(shape, paint, breadth);
+	paint_shape(shape, paint, breadth, 2 * radius);
 	double x = touched.x0 + 0.5 - center.x, y = touched.y0 + 0.5 - center.y;
 	add_edge(list, shape, x / r, y / r, (x * x + y * y - r * r) / (2 * r), 1 / (2 * r));
 }
@@ -155,15 +158,26 @@ static void bounds_of(const carom_point *points, uint32_t count, carom_point *lo
 	}
 }
 
-static double breadth_of(const carom_point *points, uint32_t count, carom_point low, carom_point high)
+static double area_of(const carom_point *points, uint32_t count)
 {
-	double twice_area = 0, width = high.x - low.x, height = high.y - low.y;
+	double twice_area = 0;
 	for (uint32_t k = 2; k < count; k++) {
 		carom_point a = {points[k - 1].x - points[0].x, points[k - 1].y - points[0].y};
 		carom_point b = {points[k].x - points[0].x, points[k].y - points[0].y};
 		twice_area += a.y * b.x - a.x * b.y;
 	}
-	return twice_area / 2 / most(sqrt(width * width + height * height), 1);
+	return twice_area / 2;
+}
+
+/* The half plane of a polygon's side, `out` pixels farther out. A side that was lost in rounding has none. */
+static void add_side(carom_draw_list *list, carom_draw_shape *shape, carom_point a, carom_point b, double out)
+{
+	double along_x = b.x - a.x, along_y = b.y - a.y, length = sqrt(along_x * along_x + along_y * along_y);
+	if (!(length > 0))
+		return;
+	double slope_x = -along_y / length, slope_y = along_x / length;
+	double at = slope_x * (shape->touched.x0 + 0.5 - a.x) + slope_y * (shape->touched.y0 + 0.5 - a.y);
+	add_edge(list, shape, slope_x, slope_y, at - out, 0);
 }
 
 void carom_draw_polygon(
@@ -171,21 +185,15 @@ void carom_draw_polygon(
 {
 	carom_point low, high;
 	bounds_of(points, count, &low, &high);
-	double breadth = breadth_of(points, count, low, high), out = growth(breadth);
+	double width = high.x - low.x, height = high.y - low.y, length = sqrt(width * width + height * height);
+	double breadth = area_of(points, count) / most(length, 1), out = growth(breadth);
 	carom_pixels touched = pixels_between(low, high, out, clip);
 	carom_draw_shape *shape = add_shape(list, touched, count);
 	if (!shape)
 		return;
-	paint_shape(shape, paint, breadth);
-	for (uint32_t k = 0; k < count; k++) {
-		carom_point a = points[k], b = points[k + 1 < count ? k + 1 : 0];
-		double along_x = b.x - a.x, along_y = b.y - a.y, length = sqrt(along_x * along_x + along_y * along_y);
-		if (!(length > 0))
-			continue;
-		double slope_x = -along_y / length, slope_y = along_x / length;
-		double at = slope_x * (touched.x0 + 0.5 - a.x) + slope_y * (touched.y0 + 0.5 - a.y);
-		add_edge(list, shape, slope_x, slope_y, at - out, 0);
-	}
+	paint_shape(shape, paint, breadth, length);
+	for (uint32_t k = 0; k < count; k++)
+		add_side(list, shape, points[k], points[k + 1 < count ? k + 1 : 0], out);
 }
 
 void carom_draw_line(
