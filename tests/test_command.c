@@ -80,7 +80,7 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C generate --shape oval --count 3", "--shape: found \"oval\"; allowed: triangle, square, regular:K, circle, mixed"},
 		{"$C generate --shape regular:2 --count 3", "allowed: regular:K with K sides, 3 to 64"},
 		{"$C generate --shape circle --count 4194305", "--count: found \"4194305\"; allowed: a whole number from 1 to 4194304"},
-		{"$C generate --shape circle --count 100 --fill 0.95", "can't be packed to a fill of 0.95; allowed: up to 0.8"},
+		{"$C generate --shape circle --count 100 --fill 0.95", "can't be packed to a fill of 0.95; allowed: up to 0.7"},
 		{"$C generate --shape circle --count 100 --fill 0", "--fill: found \"0\"; allowed: a number above 0"},
 		{"$C generate --shape circle --count 100 --fill 1e-20", "so wide that floats"},
 		{"$C devices here", "one argument too many"},

@@ -149,17 +149,19 @@ static int run_world(struct run *run)
 {
 	carom_error error;
 	carom_status status = simulate(run, &error);
+	unsigned long long steps = run->total.steps;
 	int code = EXIT_DONE;
+	if (status != CAROM_OK && steps == 0)
+		return report(&error);
 	say_done(run);
 	if (status != CAROM_OK)
 		code = report(&error);
 	if (run->interrupted) {
-		fprintf(stderr, "carom: interrupted after %llu steps\n", (unsigned long long)run->total.steps);
+		fprintf(stderr, "carom: interrupted after %llu steps\n", steps);
 		code = EXIT_FAILED;
 	}
 	if (code != EXIT_DONE && (run->options->out || run->options->png))
-		fprintf(
-			stderr, "carom: what is written shows the last good state, after %llu steps\n", (unsigned long long)run->total.steps);
+		fprintf(stderr, "carom: what is written shows the last good state, after %llu steps\n", steps);
 	int written = write_outputs(run);
 	if (code == EXIT_DONE)
 		code = written;
