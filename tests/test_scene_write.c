@@ -146,6 +146,33 @@ static void awkward_floats_read_back_with_the_same_bits(void **state)
 	unlink(in_folder("there.json"));
 }
 
+/* Whatever can be chosen is written; a new slot that the writer does not know shows here. */
+static void every_choice_of_a_slot_reads_back(void **state)
+{
+	(void)state;
+	carom_stage_info info;
+	for (size_t k = 0; carom_stage_list(k, &info); k++) {
+		carom_world_def def = carom_default_world_def();
+		carom_world *world = NULL;
+		carom_scene *read = NULL;
+		carom_error error = {0};
+		def.device = "cpu";
+		if (!info.on_cpu || carom_pipeline_set(&def.pipeline, info.slot, info.alternative, NULL) != CAROM_OK)
+			continue; /* some slots are none to choose for */
+		if (carom_world_create(&def, &world, &error) != CAROM_OK)
+			fail_msg("%s", error.text);
+		carom_world *back = there_and_back(world, NULL, &read);
+		char key[96];
+		snprintf(key, sizeof key, "\"%s\": \"%s\"", info.slot, info.alternative);
+		assert_non_null(strstr(read_text(in_folder("there.json")), key));
+		assert_string_equal(carom_pipeline_get(&read->world.pipeline, info.slot), info.alternative);
+		carom_world_destroy(world);
+		carom_world_destroy(back);
+		carom_scene_destroy(read);
+	}
+	unlink(in_folder("there.json"));
+}
+
 /* A world whose file was written and read back goes on as if nothing had happened. */
 static void stop_and_resume_is_exact(void **state)
 {
@@ -186,6 +213,7 @@ int main(void)
 		cmocka_unit_test(everything_reads_back_with_the_same_bits),
 		cmocka_unit_test(every_scene_reads_back_with_the_same_bits),
 		cmocka_unit_test(awkward_floats_read_back_with_the_same_bits),
+		cmocka_unit_test(every_choice_of_a_slot_reads_back),
 		cmocka_unit_test(stop_and_resume_is_exact),
 	};
 	return cmocka_run_group_tests_name("scene_write", tests, make_folder, remove_folder);
