@@ -13,9 +13,8 @@ template <typename T> struct Contact {
 	bool from_b; /* B is the reference and A is incident, else the other way round */
 	Vec<T> n;    /* from the reference to the incident body, in the world */
 	int count = 0;
-	/* Levers, from the bodies' centres; 0 where there is no second point, and then it counts nothing. */
-	Vec<T> ref[2] = {{0, 0}, {0, 0}}, inc[2] = {{0, 0}, {0, 0}};
-	T rate[2] = {0, 0}; /* at which the points part */
+	Vec<T> ref[2], inc[2]; /* levers, from the bodies' centres */
+	T rate[2];             /* at which the points part */
 
 	void add(const Vec<T> &from_ref, const Vec<T> &from_inc, T point_rate)
 	{

@@ -49,13 +49,19 @@ template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const
 		ref.inverse_inertia, inc.inverse_inertia};
 }
 
+/* Of the impulses about a body's centre; what is not there adds a 0 without a sign. */
+template <typename T> T torque(const Contact<T> &contact, const Vec<T> levers[2], const Impulses<T> &j)
+{
+	T first = cross(levers[0], contact.n) * j.at[0];
+	return first + (contact.count > 1 ? cross(levers[1], contact.n) * j.at[1] : T(0));
+}
+
 template <typename T> void put_impulse(const Texels<T> &impulse, const Collision<T> &collision, const Impulses<T> &j, T length)
 {
 	const Contact<T> &c = collision.contact;
 	T sum = j.at[0] + j.at[1];
 	T push_x = (sum * c.n.x()) / length, push_y = (sum * c.n.y()) / length;
-	T on_inc = (cross(c.inc[0], c.n) * j.at[0] + cross(c.inc[1], c.n) * j.at[1]) / length;
-	T on_ref = -(cross(c.ref[0], c.n) * j.at[0] + cross(c.ref[1], c.n) * j.at[1]) / length;
+	T on_inc = torque(c, c.inc, j) / length, on_ref = -torque(c, c.ref, j) / length;
 	if (c.from_b)
 		impulse.set(0, 0, push_x, push_y, on_inc, on_ref);
 	else

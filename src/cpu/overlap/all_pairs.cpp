@@ -5,9 +5,11 @@
 
 namespace carom::cpu {
 
-static_assert(ROW_SIZE % TILE == 0, "a tile's columns lie in one row of the texture");
+constexpr int32_t block = 64 * TILE; /* columns that are looked at together: their boxes stay in the nearest cache */
 
-/* The boxes of TILE bodies, one channel each. */
+static_assert(ROW_SIZE % block == 0, "a block's columns lie in one row of the texture");
+
+/* The boxes of bodies from `first` on, one channel each. */
 template <typename T> struct Columns {
 	const T *min_x, *min_y, *max_x, *max_y;
 
@@ -33,69 +35,95 @@ template <typename T> struct Box {
 	}
 };
 
-/* Most tiles are found to be empty here: the loop that the stage's time goes to. */
-template <typename T> static bool are_apart(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns)
+/* Which columns' boxes overlap one of the rows'. Most tiles are found to be empty by this, so here the stage's time goes. */
+template <typename T>
+static void find_near(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, int32_t count, int32_t near[block])
 {
-	int32_t apart[TILE];
-	std::fill(apart, apart + TILE, -1);
+	std::fill(near, near + count, 0);
 	for (int32_t i = 0; i < row_count; i++) {
 		const Box<T> row(rows, i);
-		for (int32_t k = 0; k < TILE; k++)
-			apart[k] &= row.is_apart(columns, k) ? -1 : 0;
+		for (int32_t k = 0; k < count; k++)
+			near[k] |= row.is_apart(columns, k) ? 0 : 1;
 	}
-	int32_t all = -1;
-	for (int32_t bits : apart)
-		all &= bits;
-	return all != 0;
 }
 
-/* The tile's rows of Overlap; is there anything in them? */
-template <typename T>
-static bool write_tile(
-	const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, bool diagonal, uint8_t bytes[TILE][TILE])
-{
+/* Pairs of a tile, by row and column. */
+struct TileBytes {
+	uint8_t bytes[TILE][TILE] = {};
 	bool any = false;
+};
+
+template <typename T>
+static TileBytes look_at(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, bool on_diagonal)
+{
+	TileBytes tile;
 	for (int32_t i = 0; i < row_count; i++) {
 		const Box<T> row(rows, i);
-		for (int32_t k = 0; k < TILE; k++) {
-			bool overlap = (!diagonal || k < i) && !row.is_apart(columns, k);
-			bytes[i][k] = overlap;
-			any |= overlap;
+		for (int32_t k = 0; k < (on_diagonal ? i : TILE); k++) {
+			bool overlap = !row.is_apart(columns, k);
+			tile.bytes[i][k] = overlap;
+			tile.any |= overlap;
 		}
 	}
-	return any;
+	return tile;
 }
 
-/* Tile (c, r) of a world of `count` bodies. */
-template <typename T>
-static void do_tile(
-	const Texels<T> &boxes, int32_t c, int32_t r, int32_t count, const uint8_t *before, const Bytes &overlap, uint8_t *now)
+template <typename T> class Overlaps
 {
-	const Columns<T> rows(boxes, r * TILE), columns(boxes, c * TILE);
-	const int32_t row_count = std::min(TILE, count - r * TILE);
-	uint8_t bytes[TILE][TILE] = {};
-	int bits = (*before & TILES_NOW ? TILES_BEFORE : 0) | (*before & TILES_BEFORE ? TILES_LONG_BEFORE : 0);
-	if ((c == r || !are_apart(rows, row_count, columns)) && write_tile(rows, row_count, columns, c == r, bytes))
-		bits |= TILES_NOW;
-	if (bits & (TILES_NOW | TILES_LONG_BEFORE)) {
-		for (int32_t i = 0; i < row_count; i++)
-			std::memcpy(overlap.row(r * TILE + i) + c * TILE, bytes[i], TILE);
+public:
+	explicit Overlaps(const Job<T> &job)
+		: boxes(job.texels(0)), tiles_before(job.bytes(1)), overlap(job.bytes(2)), tiles(job.bytes(3)), count(job.domain[2])
+	{
 	}
-	const uint8_t texel[channel_count] = {static_cast<uint8_t>(bits)};
-	std::memcpy(now, texel, sizeof texel);
-}
+
+	void find_row(int32_t r) const
+	{
+		const Columns<T> rows(boxes, r * TILE);
+		const int32_t end = (r + 1) * TILE;
+		int32_t near[block];
+		for (int32_t first = 0; first < end; first += block) {
+			const int32_t last = std::min(first + block, end);
+			find_near(rows, std::min(TILE, count - r * TILE), Columns<T>(boxes, first), last - first, near);
+			for (int32_t column = first; column < last; column += TILE) {
+				const int32_t *of_tile = near + (column - first);
+				do_tile(column / TILE, r, std::any_of(of_tile, of_tile + TILE, [](int32_t bit) { return bit != 0; }));
+			}
+		}
+	}
+
+private:
+	void do_tile(int32_t c, int32_t r, bool may_overlap) const
+	{
+		const uint8_t before = *tiles_before.texel(c, r);
+		int bits = (before & TILES_NOW ? TILES_BEFORE : 0) | (before & TILES_BEFORE ? TILES_LONG_BEFORE : 0);
+		if (may_overlap || (bits & TILES_LONG_BEFORE))
+			bits |= write_tile(c, r, bits);
+		uint8_t *texel = tiles.texel(c, r);
+		texel[0] = static_cast<uint8_t>(bits);
+		texel[1] = texel[2] = texel[3] = 0;
+	}
+
+	int write_tile(int32_t c, int32_t r, int bits) const
+	{
+		const int32_t row_count = std::min(TILE, count - r * TILE);
+		const TileBytes tile = look_at(Columns<T>(boxes, r * TILE), row_count, Columns<T>(boxes, c * TILE), c == r);
+		for (int32_t i = 0; i < row_count && (tile.any || (bits & TILES_LONG_BEFORE)); i++)
+			std::memcpy(overlap.row(r * TILE + i) + c * TILE, tile.bytes[i], TILE);
+		return tile.any ? TILES_NOW : 0;
+	}
+
+	const Texels<T> boxes;
+	const Bytes tiles_before, overlap, tiles;
+	const int32_t count;
+};
 
 /* The paper's broad phase: every pair [2.1]. */
 template <typename T> static void all_pairs(const Job<T> &job)
 {
-	const Texels<T> boxes = job.texels(0);
-	const Bytes before = job.bytes(1), overlap = job.bytes(2), now = job.bytes(3);
-	const int32_t count = job.domain[2];
-	job.pool.run((count + TILE - 1) / TILE, 8, [&](int32_t begin, int32_t end) {
-		for (int32_t r = begin; r < end; r++) {
-			for (int32_t c = 0; c <= r; c++)
-				do_tile(boxes, c, r, count, before.texel(c, r), overlap, now.texel(c, r));
-		}
+	const Overlaps<T> overlaps(job);
+	job.pool.run(job.domain[0], 8, [&](int32_t begin, int32_t end) {
+		for (int32_t r = begin; r < end; r++)
+			overlaps.find_row(r);
 	});
 }
 
