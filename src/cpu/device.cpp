@@ -231,7 +231,7 @@ template <typename T> static void choose(Device<T> &device, const carom_pipeline
 static carom_status unknown(carom_error *error, const carom_pipeline &pipeline, const char *slot)
 {
 	const char *name = carom_pipeline_get(&pipeline, slot);
-	return carom_fail(error, CAROM_UNKNOWN_NAME, "the CPU device has no %s `%s`", slot, name ? name : "");
+	return carom_fail(error, CAROM_UNKNOWN_NAME, "the CPU device has no %s '%s'", slot, name ? name : "");
 }
 
 /* Not every alternative has them. */
