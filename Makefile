@@ -55,7 +55,8 @@ LIBRARIES := $(shell $(PKG_CONFIG) --libs libpng jansson 2>/dev/null) -ldl -lpth
 CMOCKA_LIBRARIES := $(shell $(PKG_CONFIG) --libs cmocka 2>/dev/null)
 
 # The same bits everywhere rests on these, so they come after what the user sets.
-EXACT := -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math
+# (GCC 12's SLP vectoriser loses the rounding of (double)(float)x for pairs of numbers.)
+EXACT := -fno-tree-slp-vectorize -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
 COMMON := $(OPTIMIZE) -fPIC -fvisibility=hidden -pthread -MMD -MP $(SANITIZERS)
 INCLUDES := -Iinclude -Isrc -Ikernels

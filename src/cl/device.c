@@ -246,16 +246,30 @@ static void close_device(carom_device *device)
 
 static const carom_device_class cl_class = {close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush, read_profile};
 
+/* Keeps the kernel for the stage that names it. */
+static void keep_kernel(cl_device *d, cl_kernel kernel)
+{
+	char name[64] = "";
+	d->cl.clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
+	for (int i = 0; i < STAGE_COUNT; i++) {
+		if (strcmp(name, carom_stages[i].kernel) || d->kernels[i].kernel)
+			continue;
+		d->kernels[i].kernel = kernel;
+		return;
+	}
+	d->cl.clReleaseKernel(kernel);
+}
+
+/* All that the program has: which those are depends on the alternatives. */
 static carom_status create_kernels(cl_device *d, carom_error *error)
 {
-	for (int i = 0; i < STAGE_COUNT; i++) {
-		cl_int code;
-		d->kernels[i].kernel = d->cl.clCreateKernel(d->program, carom_stages[i].kernel, &code);
-		if (code == CL_INVALID_KERNEL_NAME)
-			d->kernels[i].kernel = NULL; /* not every alternative has every kernel */
-		else if (code)
-			return device_fail(d, error, code, carom_stages[i].kernel);
-	}
+	cl_kernel kernels[2 * STAGE_COUNT];
+	cl_uint count = 0;
+	cl_int code = d->cl.clCreateKernelsInProgram(d->program, 2 * STAGE_COUNT, kernels, &count);
+	if (code)
+		return device_fail(d, error, code, "no kernels can be made");
+	for (cl_uint i = 0; i < count; i++)
+		keep_kernel(d, kernels[i]);
 	return CAROM_OK;
 }
 
