@@ -294,6 +294,12 @@ float pair_stillness(body a, body b)
 	return (linear_speed + turning) * APPROACH;
 }
 
+/* How far to go on, at least, from a contact that does not approach: no farther than the slop at the bodies' speeds. */
+float creep_time(float slop, float stillness)
+{
+	return smaller(CREEP_MOST, larger((slop * APPROACH) / stillness, CREEP_LEAST));
+}
+
 bool contact_approaches(contact c, float stillness)
 {
 	return c.rate[0] < -stillness || (c.count > 1 && c.rate[1] < -stillness);

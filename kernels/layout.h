@@ -126,7 +126,6 @@
 #define SLOP 9.5367431640625e-7f     /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
 #define APPROACH 9.5367431640625e-7f /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
 #define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
-#define SEARCH_FLOOR 0.000244140625f /* 2^-12 of a step: how far at least a search goes on from a contact that does not approach */
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */
 #define STALL_LIMIT 4096             /* of those in a row, and 16 a body, are a stall */
 #define STALL_LIMIT_BODY 16

@@ -48,9 +48,11 @@ float larger(float a, float b)
 	return b > a ? b : a;
 }
 
-/* The nearest whole number, halves away from 0; |x| < 2^31. */
+/* The nearest whole number, halves away from 0; 0 for what is too large to be one. */
 int nearest(float x)
 {
+	if (!(magnitude(x) < LARGEST_TURN))
+		return 0;
 	return (int)(x < 0.0f ? x - 0.5f : x + 0.5f);
 }
 

@@ -76,7 +76,7 @@ float4 search_separating(TEX_IN(vertices), body a, body b)
 		if (touching && contact_approaches(contact_at(TEX(vertices), a, b, p, k, slop), stillness))
 			return hit_at(t);
 		float safe = safe_time(TEX(vertices), a, b, p, k, t, slop);
-		t = t + (touching ? larger(safe, SEARCH_FLOOR) : safe);
+		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	return hit_pause(smaller(t, 1.0f));
 }

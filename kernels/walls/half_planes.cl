@@ -42,7 +42,7 @@ float polygon_wall(TEX_IN(vertices), body k, float2 n, float offset, float *done
 		if (touching && contact_approaches(wall_contact(TEX(vertices), k, n, t, slop), stillness))
 			return t;
 		float safe = wall_safe_time(TEX(vertices), k, n, offset, t, slop);
-		t = t + (touching ? larger(safe, SEARCH_FLOOR) : safe);
+		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	*done = 0.0f;
 	return smaller(t, 1.0f);

@@ -85,6 +85,12 @@ void add_face_points(
 		add(pose.to_a(incident.vertex(axis.deepest)));
 }
 
+/* The least a search goes on from a contact that does not approach. */
+template <typename T> T creep_time(T slop, T stillness)
+{
+	return smaller(T(CREEP_MOST), larger((slop * T(APPROACH)) / stillness, T(CREEP_LEAST)));
+}
+
 template <typename T>
 Contact<T> contact_at(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose_of_a, const Axis<T> &axis, T slop)
 {

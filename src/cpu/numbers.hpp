@@ -73,10 +73,9 @@ template <typename V> auto largest(const Expression<V> &v)
 
 template <typename T> int32_t nearest(T x)
 {
-	T shifted = x < 0 ? x - T(0.5) : x + T(0.5);
-	if (!(std::abs(shifted) < T(2147483648)))
-		return INT32_MIN; /* what x86 does where C++ has no answer */
-	return static_cast<int32_t>(shifted);
+	if (!(std::abs(x) < T(LARGEST_TURN)))
+		return 0;
+	return static_cast<int32_t>(x < 0 ? x - T(0.5) : x + T(0.5));
 }
 
 /* Cosine and sine by Cephes' polynomials: those of the C library differ from host to host. */

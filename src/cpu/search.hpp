@@ -71,7 +71,7 @@ template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 		if (touching && pair.approaches(pose_at_t, axis))
 			return hit_at(t);
 		T safe = safe_time(pair, pose_at_t, axis, t);
-		t = t + (touching ? larger(safe, T(SEARCH_FLOOR)) : safe);
+		t = t + (touching ? larger(safe, creep_time(pair.slop, pair.stillness)) : safe);
 	}
 	return pause_at(smaller(t, T(1)));
 }

@@ -48,7 +48,7 @@ template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, con
 		if (touching && wall_contact(convex, wall, t, slop).approaches(stillness))
 			return {t, 1};
 		T safe = safe_time(convex, wall, m, base, t, slop);
-		t = t + (touching ? larger(safe, T(SEARCH_FLOOR)) : safe);
+		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	return {smaller(t, T(1)), 0};
 }
