@@ -150,7 +150,7 @@ typedef struct carom_pipeline {
 	const char *inside;  /* naive (default), orourke: the test that toi bisection makes [2.1] */
 	const char *toi;     /* circle_quadratic (default), separating, bisection [2.1, 4.1] */
 	const char *walls;   /* half_planes */
-	const char *reduce;  /* four_six (default), six, classic [2.2] */
+	const char *reduce;  /* tiled (default), four_six, six, classic [2.2] */
 	const char *impulse; /* pair_exact (default), accumulate [2.3] */
 } carom_pipeline;
 
@@ -183,6 +183,7 @@ typedef struct carom_device_info {
 	uint64_t memory;         /* bytes */
 	uint64_t max_allocation; /* bytes of one texture */
 	uint32_t max_image_size; /* texels of an image's side */
+	bool uses_images;        /* of a world's device: its textures are images, not buffers */
 	char reason[256];        /* why it does not work; empty if it does */
 } carom_device_info;
 
@@ -253,6 +254,9 @@ typedef struct carom_report {
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
 /* Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. */
 CAROM_API carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error);
+/* The same up to the simulated time `time` (s, not before carom_world_time), but at most `most_steps` steps. Calls for the same
+ * time go on where the one before ended: cutting the way into several calls changes no bit. */
+CAROM_API carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error);
 
 /* Called now and then during a step or advance, on the calling thread, with what the call has done so far; returning false
  * ends the call early (with CAROM_OK: the report tells how far it got). How often it is called changes no result, while

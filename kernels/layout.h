@@ -126,12 +126,15 @@
 #define SLOP 9.5367431640625e-7f     /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
 #define APPROACH 9.5367431640625e-7f /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
 #define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
+#define CREEP_MOST 0.000244140625f   /* 2^-12 and 2^-20 of a step: from a contact that does not approach a search goes on for */
+#define CREEP_LEAST 9.5367431640625e-7f /* the time in which the bodies move by no more than the slop, between these two */
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */
 #define STALL_LIMIT 4096             /* of those in a row, and 16 a body, are a stall */
 #define STALL_LIMIT_BODY 16
 #define SINGULAR 0.000244140625f     /* 2^-12: two contacts nearer to one another than this, by the determinant, count as one */
 
 /* Sine and cosine: pi/2 in three parts, and minimax polynomials on [-pi/4, pi/4] (Cephes) */
+#define LARGEST_TURN 1073741824.0f /* 2^30: a larger number of quarter turns has no fraction left, and counts as 0 */
 #define TWO_OVER_PI 0.636619772367581343f
 #define HALF_PI_1 1.5703125f
 #define HALF_PI_2 4.837512969970703125e-4f

@@ -1,12 +1,14 @@
 /* Steps in batches: the host hands a batch to the device and reads the clock after it, not after each step. */
 #include <math.h>
+#include <time.h>
 
 #include "layout.h"
 #include "status.h"
 #include "world.h"
 
-#define BATCH 64                /* steps handed over without waiting */
-#define FOR_EVER 1.2676506e30   /* s: 2^100, more than any number of steps takes */
+#define MOST_BATCH 256        /* steps handed over without waiting */
+#define BATCH_SECONDS 0.1     /* and no more than about this long: a caller wants to hear of progress */
+#define FOR_EVER 1.2676506e30 /* s: 2^100, more than any number of steps takes */
 
 typedef float clock_texels[4 * CLOCK_WIDTH];
 
@@ -15,14 +17,13 @@ static float *texel(float *clock, int which)
 	return clock + 4 * which;
 }
 
-/* A duration as the clock holds it: the sum of two floats. */
-static carom_status start_clock(carom_world *world, double seconds, carom_error *error)
+static carom_status start_clock(carom_world *world, carom_error *error)
 {
 	clock_texels clock = {0};
 	texel(clock, CLOCK_HIT)[HIT_TIME] = NO_HIT;
 	texel(clock, CLOCK_STEP)[STEP_STALLED] = world->stalled;
-	texel(clock, CLOCK_TIME)[TIME_REMAINING] = (float)seconds;
-	texel(clock, CLOCK_TIME)[TIME_REMAINING_LOW] = (float)(seconds - (double)(float)seconds);
+	texel(clock, CLOCK_TIME)[TIME_REMAINING] = world->remaining[0];
+	texel(clock, CLOCK_TIME)[TIME_REMAINING_LOW] = world->remaining[1];
 	return world->device->kind->upload(world->device, world->textures[ROLE_CLOCK].front, 1, clock, error);
 }
 
@@ -48,9 +49,10 @@ static carom_status stalled(const carom_world *world, float *clock, carom_error 
 		world->time, (double)texel(clock, CLOCK_STEP)[STEP_STALLED], a, b, world->step->name);
 }
 
-/* What the clock says now, added to the report. */
-static carom_status read_clock(carom_world *world, float *clock, double start, carom_report *report, carom_error *error)
+/* What the clock says now; `start` is the world's time when it was started. */
+static carom_status read_clock(carom_world *world, double start, carom_report *report, carom_error *error)
 {
+	clock_texels clock;
 	carom_status status = world->device->kind->download(world->device, world->textures[ROLE_CLOCK].front, 1, clock, error);
 	if (status)
 		return status;
@@ -58,6 +60,8 @@ static carom_status read_clock(carom_world *world, float *clock, double start, c
 	report->hits = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_HITS];
 	report->advanced = (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED] + (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED_LOW];
 	world->time = start + report->advanced;
+	world->remaining[0] = texel(clock, CLOCK_TIME)[TIME_REMAINING];
+	world->remaining[1] = texel(clock, CLOCK_TIME)[TIME_REMAINING_LOW];
 	world->stalled = texel(clock, CLOCK_STEP)[STEP_STALLED];
 	return texel(clock, CLOCK_STEP)[STEP_ENDED] > 0.0f ? stalled(world, clock, error) : CAROM_OK;
 }
@@ -71,54 +75,72 @@ static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *e
 	return status ? status : world->device->kind->flush(world->device, error);
 }
 
-/* A guess, from how it went so far, of how many steps the rest will take: those after the end are idle, but not free. */
-static uint64_t batch_size(const carom_world *world, double rest, uint64_t steps_left, const carom_report *report)
+/* Not many more steps than the time that remains takes, by a guess from how it went so far: those after the end are
+ * idle, but not free. */
+static uint64_t batch_size(const carom_world *world, uint64_t steps_left, const carom_report *report)
 {
 	double step = report->steps && report->advanced > 0.0 ? report->advanced / (double)report->steps : (double)world->def.time_step;
-	double wanted = ceil(rest / step);
-	uint64_t size = wanted < BATCH ? (uint64_t)wanted : BATCH;
+	double wanted = ceil((double)world->remaining[0] / step);
+	uint64_t size = wanted < (double)world->batch ? (uint64_t)wanted : world->batch;
 	if (size < 1)
 		size = 1;
 	return size < steps_left ? size : steps_left;
 }
 
-/* The clock counts in floats, so a leg is short enough for whole numbers to stay exact. */
-static carom_status run_leg(carom_world *world, double seconds, uint64_t steps, carom_report *report, bool *go_on, carom_error *error)
+static double seconds_now(void)
 {
-	clock_texels clock;
-	double start = world->time;
-	carom_report done = {0, 0, 0.0}, sum = *report;
-	carom_status status = start_clock(world, seconds, error);
-	while (!status && *go_on && done.steps < steps && done.advanced < seconds) {
-		uint64_t before = done.steps;
-		status = run_batch(world, batch_size(world, seconds - done.advanced, steps - done.steps, &done), error);
+	struct timespec now;
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* The wall clock decides how many steps a batch has, and nothing else. */
+static void adapt_batch(carom_world *world, uint64_t steps, double seconds)
+{
+	if (seconds > BATCH_SECONDS && world->batch > 1)
+		world->batch /= 2;
+	else if (steps == world->batch && seconds < 0.25 * BATCH_SECONDS && world->batch < MOST_BATCH)
+		world->batch *= 2;
+}
+
+static bool is_over(const carom_world *world)
+{
+	return !(world->remaining[0] > 0.0f);
+}
+
+/* The clock counts in floats, so a leg is short enough for whole numbers to stay exact. */
+static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *report, bool *go_on, carom_error *error)
+{
+	const double start = world->time;
+	const carom_report sum = *report;
+	carom_report done = {0, 0, 0.0};
+	carom_status status = start_clock(world, error);
+	while (!status && *go_on && done.steps < steps && !is_over(world)) {
+		const double begun = seconds_now();
+		const uint64_t batch = batch_size(world, steps - done.steps, &done);
+		status = run_batch(world, batch, error);
 		if (!status)
-			status = read_clock(world, clock, start, &done, error);
+			status = read_clock(world, start, &done, error);
+		adapt_batch(world, batch, seconds_now() - begun);
 		report->steps = sum.steps + done.steps;
 		report->hits = sum.hits + done.hits;
 		report->advanced = sum.advanced + done.advanced;
-		if (!status && done.steps == before)
-			break; /* what was left of the time rounds to nothing */
 		if (!status && world->progress)
 			*go_on = world->progress(world->progress_context, report);
 	}
 	return status;
 }
 
-static carom_status run_all(carom_world *world, double seconds, uint64_t steps, carom_report *report, carom_error *error)
+static carom_status run_all(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
 	const uint64_t leg = 1u << 22;
 	carom_report done = {0, 0, 0.0};
 	bool go_on = true;
 	carom_status status = CAROM_OK;
-	if (world->body_count > 0 && steps > 0 && seconds > 0.0)
+	if (world->body_count > 0 && steps > 0 && !is_over(world))
 		status = carom_textures_update(world, error);
-	while (!status && go_on && world->body_count > 0 && done.steps < steps && done.advanced < seconds) {
-		uint64_t before = done.steps;
-		status = run_leg(world, seconds - done.advanced, steps - done.steps < leg ? steps - done.steps : leg, &done, &go_on, error);
-		if (done.steps == before)
-			break;
-	}
+	while (!status && go_on && world->body_count > 0 && done.steps < steps && !is_over(world))
+		status = run_leg(world, steps - done.steps < leg ? steps - done.steps : leg, &done, &go_on, error);
 	if (report)
 		*report = done;
 	return status;
@@ -126,12 +148,29 @@ static carom_status run_all(carom_world *world, double seconds, uint64_t steps, 
 
 carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
-	return run_all(world, FOR_EVER, steps, report, error);
+	world->target = -1.0;
+	world->remaining[0] = (float)FOR_EVER;
+	world->remaining[1] = 0.0f;
+	return run_all(world, steps, report, error);
+}
+
+carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error)
+{
+	const double rest = time - world->time;
+	if (!(time < FOR_EVER) || !(time == world->target || rest >= 0.0))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time: found %g s, must be a finite number and not before the world's %g s", time, world->time);
+	if (time != world->target) {
+		world->target = time;
+		world->remaining[0] = (float)rest;
+		world->remaining[1] = (float)(rest - (double)(float)rest);
+	}
+	return run_all(world, most_steps, report, error);
 }
 
 carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error)
 {
 	if (!(seconds >= 0.0 && seconds < FOR_EVER))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "seconds: found %g, must be a finite number from 0 on", seconds);
-	return run_all(world, seconds, UINT64_MAX, report, error);
+	world->target = -1.0;
+	return carom_world_advance_to(world, world->time + seconds, UINT64_MAX, report, error);
 }

@@ -80,6 +80,8 @@ carom_status carom_world_create(const carom_world_def *def, carom_world **world,
 	w->pipeline = device_def.pipeline;
 	w->step = step_named(w->pipeline.step);
 	w->host_current = true;
+	w->target = -1.0;
+	w->batch = 1;
 	if (def->device) {
 		snprintf(w->device_name, sizeof w->device_name, "%s", def->device);
 		w->def.device = w->device_name;
@@ -208,6 +210,7 @@ carom_status carom_world_get_device(const carom_world *world, carom_device_info 
 {
 	(void)error;
 	*info = world->device->info;
+	info->uses_images = world->device->storage == CAROM_STORAGE_IMAGE;
 	return CAROM_OK;
 }
 

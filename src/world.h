@@ -57,6 +57,9 @@ struct carom_world {
 	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
 	float stalled;             /* steps in a row that did not get on */
 	double time;               /* s */
+	double target;             /* s: where the clock was set to end; negative for nowhere */
+	float remaining[2];        /* s, until then, as the clock has it: a sum of two */
+	uint64_t batch;            /* steps handed over at once */
 	carom_progress progress;
 	void *progress_context;
 };
