@@ -99,7 +99,8 @@ static void say_device(const struct common_options *options, const carom_world *
 	carom_device_info device;
 	if (carom_world_get_device(world, &device, NULL) != CAROM_OK)
 		return;
-	say(options, "runs on %s%s%s%s", device.platform, *device.platform ? ": " : "", device.name,
+	say(options, "runs on %s%s%s%s%s", device.platform, *device.platform ? ": " : "", device.name,
+		!device.is_opencl ? "" : device.uses_images ? ", with images" : ", with buffers",
 		device.exact ? "" : ", which is not exact: other devices' results differ in the last bits");
 }
 
@@ -222,7 +223,7 @@ const struct command run_command = {
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
 			   "\nA step lasts the scene's time step at most; one of `first_impact` ends at the first hit, so --steps\n"
 			   "counts those, and --time counts simulated seconds. With --time, the step before the end or before a\n"
-			   "frame is cut short to end there; in the table such a row may hold several steps of `first_impact`.\n"
+			   "frame is cut short to end there.\n"
 			   "With --steps no step is cut short, and a frame shows the end of the step that its time falls into.\n"
 			   "\nOutputs are written when the run ends, also when it is interrupted (SIGINT, SIGTERM) or a step\n"
 			   "fails: they then show the last good state, and the exit code is 1. A file is whole or as it was\n"

@@ -62,22 +62,6 @@ static carom_status step(struct run *run, uint64_t steps, carom_error *error)
 	return account(run, &done, status, error);
 }
 
-static carom_status advance(struct run *run, double seconds, carom_error *error)
-{
-	carom_report done = {0};
-	carom_status status = carom_world_advance(run->world, seconds, &done, error);
-	return account(run, &done, status, error);
-}
-
-/* Steps that surely end before `until`; 0 if the next one may have to be cut short. */
-static uint64_t whole_steps(const struct run *run, double until)
-{
-	double length = (double)carom_world_get_def(run->world)->time_step;
-	double count = floor((until - carom_world_time(run->world)) / length);
-	/* The last one is taken alone: whether it fits is then seen from the time itself, not from a quotient. */
-	return count < 1 ? 0 : count < 3 ? 1 : count < 1e18 ? (uint64_t)count - 1 : NO_STEPS;
-}
-
 /* So little is left only where the time step, a float, is not quite what was meant; a step for it would be waste. */
 static bool is_reached(const struct run *run, double until)
 {
@@ -89,14 +73,13 @@ static bool is_reached(const struct run *run, double until)
 static carom_status run_until(struct run *run, double until, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	while (run->stats && status == CAROM_OK && !run->interrupted && !is_reached(run, until) && whole_steps(run, until) > 0) {
-		uint64_t before = run->total.steps;
-		status = step(run, 1, error);
-		if (run->total.steps == before) /* a world without bodies */
+	while (status == CAROM_OK && !run->interrupted && !is_reached(run, until)) {
+		carom_report done = {0};
+		status = carom_world_advance_to(run->world, until, run->stats ? 1 : UINT64_MAX, &done, error);
+		status = account(run, &done, status, error);
+		if (done.steps == 0) /* a world without bodies */
 			break;
 	}
-	if (status == CAROM_OK && !run->interrupted && !is_reached(run, until))
-		status = advance(run, until - carom_world_time(run->world), error);
 	return status;
 }
 
@@ -109,6 +92,15 @@ static carom_status run_time(struct run *run, double end, carom_error *error)
 			status = write_frame(run, error);
 	}
 	return status == CAROM_OK && !run->interrupted ? run_until(run, end, error) : status;
+}
+
+/* Steps that surely end before `until`; 0 if the next one may not. */
+static uint64_t whole_steps(const struct run *run, double until)
+{
+	double length = (double)carom_world_get_def(run->world)->time_step;
+	double count = floor((until - carom_world_time(run->world)) / length);
+	/* The last one is taken alone: whether it fits is then seen from the time itself, not from a quotient. */
+	return count < 1 ? 0 : count < 3 ? 1 : count < 1e18 ? (uint64_t)count - 1 : NO_STEPS;
 }
 
 /* How many steps to take at once: up to the row or the frame that is next. */
