@@ -115,21 +115,28 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 	return hit_times + 2 * pairs + levels_memory(pipeline, n) + (16 + 8) * pairs / (TILE * TILE) + 16 * (n + n / WALLS_GROUP + 1);
 }
 
+/* Could this many bodies run on the device, by its limits of an image, of one texture, and in all? */
+static bool fits(const carom_world *world, uint64_t capacity)
+{
+	const carom_device_info *info = &world->device->info;
+	const bool image_fits = world->device->storage != CAROM_STORAGE_IMAGE || capacity <= info->max_image_size;
+	return image_fits && 16 * capacity * capacity <= info->max_allocation && memory(&world->pipeline, &world->def, capacity) <= info->memory;
+}
+
 /* Asked for first, so that a scene too large fails at once and without filling the memory. */
 static carom_status check_limits(const carom_world *world, carom_error *error)
 {
-	const carom_device_info *info = &world->device->info;
-	const uint64_t n = world->capacity, size = 16 * n * n, all = memory(&world->pipeline, &world->def, world->body_count);
-	const double gib = 1024.0 * 1024.0 * 1024.0;
-	if (world->device->storage == CAROM_STORAGE_IMAGE && n > info->max_image_size)
-		return carom_fail(error, CAROM_LIMIT, "%zu bodies need an N x N texture of %llu x %llu texels in the step first_impact, and images on '%s' have at "
-			"most %u x %u: take fewer bodies, or buffer storage", world->body_count, (unsigned long long)n, (unsigned long long)n, info->name,
-			info->max_image_size, info->max_image_size);
-	if (size > info->max_allocation || all > info->memory)
-		return carom_fail(error, CAROM_LIMIT, "%zu bodies need an N x N texture of %llu x %llu texels in the step first_impact, %.3g GiB, in all %.3g GiB, "
-			"and '%s' has %.3g GiB, at most %.3g GiB in one texture: take fewer bodies", world->body_count, (unsigned long long)n,
-			(unsigned long long)n, (double)size / gib, (double)all / gib, info->name, (double)info->memory / gib, (double)info->max_allocation / gib);
-	return CAROM_OK;
+	const uint64_t n = world->capacity;
+	uint64_t most = n;
+	if (fits(world, n))
+		return CAROM_OK;
+	while (most > TILE && !fits(world, most))
+		most /= 2;
+	return carom_fail(error, CAROM_LIMIT, "%zu bodies need an N x N texture, HitTimes, of %llu x %llu texels (%.3g GiB) in the step first_impact: '%s' "
+		"%s can hold it for at most %llu bodies", world->body_count, (unsigned long long)n, (unsigned long long)n,
+		16.0 * (double)n * (double)n / (1024.0 * 1024.0 * 1024.0), world->device->info.name,
+		world->device->storage == CAROM_STORAGE_IMAGE ? "with images" : world->device->info.is_opencl ? "with buffers" : "as it is",
+		(unsigned long long)most);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
