@@ -174,7 +174,7 @@ $(TEST_PROGRAMS): %: %.o $(HELPER_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/helpers.
 	$(call say,LINK) $(LINK) -o $@ $(filter %.o %.a,$^) $(CMOCKA_LIBRARIES) $(LIBRARIES)
 
 check: all $(TEST_PROGRAMS)
-	@CC='$(CC)' CXX='$(CXX)' tools/check $(BUILD) $(TEST_PROGRAMS)
+	@CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE_COMMAND)' tools/check $(BUILD) $(TEST_PROGRAMS)
 
 # ---- The demo: scene, options of `carom run`, what the picture shows
 
@@ -204,7 +204,8 @@ $(BUILD)/carom.pc: $(BUILD)/pc.list
 $(eval $(call remember,pc.list,$$(PREFIX) $$(VERSION)))
 
 install: all $(BUILD)/carom.pc
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig \
+		$(DESTDIR)$(PREFIX)/share/man/man1
 	install -m 755 $(BUILD)/carom $(DESTDIR)$(PREFIX)/bin
 	install -m 644 include/carom.h $(DESTDIR)$(PREFIX)/include
 	install -m 644 $(BUILD)/libcarom.a $(DESTDIR)$(PREFIX)/lib
@@ -212,6 +213,7 @@ install: all $(BUILD)/carom.pc
 	ln -sf libcarom.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libcarom.so.$(ABI)
 	ln -sf libcarom.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/libcarom.so
 	install -m 644 $(BUILD)/carom.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	install -m 644 tools/carom.1 $(DESTDIR)$(PREFIX)/share/man/man1
 
 clean:
 	rm -rf $(BUILD)
