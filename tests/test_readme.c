@@ -110,7 +110,8 @@ static int run_there(const char *line)
 {
 	char text[3000];
 	format(text, sizeof text,
-		"cd $D; PATH=\"$D/build:$PATH\"; cc() { command ${CC:-cc} -std=c11 -Wall -Wextra -Wpedantic -Werror $CAROM_SANITIZERS \"$@\"; }; %s",
+		"cd $D; PATH=\"$D/build:$PATH\"; cc() { "
+		"command ${CC:-cc} -std=c11 -Wall -Wextra -Wpedantic -Werror $CAROM_SANITIZERS \"$@\"; }; %s",
 		line);
 	return shell(text);
 }
@@ -292,8 +293,8 @@ static void every_scene_shown_is_one(void **state)
 	for (; next_block(&at, "json", block, sizeof block); scenes++) {
 		carom_scene *scene = NULL;
 		carom_world *world = NULL;
-		if (carom_scene_parse(block, strlen(block), "README.md", &scene, &error) || carom_scene_create_world(scene, &world, &error) ||
-			carom_world_step(world, 100, NULL, &error))
+		if (carom_scene_parse(block, strlen(block), "README.md", &scene, &error) ||
+			carom_scene_create_world(scene, &world, &error) || carom_world_step(world, 100, NULL, &error))
 			fail_msg("%s", error.text);
 		carom_world_destroy(world);
 		carom_scene_destroy(scene);
