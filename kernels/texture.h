@@ -1,28 +1,39 @@
 /* Texels by name. Every texture has two bodies, image2d and buffer; which one is chosen when the program is built, and
  * both hold the same rows. A kernel takes textures as TEX_IN(name) and TEX_OUT(name) (BYTES_IN and BYTES_OUT for the
- * textures of bytes), hands them on as TEX(name), and reads and writes whole texels. */
+ * textures of bytes), hands them on as TEX(name), and reads and writes whole texels. Where reads are counted, for the
+ * tests of section 2.2's numbers, each texture brings the counter along. */
 #define CHANNEL_OF(texel, channel) ((texel).s##channel)
 #define CHANNEL(texel, channel) CHANNEL_OF(texel, channel)
 
+#ifdef CAROM_COUNT_READS
+#define COUNTER(t) , __global uint *t##_reads
+#define COUNTED(t) , t##_reads
+#define COUNT(t) atomic_inc(t##_reads),
+#else
+#define COUNTER(t)
+#define COUNTED(t)
+#define COUNT(t)
+#endif
+
 #ifdef CAROM_IMAGES
-#define TEX_IN(t) read_only image2d_t t
-#define TEX_OUT(t) write_only image2d_t t
-#define BYTES_IN(t) read_only image2d_t t
-#define BYTES_OUT(t) write_only image2d_t t
-#define TEX(t) t
-#define TEX_LOAD(t, x, y) read_imagef(t, (int2)((x), (y)))
+#define TEX_IN(t) read_only image2d_t t COUNTER(t)
+#define TEX_OUT(t) write_only image2d_t t COUNTER(t)
+#define BYTES_IN(t) read_only image2d_t t COUNTER(t)
+#define BYTES_OUT(t) write_only image2d_t t COUNTER(t)
+#define TEX(t) t COUNTED(t)
+#define TEX_LOAD(t, x, y) (COUNT(t) read_imagef(t, (int2)((x), (y))))
 #define TEX_STORE(t, x, y, texel) write_imagef(t, (int2)((x), (y)), (texel))
-#define BYTES_LOAD(t, x, y) read_imageui(t, (int2)((x), (y)))
+#define BYTES_LOAD(t, x, y) (COUNT(t) read_imageui(t, (int2)((x), (y))))
 #define BYTES_STORE(t, x, y, texel) write_imageui(t, (int2)((x), (y)), (texel))
 #else
-#define TEX_IN(t) __global const float4 *restrict t, int t##_width
-#define TEX_OUT(t) __global float4 *restrict t, int t##_width
-#define BYTES_IN(t) __global const uchar4 *restrict t, int t##_width
-#define BYTES_OUT(t) __global uchar4 *restrict t, int t##_width
-#define TEX(t) t, t##_width
-#define TEX_LOAD(t, x, y) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)])
+#define TEX_IN(t) __global const float4 *restrict t, int t##_width COUNTER(t)
+#define TEX_OUT(t) __global float4 *restrict t, int t##_width COUNTER(t)
+#define BYTES_IN(t) __global const uchar4 *restrict t, int t##_width COUNTER(t)
+#define BYTES_OUT(t) __global uchar4 *restrict t, int t##_width COUNTER(t)
+#define TEX(t) t, t##_width COUNTED(t)
+#define TEX_LOAD(t, x, y) (COUNT(t)(t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)])
 #define TEX_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = (texel))
-#define BYTES_LOAD(t, x, y) convert_uint4((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)])
+#define BYTES_LOAD(t, x, y) (COUNT(t) convert_uint4((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)]))
 #define BYTES_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = convert_uchar4(texel))
 #endif
 

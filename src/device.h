@@ -38,6 +38,9 @@ typedef struct carom_device_class {
 	carom_status (*flush)(carom_device *device, carom_error *error);
 	/* Brings device->times up to date, after waiting. */
 	void (*profile)(carom_device *device);
+	/* How many texels the kernels have read since it was asked last, below 2^32, where the def said to count them; 0 where it
+	 * did not. The CPU device counts only in the alternatives of the slot reduce that halve. Waits. */
+	carom_status (*reads)(carom_device *device, uint64_t *texels, carom_error *error);
 } carom_device_class;
 
 struct carom_device {
@@ -53,6 +56,7 @@ typedef struct carom_device_def {
 	uint32_t threads;       /* of the CPU device, 0 for one a core */
 	carom_pipeline pipeline; /* resolved */
 	bool profile;
+	bool count_reads;       /* for tests; it takes much time */
 } carom_device_def;
 
 /* Opens the device of that name: CAROM_UNKNOWN_NAME lists what there is. */

@@ -6,6 +6,7 @@
 #include <CL/cl.h>
 
 #include "carom.h"
+#include "device.h"
 
 #define CAROM_CL_FUNCTIONS(X)                                                                                            \
 	X(clGetPlatformIDs) X(clGetPlatformInfo) X(clGetDeviceIDs) X(clGetDeviceInfo) X(clCreateContext) X(clReleaseContext)  \
@@ -39,7 +40,7 @@ typedef struct carom_cl_found {
 carom_status carom_cl_find(const carom_cl_api *cl, carom_cl_found **found, size_t *count, carom_error *error);
 
 /* Builds the program of the chosen alternatives; the head of the log goes into the error. */
-carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_pipeline *pipeline, bool images,
+carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool images,
 	bool exact, cl_program *program, carom_error *error);
 
 #endif

@@ -21,6 +21,7 @@ typedef struct cl_device {
 	cl_context context;
 	cl_command_queue queue;
 	cl_program program;
+	cl_mem reads; /* one uint; NULL where reads are not counted */
 	bound_kernel kernels[STAGE_COUNT];
 	bool profile;
 	size_t pending; /* launches whose times are not read yet */
@@ -145,7 +146,7 @@ static bool has_kernel(const carom_device *device, carom_stage stage)
 	return of(device)->kernels[stage].kernel != NULL;
 }
 
-/* Buffers travel with their width, images know it. */
+/* Buffers travel with their width, images know it; and each with the counter of reads, where there is one. */
 static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *const *textures, cl_uint *next)
 {
 	bound_kernel *k = &d->kernels[stage];
@@ -159,6 +160,11 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 		if (!textures[i]->is_image) {
 			if (!same && !code)
 				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof width, &width);
+			++*next;
+		}
+		if (d->reads) {
+			if (!same && !code)
+				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &d->reads);
 			++*next;
 		}
 		k->textures[i] = code ? NULL : textures[i];
@@ -189,6 +195,29 @@ static void read_profile(carom_device *device)
 		time->launches++;
 	}
 	d->pending = 0;
+}
+
+static carom_status make_counter(cl_device *d, carom_error *error)
+{
+	cl_uint zero = 0;
+	cl_int code;
+	d->reads = d->cl.clCreateBuffer(d->context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, sizeof zero, &zero, &code);
+	return code ? device_fail(d, error, code, "no counter of reads can be made") : CAROM_OK;
+}
+
+static carom_status count_reads(carom_device *device, uint64_t *texels, carom_error *error)
+{
+	cl_device *d = of(device);
+	cl_uint count = 0, zero = 0;
+	cl_int code = CL_SUCCESS;
+	if (d->reads)
+		code = d->cl.clEnqueueReadBuffer(d->queue, d->reads, CL_TRUE, 0, sizeof count, &count, 0, NULL, NULL);
+	if (d->reads && !code)
+		code = d->cl.clEnqueueWriteBuffer(d->queue, d->reads, CL_TRUE, 0, sizeof zero, &zero, 0, NULL, NULL);
+	if (code)
+		return device_fail(d, error, code, "the counter of reads can't be read");
+	*texels = count;
+	return CAROM_OK;
 }
 
 /* Where the next launch's event goes; NULL where nothing is measured. */
@@ -235,6 +264,8 @@ static void close_device(carom_device *device)
 	for (int i = 0; i < STAGE_COUNT; i++)
 		if (d->kernels[i].kernel)
 			d->cl.clReleaseKernel(d->kernels[i].kernel);
+	if (d->reads)
+		d->cl.clReleaseMemObject(d->reads);
 	if (d->program)
 		d->cl.clReleaseProgram(d->program);
 	if (d->queue)
@@ -244,7 +275,8 @@ static void close_device(carom_device *device)
 	free(d);
 }
 
-static const carom_device_class cl_class = {close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush, read_profile};
+static const carom_device_class cl_class = {
+	close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush, read_profile, count_reads};
 
 /* Keeps the kernel for the stage that names it. */
 static void keep_kernel(cl_device *d, cl_kernel kernel)
@@ -294,8 +326,10 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, def->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
 	if (code)
 		return device_fail(d, error, code, "no queue can be made");
-	status = carom_cl_build(&d->cl, d->context, found->device, &def->pipeline, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact,
-		&d->program, error);
+	if (def->count_reads && (status = make_counter(d, error)))
+		return status;
+	status = carom_cl_build(
+		&d->cl, d->context, found->device, def, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact, &d->program, error);
 	return status ? status : create_kernels(d, error);
 }
 

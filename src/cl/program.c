@@ -112,7 +112,7 @@ static void keep_log(const carom_cl_api *cl, cl_program program, cl_device_id de
 	free(log);
 }
 
-carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_pipeline *pipeline, bool images,
+carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool images,
 	bool exact, cl_program *program, carom_error *error)
 {
 	/* the macro brings back the image functions that PoCL 7.1 hides from OpenCL C 1.2 */
@@ -120,11 +120,11 @@ carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_devic
 	sources all = {.count = 0};
 	cl_program built = NULL;
 	cl_int code;
-	carom_status status = collect(&all, pipeline, error);
+	carom_status status = collect(&all, &def->pipeline, error);
 	if (status)
 		goto end;
-	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s", images ? " -DCAROM_IMAGES" : "",
-		exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
+	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s", images ? " -DCAROM_IMAGES" : "",
+		def->count_reads ? " -DCAROM_COUNT_READS" : "", exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
 	built = cl->clCreateProgramWithSource(context, (cl_uint)all.count, (const char **)all.text, NULL, &code);
 	if (built)
 		code = cl->clBuildProgram(built, 1, &device, options, NULL, NULL);

@@ -29,10 +29,14 @@ template <> struct Instance<double> {
 };
 
 template <typename T> struct Device : carom_device {
-	explicit Device(const carom_device_def &def) : carom_device{}, pool(def.threads), profiled(def.profile) {}
+	explicit Device(const carom_device_def &def)
+		: carom_device{}, pool(def.threads), profiled(def.profile), counted(def.count_reads)
+	{
+	}
 
 	Pool pool;
-	const bool profiled;
+	const bool profiled, counted;
+	std::atomic<uint64_t> reads{0};
 	Run<T> kernels[STAGE_COUNT] = {};
 	InsideTest<T> inside = nullptr;
 };
@@ -167,7 +171,7 @@ static void run_kernel(Device<T> &device, carom_stage stage, const Texture *cons
 {
 	using Clock = std::chrono::steady_clock;
 	const Clock::time_point start = device.profiled ? Clock::now() : Clock::time_point();
-	device.kernels[stage]({textures, domain, device.pool, device.inside});
+	device.kernels[stage]({textures, domain, device.pool, device.inside, device.counted ? &device.reads : nullptr});
 	if (device.profiled) {
 		device.times[stage].seconds += std::chrono::duration<double>(Clock::now() - start).count();
 		device.times[stage].launches++;
@@ -198,6 +202,12 @@ static carom_status flush(carom_device *, carom_error *)
 /* The times are always up to date: nothing is still to be done when run returns. */
 static void profile(carom_device *) {}
 
+template <typename T> static carom_status reads(carom_device *device, uint64_t *texels, carom_error *)
+{
+	*texels = of<T>(device).reads.exchange(0);
+	return CAROM_OK;
+}
+
 /* ---- Opening and closing */
 
 template <typename T> static void close(carom_device *device)
@@ -207,7 +217,7 @@ template <typename T> static void close(carom_device *device)
 
 template <typename T>
 static constexpr carom_device_class device_class{
-	close<T>, create<T>, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile};
+	close<T>, create<T>, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile, reads<T>};
 
 /* The alternative that fills the slot: some stages' is fixed, others' is the pipeline's. */
 static bool is_chosen(const carom_pipeline &pipeline, const Stage &stage, const char *fixed)

@@ -31,6 +31,22 @@ private:
 	Texels<T> texels;
 };
 
+/* The same, counting what is read. */
+template <typename Source> class CountedSource
+{
+public:
+	CountedSource(const Source &counted, std::atomic<uint64_t> &counter) : source(counted), reads(counter) {}
+	auto at(int32_t x, int32_t y) const
+	{
+		reads.fetch_add(1, std::memory_order_relaxed);
+		return source.at(x, y);
+	}
+
+private:
+	const Source &source;
+	std::atomic<uint64_t> &reads;
+};
+
 /* The 2 x 2 square that fragment (x, y) stands for. */
 template <typename Source> auto four(const Source &source, int32_t x, int32_t y)
 {
@@ -64,12 +80,21 @@ void reduce_from(const Job<T> &job, const Source &source, ReduceRow reduce_row)
 	});
 }
 
+template <typename T, typename Source, typename ReduceRow>
+void reduce_source(const Job<T> &job, const Source &source, ReduceRow reduce_row)
+{
+	if (job.reads)
+		reduce_from(job, CountedSource<Source>(source, *job.reads), reduce_row);
+	else
+		reduce_from(job, source, reduce_row);
+}
+
 template <typename T, typename ReduceRow> void reduce(const Job<T> &job, ReduceRow reduce_row)
 {
 	if (job.domain[2] == 0)
-		reduce_from(job, HitTimesSource<T>(job.texels(0)), reduce_row);
+		reduce_source(job, HitTimesSource<T>(job.texels(0)), reduce_row);
 	else
-		reduce_from(job, ReducedSource<T>(job.texels(0)), reduce_row);
+		reduce_source(job, ReducedSource<T>(job.texels(0)), reduce_row);
 }
 
 /* The last pass of those that keep below the diagonal: one texel is left there. */

@@ -6,6 +6,8 @@
 #ifndef CAROM_CPU_STAGES_HPP
 #define CAROM_CPU_STAGES_HPP
 
+#include <atomic>
+
 #include "cpu/numbers.hpp"
 #include "cpu/pool.hpp"
 #include "cpu/texture.hpp"
@@ -24,6 +26,7 @@ template <typename T> struct Job {
 	const int32_t *domain;
 	Pool &pool;
 	InsideTest<T> inside; /* of the chosen alternative */
+	std::atomic<uint64_t> *reads; /* of texels; null where they are not counted */
 
 	Texels<T> texels(int index) const { return Texels<T>(*textures[index]); }
 	Bytes bytes(int index) const { return Bytes(*textures[index]); }
