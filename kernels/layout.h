@@ -122,6 +122,103 @@
 #define IMPULSE_TORQUE_A 2 /* N m s about A's centre of mass */
 #define IMPULSE_TORQUE_B 3 /* of -J about B's */
 
+/* ---- Rendering [3] */
+
+/* Stream: what is sent to place each vertex, in the order in which bodies are drawn; one texel a vertex. Depends on the
+ * alternative: option1 (body, ordinal), option2 (first texel in Vertices, ordinal), option3 the local coordinates. */
+#define STREAM_X 0
+#define STREAM_Y 1
+#define STREAM_BODY 2 /* the uniform that options 2 and 3 need beside: whose transform it is */
+
+/* Transforms: sent where the transform is not read from the state; one texel a body */
+#define TRANSFORMS_X 0 /* m */
+#define TRANSFORMS_Y 1
+#define TRANSFORMS_ANGLE 2 /* rad */
+
+/* View: from the world to pixels, y down; four texels in a row */
+#define VIEW_WIDTH 4
+#define VIEW_ORIGIN 0 /* texel: of the upper left corner, m, sums of two floats */
+#define ORIGIN_LEFT 0
+#define ORIGIN_LEFT_LOW 1
+#define ORIGIN_TOP 2
+#define ORIGIN_TOP_LOW 3
+#define VIEW_SCALE 1 /* texel */
+#define SCALE_PIXELS 0 /* a metre */
+#define SCALE_LINE 1   /* pixels: the breadth of thin lines */
+#define SCALE_WIDTH 2  /* pixels: of the picture */
+#define SCALE_HEIGHT 3
+#define VIEW_CLIP 2 /* texel: a box of pixels, as those below */
+#define BOX_X0 0
+#define BOX_Y0 1
+#define BOX_X1 2 /* the first pixel outside */
+#define BOX_Y1 3
+#define VIEW_FIRST 3 /* texel */
+#define FIRST_SHAPE 0 /* where this view's shapes and edges begin */
+#define FIRST_EDGE 1
+
+/* Placed: one texel a vertex, in the stream's order; pixels, y down */
+#define PLACED_X 0 /* from the body's centre */
+#define PLACED_Y 1
+#define PLACED_CENTER_X 2
+#define PLACED_CENTER_Y 3
+
+/* Draws: what the host knows of a body to draw; two texels a body, in the order in which they are drawn */
+#define DRAWS_WIDTH 2
+#define DRAW_PARTS 0 /* texel */
+#define PARTS_VERTEX 0 /* the first in Stream and Placed */
+#define PARTS_COUNT 1  /* of vertices */
+#define PARTS_EDGE 2   /* the first: a polygon has `count`, a circle 1 and LINE_EDGES of its radius line */
+#define PARTS_SHAPE 3  /* a polygon has one, a circle two */
+#define DRAW_INK 1 /* texel, the channels of SHAPE_INK */
+
+/* Marks: what is drawn below the bodies: boxes of whole pixels, and lines; two texels a mark */
+#define MARKS_WIDTH 2
+#define MARK_PLACE 0 /* texel: a box, or the ends of a line (x, y, x, y) */
+#define MARK_STYLE 1 /* texel */
+#define STYLE_COLOR 0
+#define STYLE_BREADTH 1 /* pixels, of a line; 0: a box */
+
+/* Shapes: three texels a shape, in painter's order */
+#define SHAPES_WIDTH 3
+#define SHAPE_BOX 0 /* texel: the pixels that it may touch; none: it is not seen, and the rest is not written */
+#define SHAPE_INK 1 /* texel */
+#define INK_FILL 0    /* 0xRRGGBB as a number */
+#define INK_OUTLINE 1
+#define INK_WIDTH 2   /* pixels, of the outline */
+#define INK_OPACITY 3 /* 0..1 */
+#define SHAPE_EDGES 2 /* texel */
+#define EDGES_FIRST 0
+#define EDGES_COUNT 1 /* 0: the whole box */
+#define LINE_EDGES 4  /* of a line */
+
+/* Edges: a half plane, or with a bend > 0 a disc of radius 1 / (2 bend): inside is where
+ * at + x slope_x + y slope_y + (x^2 + y^2) bend < 0, with x and y from the centre of the box's first pixel */
+#define EDGE_SLOPE_X 0
+#define EDGE_SLOPE_Y 1
+#define EDGE_AT 2
+#define EDGE_BEND 3
+
+/* Frame: the part of the picture that is drawn at once; two texels in a row */
+#define FRAME_WIDTH 2
+#define FRAME_BOX 0 /* texel */
+#define FRAME_TILES 1 /* texel */
+#define TILES_COLUMNS 0
+#define TILES_ROWS 1
+#define TILES_GROUND 2 /* colour, 0xRRGGBB as a number */
+
+/* Lists of whole numbers: shapes sorted by rows of tiles of pixels, then by tile */
+#define PIXEL_TILE 8
+#define BIN_CHUNK 256 /* shapes that a work-item sorts */
+
+/* How a picture looks */
+#define SEEN 1e15f        /* pixels: squares of what is farther away would not fit in a float */
+#define FARTHEST 1000000  /* pixels: beyond any picture, and far from an int's end */
+#define LEAST_OPACITY 0.15f /* of a dot far smaller than a pixel: it still shows on the ground */
+#define LINE_OPACITY 0.75f  /* at least, of a line however thin: of a body of five pixels or more */
+#define SHOW_ANGLE 4.0f     /* pixels of radius: a circle that is smaller has no room for its radius line */
+#define NO_EDGE -1e30f      /* the distance to a side that was lost in rounding */
+#define DISC_AREA 3.14159265f
+
 /* Numerical rules */
 #define SLOP 9.5367431640625e-7f     /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
 #define APPROACH 9.5367431640625e-7f /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */

@@ -21,7 +21,7 @@
 #define BYTES_IN(t) read_only image2d_t t COUNTER(t)
 #define BYTES_OUT(t) write_only image2d_t t COUNTER(t)
 #define TEX(t) t COUNTED(t)
-#define TEX_LOAD(t, x, y) (COUNT(t) read_imagef(t, (int2)((x), (y))))
+#define TEX_SENT(t, x, y) read_imagef(t, (int2)((x), (y)))
 #define TEX_STORE(t, x, y, texel) write_imagef(t, (int2)((x), (y)), (texel))
 #define BYTES_LOAD(t, x, y) (COUNT(t) read_imageui(t, (int2)((x), (y))))
 #define BYTES_STORE(t, x, y, texel) write_imageui(t, (int2)((x), (y)), (texel))
@@ -31,12 +31,20 @@
 #define BYTES_IN(t) __global const uchar4 *restrict t, int t##_width COUNTER(t)
 #define BYTES_OUT(t) __global uchar4 *restrict t, int t##_width COUNTER(t)
 #define TEX(t) t, t##_width COUNTED(t)
-#define TEX_LOAD(t, x, y) (COUNT(t)(t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)])
+#define TEX_SENT(t, x, y) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)])
 #define TEX_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = (texel))
 #define BYTES_LOAD(t, x, y) (COUNT(t) convert_uint4((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)]))
 #define BYTES_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = convert_uchar4(texel))
 #endif
 
+/* Lists of ints are buffers on every device; what is LIST_OUT may be read, too. */
+#define LIST_IN(t) __global const int *restrict t
+#define LIST_OUT(t) __global int *restrict t
+
+/* TEX_SENT reads what OpenGL would send with a draw call, as attributes of a vertex or as uniforms [3]: it is not counted. */
+#define TEX_LOAD(t, x, y) (COUNT(t) TEX_SENT(t, x, y))
+
 /* One texel a body, folded into rows. */
 #define ROW_LOAD(t, i) TEX_LOAD(t, (i) & (ROW_SIZE - 1), (i) >> ROW_LOG2)
+#define ROW_SENT(t, i) TEX_SENT(t, (i) & (ROW_SIZE - 1), (i) >> ROW_LOG2)
 #define ROW_STORE(t, i, texel) TEX_STORE(t, (i) & (ROW_SIZE - 1), (i) >> ROW_LOG2, texel)

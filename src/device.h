@@ -15,6 +15,7 @@ typedef struct carom_texture carom_texture; /* each kind of device has its own *
 typedef enum carom_texel_format {
 	TEXELS_FLOAT, /* four floats */
 	TEXELS_BYTE,  /* four bytes */
+	TEXELS_LIST,  /* one int; on every device a buffer: to kernels these are lists */
 } carom_texel_format;
 
 /* Rows first: (x, y) is column x of row y. Functions that fail fill in the error. */
@@ -24,7 +25,7 @@ typedef struct carom_device_class {
 	carom_status (*create)(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
 		carom_texture **texture, carom_error *error);
 	void (*destroy)(carom_device *device, carom_texture *texture);
-	/* Whole rows from row 0 on, 4 x width floats or bytes each. Uploading may return before it is done, but not before
+	/* Whole rows from row 0 on, 4 x width floats or bytes each, or width ints. Uploading may return before it is done, but not before
 	 * `texels` may be reused; downloading waits. */
 	carom_status (*upload)(carom_device *device, carom_texture *texture, uint32_t rows, const void *texels, carom_error *error);
 	carom_status (*download)(carom_device *device, carom_texture *texture, uint32_t rows, void *texels, carom_error *error);
@@ -39,7 +40,8 @@ typedef struct carom_device_class {
 	/* Brings device->times up to date, after waiting. */
 	void (*profile)(carom_device *device);
 	/* How many texels the kernels have read since it was asked last, below 2^32, where the def said to count them; 0 where it
-	 * did not. The CPU device counts only in the alternatives of the slot reduce that halve. Waits. */
+	 * did not. The CPU device counts only in the alternatives of the slot reduce that halve, and in the slot vertices.
+	 * Waits. */
 	carom_status (*reads)(carom_device *device, uint64_t *texels, carom_error *error);
 } carom_device_class;
 

@@ -171,6 +171,8 @@ static void put_pipeline(const struct writer *writer)
 		{"walls", pipeline->walls},
 		{"reduce", pipeline->reduce},
 		{"impulse", pipeline->impulse},
+		{"transforms", pipeline->transforms},
+		{"vertices", pipeline->vertices},
 	};
 	bool begun = false;
 	for (size_t k = 0; k < sizeof slots / sizeof *slots; k++) {

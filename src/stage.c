@@ -24,21 +24,41 @@ const carom_stage_def carom_stages[STAGE_COUNT] = {
 	[STAGE_IMPULSE] = {"impulse", NULL, "impulse", 7, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_IMPULSE}},
 	[STAGE_NO_COLLISION] = {"forward", "no_collision", "forward_no_collision", 6, 2, {STATE, ROLE_CLOCK, ROLE_LINEAR, ROLE_ROTATIONAL}},
 	[STAGE_COLLISION] = {"forward", "collision", "forward_collision", 7, 2, {STATE, ROLE_CLOCK, ROLE_IMPULSE, ROLE_LINEAR, ROLE_ROTATIONAL}},
+	[STAGE_VERTICES] = {"vertices", NULL, "vertices", 7, 1,
+		{ROLE_STREAM, ROLE_LINEAR, ROLE_ROTATIONAL, ROLE_TRANSFORMS, ROLE_GEOMETRY, ROLE_VERTICES, ROLE_VIEW, ROLE_PLACED}},
+	[STAGE_SHAPES] = {"shapes", NULL, "shapes", 4, 2, {ROLE_DRAWS, ROLE_MARKS, ROLE_PLACED, ROLE_VIEW, ROLE_SHAPES, ROLE_EDGES}},
+	[STAGE_BIN_COUNT] = {"bins", NULL, "bin_count", 2, 1, {ROLE_SHAPES, ROLE_FRAME, ROLE_BIN_COUNTS}},
+	[STAGE_BIN_SUM] = {"bins", NULL, "bin_sum", 2, 2, {ROLE_BIN_COUNTS, ROLE_FRAME, ROLE_BIN_OFFSETS, ROLE_BIN_TOTALS}},
+	[STAGE_BIN_ROWS] = {"bins", NULL, "bin_rows", 3, 2, {ROLE_SHAPES, ROLE_FRAME, ROLE_BIN_TOTALS, ROLE_BIN_OFFSETS, ROLE_ROW_LIST}},
+	[STAGE_BIN_TILES] = {"bins", NULL, "bin_tiles", 4, 2,
+		{ROLE_SHAPES, ROLE_FRAME, ROLE_BIN_TOTALS, ROLE_ROW_LIST, ROLE_TILE_ENDS, ROLE_TILE_LIST}},
+	[STAGE_PIXELS] = {"pixels", NULL, "pixels", 5, 1,
+		{ROLE_SHAPES, ROLE_EDGES, ROLE_FRAME, ROLE_TILE_ENDS, ROLE_TILE_LIST, ROLE_PICTURE}},
 };
 
 const carom_slot carom_slots[] = {
-	{"step", offsetof(carom_pipeline, step), "first_impact"},
-	{"aabb", offsetof(carom_pipeline, aabb), "tight"},
-	{"overlap", offsetof(carom_pipeline, overlap), "all_pairs"},
-	{"inside", offsetof(carom_pipeline, inside), "naive"},
-	{"toi", offsetof(carom_pipeline, toi), "circle_quadratic"},
-	{"walls", offsetof(carom_pipeline, walls), "half_planes"},
-	{"reduce", offsetof(carom_pipeline, reduce), "tiled"},
-	{"first", SIZE_MAX, "earliest"},
-	{"impulse", offsetof(carom_pipeline, impulse), "pair_exact"},
-	{"forward", SIZE_MAX, NULL},
+	{"step", offsetof(carom_pipeline, step), "first_impact", false},
+	{"aabb", offsetof(carom_pipeline, aabb), "tight", false},
+	{"overlap", offsetof(carom_pipeline, overlap), "all_pairs", false},
+	{"inside", offsetof(carom_pipeline, inside), "naive", false},
+	{"toi", offsetof(carom_pipeline, toi), "circle_quadratic", false},
+	{"walls", offsetof(carom_pipeline, walls), "half_planes", false},
+	{"reduce", offsetof(carom_pipeline, reduce), "tiled", false},
+	{"first", SIZE_MAX, "earliest", false},
+	{"impulse", offsetof(carom_pipeline, impulse), "pair_exact", false},
+	{"forward", SIZE_MAX, NULL, false},
+	{"transforms", offsetof(carom_pipeline, transforms), "index", true},
+	{"vertices", offsetof(carom_pipeline, vertices), "option1", true},
+	{"shapes", SIZE_MAX, "convex", true},
+	{"bins", SIZE_MAX, "tiles", true},
+	{"pixels", SIZE_MAX, "distance", true},
 };
 const size_t carom_slot_count = sizeof carom_slots / sizeof *carom_slots;
+
+bool carom_stage_draws(carom_stage stage)
+{
+	return stage >= STAGE_VERTICES && stage <= STAGE_PIXELS;
+}
 
 static const carom_slot *slot_named(const char *name)
 {
@@ -46,6 +66,12 @@ static const carom_slot *slot_named(const char *name)
 		if (!strcmp(carom_slots[i].name, name))
 			return &carom_slots[i];
 	return NULL;
+}
+
+bool carom_slot_draws(const char *name)
+{
+	const carom_slot *slot = slot_named(name);
+	return slot && slot->draws;
 }
 
 /* The index-th alternative of a slot, whichever side has it; NULL past the last. */

@@ -27,6 +27,23 @@ typedef enum carom_role {
 	ROLE_WALLS,      /* one texel WALLS_GROUP bodies */
 	ROLE_REDUCED,    /* pair: the level before and the level to make */
 	ROLE_IMPULSE,    /* 1 x 1 */
+	/* of pictures, made when the first is drawn; lists are those of ints */
+	ROLE_STREAM,      /* one texel a vertex */
+	ROLE_TRANSFORMS,  /* one texel a body */
+	ROLE_VIEW,        /* VIEW_WIDTH x 1 */
+	ROLE_PLACED,      /* one texel a vertex */
+	ROLE_DRAWS,       /* DRAWS_WIDTH texels a body */
+	ROLE_MARKS,       /* MARKS_WIDTH texels a mark */
+	ROLE_SHAPES,      /* SHAPES_WIDTH texels a shape */
+	ROLE_EDGES,       /* one texel an edge */
+	ROLE_FRAME,       /* FRAME_WIDTH x 1 */
+	ROLE_BIN_COUNTS,  /* list: two of each chunk and row of tiles */
+	ROLE_BIN_OFFSETS, /* list: the same */
+	ROLE_BIN_TOTALS,  /* list: two of each row of tiles */
+	ROLE_ROW_LIST,    /* list: the shapes of each row of tiles */
+	ROLE_TILE_ENDS,   /* list: columns + 1 of each row of tiles */
+	ROLE_TILE_LIST,   /* list: the shapes of each tile */
+	ROLE_PICTURE,     /* bytes, a texel a pixel */
 	ROLE_COUNT
 } carom_role;
 
@@ -42,6 +59,14 @@ typedef enum carom_stage {
 	STAGE_IMPULSE,      /* (1) */
 	STAGE_NO_COLLISION, /* (bodies) */
 	STAGE_COLLISION,    /* (bodies) */
+	/* rendering [3] */
+	STAGE_VERTICES,  /* (vertices) */
+	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */
+	STAGE_BIN_COUNT, /* (chunks, 1, shapes) */
+	STAGE_BIN_SUM,   /* (rows of tiles, 1, chunks) */
+	STAGE_BIN_ROWS,  /* (chunks, 1, shapes, room in the list) */
+	STAGE_BIN_TILES, /* (rows of tiles, 1, room in the rows' list, room in the tiles') */
+	STAGE_PIXELS,    /* (tile columns x PIXEL_TILE, rows of tiles, room in the tiles' list) */
 	STAGE_COUNT
 } carom_stage;
 
@@ -62,10 +87,15 @@ typedef struct carom_slot {
 	const char *name;
 	size_t field; /* offset in carom_pipeline; SIZE_MAX where nothing is to choose */
 	const char *standard;
+	bool draws; /* used by pictures alone */
 } carom_slot;
 
 extern const carom_slot carom_slots[];
 extern const size_t carom_slot_count;
+
+/* Is the stage one of rendering? Those of a device are made ready when the first is run. */
+bool carom_stage_draws(carom_stage stage);
+bool carom_slot_draws(const char *slot);
 
 /* Fills in the defaults and checks every name. */
 carom_status carom_pipeline_resolve(const carom_pipeline *pipeline, carom_pipeline *resolved, carom_error *error);

@@ -24,7 +24,14 @@ uint32_t carom_capacity(size_t items)
 	return capacity;
 }
 
-static void destroy_pair(carom_world *world, carom_role role)
+static carom_texel_format format_of(carom_role role)
+{
+	if (role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST)
+		return TEXELS_LIST;
+	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
+}
+
+void carom_textures_drop(carom_world *world, carom_role role)
 {
 	carom_pair *pair = &world->textures[role];
 	if (pair->back != pair->front)
@@ -36,11 +43,10 @@ static void destroy_pair(carom_world *world, carom_role role)
 carom_status carom_textures_create(carom_world *world, carom_role role, bool pair, uint32_t width, uint32_t height, const float fill[4],
 	carom_error *error)
 {
-	carom_texel_format format = role == ROLE_OVERLAP || role == ROLE_TILES ? TEXELS_BYTE : TEXELS_FLOAT;
 	carom_pair *textures = &world->textures[role];
-	carom_status status = world->device->kind->create(world->device, format, width, height, fill, &textures->front, error);
+	carom_status status = world->device->kind->create(world->device, format_of(role), width, height, fill, &textures->front, error);
 	if (!status && pair)
-		status = world->device->kind->create(world->device, format, width, height, fill, &textures->back, error);
+		status = world->device->kind->create(world->device, format_of(role), width, height, fill, &textures->back, error);
 	else
 		textures->back = textures->front;
 	return status;
@@ -51,13 +57,14 @@ void carom_textures_destroy(carom_world *world)
 	/* these two name textures of other roles, and own none */
 	world->textures[ROLE_REDUCED] = world->textures[ROLE_OVERLAP_BEFORE] = (carom_pair){NULL, NULL};
 	for (int role = 0; role < ROLE_COUNT; role++)
-		destroy_pair(world, (carom_role)role);
+		carom_textures_drop(world, (carom_role)role);
 	for (int i = 0; i < CAROM_MAX_LEVELS; i++) {
 		world->device->kind->destroy(world->device, world->levels[i]);
 		world->levels[i] = NULL;
 	}
 	world->capacity = world->vertex_capacity = 0;
-	world->bodies_current = world->device_current = false;
+	world->bodies_current = world->device_current = world->prepared = false;
+	world->canvas = (carom_canvas){0};
 }
 
 void carom_swap(carom_world *world, carom_role role)
@@ -202,7 +209,10 @@ static carom_status transfer(carom_world *world, bool down, carom_error *error)
 	uint32_t rows = carom_row_count((uint32_t)world->body_count), width = carom_row_width(world->capacity);
 	size_t size = world->body_count * 4 * sizeof(float);
 	carom_status status = CAROM_OK;
-	float *texels = calloc((size_t)rows * width, 4 * sizeof *texels);
+	float *texels;
+	if (!size)
+		return CAROM_OK;
+	texels = calloc((size_t)rows * width, 4 * sizeof *texels);
 	if (!texels)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to move the state of %zu bodies", world->body_count);
 	for (int i = 0; !status && i < 2; i++) {
@@ -220,21 +230,19 @@ static carom_status transfer(carom_world *world, bool down, carom_error *error)
 	return status;
 }
 
-carom_status carom_textures_update(carom_world *world, carom_error *error)
+carom_status carom_textures_hold(carom_world *world, carom_error *error)
 {
 	uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(vertex_texels(world));
 	carom_status status = CAROM_OK;
 	if (capacity != world->capacity || vertex_capacity != world->vertex_capacity) {
 		carom_textures_destroy(world);
 		status = create_all(world, capacity, vertex_capacity, error);
-		world->capacity = capacity;
-		world->vertex_capacity = vertex_capacity;
-		if (!status)
-			status = world->step->prepare(world, error);
 		if (status) {
 			carom_textures_destroy(world);
 			return status;
 		}
+		world->capacity = capacity;
+		world->vertex_capacity = vertex_capacity;
 	}
 	if (!world->bodies_current)
 		status = upload_bodies(world, error);
@@ -245,6 +253,18 @@ carom_status carom_textures_update(carom_world *world, carom_error *error)
 		status = transfer(world, false, error);
 	if (!status)
 		world->device_current = true;
+	return status;
+}
+
+carom_status carom_textures_update(carom_world *world, carom_error *error)
+{
+	carom_status status = carom_textures_hold(world, error);
+	if (status || world->prepared)
+		return status;
+	status = world->step->prepare(world, error);
+	if (status)
+		carom_textures_destroy(world);
+	world->prepared = !status;
 	return status;
 }
 

@@ -35,6 +35,14 @@ typedef struct carom_pair {
 
 #define CAROM_MAX_LEVELS 16
 
+/* What there is on the device for pictures; all zero while none has been drawn. */
+typedef struct carom_canvas {
+	uint32_t room[ROLE_COUNT]; /* texels or ints that a texture of rendering holds */
+	uint32_t width, height;    /* of Picture */
+	size_t body_count;         /* of the bodies that Stream and Draws are of */
+	uint32_t vertices, edges, shapes; /* that these have */
+} carom_canvas;
+
 struct carom_world {
 	carom_world_def def;       /* as given, its pipeline too */
 	carom_pipeline pipeline;   /* resolved */
@@ -55,6 +63,8 @@ struct carom_world {
 	uint32_t vertex_capacity;  /* texels of Vertices, likewise */
 	carom_pair textures[ROLE_COUNT];
 	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
+	bool prepared;             /* the step has its textures, too */
+	carom_canvas canvas;
 	float stalled;             /* steps in a row that did not get on */
 	double time;               /* s */
 	double target;             /* s: where the clock was set to end; negative for nowhere */
@@ -76,7 +86,10 @@ uint32_t carom_capacity(size_t items); /* the power of two that holds them, at l
 carom_status carom_textures_create(carom_world *world, carom_role role, bool pair, uint32_t width, uint32_t height, const float fill[4],
 	carom_error *error);
 void carom_textures_destroy(carom_world *world);
-/* Makes the device's textures those of the host, creating them if they are too small or not there. */
+void carom_textures_drop(carom_world *world, carom_role role);
+/* Makes the device's textures of the state those of the host, creating them if they are too small or not there. */
+carom_status carom_textures_hold(carom_world *world, carom_error *error);
+/* The same, and makes the step's own. */
 carom_status carom_textures_update(carom_world *world, carom_error *error);
 /* Brings the state back to the host. */
 carom_status carom_textures_fetch(carom_world *world, carom_error *error);

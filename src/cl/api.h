@@ -39,8 +39,9 @@ typedef struct carom_cl_found {
 /* All devices, the fastest that works first; *found is to be freed. */
 carom_status carom_cl_find(const carom_cl_api *cl, carom_cl_found **found, size_t *count, carom_error *error);
 
-/* Builds the program of the chosen alternatives; the head of the log goes into the error. */
-carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool images,
-	bool exact, cl_program *program, carom_error *error);
+/* Builds the program of the chosen alternatives, of the step's slots or of those that draw; the head of the
+ * log goes into the error. */
+carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws,
+	bool images, bool exact, cl_program *program, carom_error *error);
 
 #endif

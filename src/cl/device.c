@@ -20,8 +20,10 @@ typedef struct cl_device {
 	carom_cl_api cl;
 	cl_context context;
 	cl_command_queue queue;
-	cl_program program;
-	cl_mem reads; /* one uint; NULL where reads are not counted */
+	cl_device_id device;
+	carom_device_def def;   /* as given; only its pipeline and flags are good for later */
+	cl_program programs[2]; /* of the step's stages, and of rendering's, which is NULL until the first is run */
+	cl_mem reads;           /* one uint; NULL where reads are not counted */
 	bound_kernel kernels[STAGE_COUNT];
 	bool profile;
 	size_t pending; /* launches whose times are not read yet */
@@ -43,7 +45,7 @@ static cl_device *of(const carom_device *device)
 
 static size_t texel_size(carom_texel_format format)
 {
-	return format == TEXELS_FLOAT ? 4 * sizeof(float) : 4;
+	return format == TEXELS_FLOAT ? 4 * sizeof(float) : 4; /* bytes, or an int */
 }
 
 static carom_status device_fail(const cl_device *d, carom_error *error, cl_int code, const char *what)
@@ -106,10 +108,10 @@ static carom_status create_texture(carom_device *device, carom_texel_format form
 	cl_int code;
 	if (!t)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a texture");
-	t->format = format;
 	t->width = width;
 	t->height = height;
-	t->is_image = device->storage == CAROM_STORAGE_IMAGE;
+	t->format = format;
+	t->is_image = device->storage == CAROM_STORAGE_IMAGE && format != TEXELS_LIST;
 	code = t->is_image ? make_image(d, t) : make_buffer(d, t);
 	if (!code)
 		code = fill_texture(d, t, fill);
@@ -146,7 +148,7 @@ static bool has_kernel(const carom_device *device, carom_stage stage)
 	return of(device)->kernels[stage].kernel != NULL;
 }
 
-/* Buffers travel with their width, images know it; and each with the counter of reads, where there is one. */
+/* Buffers travel with their width, images know it; and each with the counter of reads, where there is one. Lists are bare. */
 static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *const *textures, cl_uint *next)
 {
 	bound_kernel *k = &d->kernels[stage];
@@ -157,12 +159,12 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 		if (!same)
 			code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &textures[i]->memory);
 		++*next;
-		if (!textures[i]->is_image) {
+		if (!textures[i]->is_image && textures[i]->format != TEXELS_LIST) {
 			if (!same && !code)
 				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof width, &width);
 			++*next;
 		}
-		if (d->reads) {
+		if (d->reads && textures[i]->format != TEXELS_LIST) {
 			if (!same && !code)
 				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &d->reads);
 			++*next;
@@ -177,7 +179,8 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 /* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. */
 static size_t local_size(carom_stage stage)
 {
-	return stage == STAGE_FIRST || stage == STAGE_IMPULSE ? 1 : 64;
+	bool few = stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES);
+	return few ? 1 : 64;
 }
 
 /* Adds up what the launches so far took, and forgets them. */
@@ -231,20 +234,61 @@ static cl_event *next_event(cl_device *d, carom_stage stage)
 	return &d->events[d->pending];
 }
 
+/* Keeps the kernel for the stage that names it. */
+static void keep_kernel(cl_device *d, cl_kernel kernel)
+{
+	char name[64] = "";
+	d->cl.clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
+	for (int i = 0; i < STAGE_COUNT; i++) {
+		if (strcmp(name, carom_stages[i].kernel) || d->kernels[i].kernel)
+			continue;
+		d->kernels[i].kernel = kernel;
+		return;
+	}
+	d->cl.clReleaseKernel(kernel);
+}
+
+/* All that the program has: which those are depends on the alternatives. */
+static carom_status create_kernels(cl_device *d, cl_program program, carom_error *error)
+{
+	cl_kernel kernels[2 * STAGE_COUNT];
+	cl_uint count = 0;
+	cl_int code = d->cl.clCreateKernelsInProgram(program, 2 * STAGE_COUNT, kernels, &count);
+	if (code)
+		return device_fail(d, error, code, "no kernels can be made");
+	for (cl_uint i = 0; i < count; i++)
+		keep_kernel(d, kernels[i]);
+	return CAROM_OK;
+}
+
+/* PoCL builds for a while: a world that draws no picture is spared rendering's program. */
+static carom_status build_program(cl_device *d, bool draws, carom_error *error)
+{
+	carom_status status = carom_cl_build(&d->cl, d->context, d->device, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE,
+		d->base.info.exact, &d->programs[draws], error);
+	return status ? status : create_kernels(d, d->programs[draws], error);
+}
+
 static carom_status run_stage(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
 {
 	cl_device *d = of(device);
-	cl_kernel kernel = d->kernels[stage].kernel;
 	size_t local[2] = {local_size(stage), 1};
 	size_t global[2] = {((size_t)domain[0] + local[0] - 1) / local[0] * local[0], domain[1] > 1 ? (size_t)domain[1] : 1};
 	cl_int4 size = {{domain[0], domain[1], domain[2], domain[3]}};
 	cl_uint next = 0;
-	cl_event *event = next_event(d, stage);
-	cl_int code = bind_textures(d, stage, textures, &next);
+	cl_event *event;
+	cl_int code;
+	if (carom_stage_draws(stage) && !d->programs[1]) {
+		carom_status status = build_program(d, true, error);
+		if (status)
+			return status;
+	}
+	event = next_event(d, stage);
+	code = bind_textures(d, stage, textures, &next);
 	if (!code)
-		code = d->cl.clSetKernelArg(kernel, next, sizeof size, &size);
+		code = d->cl.clSetKernelArg(d->kernels[stage].kernel, next, sizeof size, &size);
 	if (!code)
-		code = d->cl.clEnqueueNDRangeKernel(d->queue, kernel, 2, NULL, global, local, 0, NULL, event);
+		code = d->cl.clEnqueueNDRangeKernel(d->queue, d->kernels[stage].kernel, 2, NULL, global, local, 0, NULL, event);
 	if (!code && event)
 		d->pending++;
 	return code ? device_fail(d, error, code, carom_stages[stage].kernel) : CAROM_OK;
@@ -266,8 +310,9 @@ static void close_device(carom_device *device)
 			d->cl.clReleaseKernel(d->kernels[i].kernel);
 	if (d->reads)
 		d->cl.clReleaseMemObject(d->reads);
-	if (d->program)
-		d->cl.clReleaseProgram(d->program);
+	for (int i = 0; i < 2; i++)
+		if (d->programs[i])
+			d->cl.clReleaseProgram(d->programs[i]);
 	if (d->queue)
 		d->cl.clReleaseCommandQueue(d->queue);
 	if (d->context)
@@ -277,33 +322,6 @@ static void close_device(carom_device *device)
 
 static const carom_device_class cl_class = {
 	close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush, read_profile, count_reads};
-
-/* Keeps the kernel for the stage that names it. */
-static void keep_kernel(cl_device *d, cl_kernel kernel)
-{
-	char name[64] = "";
-	d->cl.clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
-	for (int i = 0; i < STAGE_COUNT; i++) {
-		if (strcmp(name, carom_stages[i].kernel) || d->kernels[i].kernel)
-			continue;
-		d->kernels[i].kernel = kernel;
-		return;
-	}
-	d->cl.clReleaseKernel(kernel);
-}
-
-/* All that the program has: which those are depends on the alternatives. */
-static carom_status create_kernels(cl_device *d, carom_error *error)
-{
-	cl_kernel kernels[2 * STAGE_COUNT];
-	cl_uint count = 0;
-	cl_int code = d->cl.clCreateKernelsInProgram(d->program, 2 * STAGE_COUNT, kernels, &count);
-	if (code)
-		return device_fail(d, error, code, "no kernels can be made");
-	for (cl_uint i = 0; i < count; i++)
-		keep_kernel(d, kernels[i]);
-	return CAROM_OK;
-}
 
 static carom_status choose_storage(cl_device *d, carom_storage wanted, carom_error *error)
 {
@@ -328,9 +346,9 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 		return device_fail(d, error, code, "no queue can be made");
 	if (def->count_reads && (status = make_counter(d, error)))
 		return status;
-	status = carom_cl_build(
-		&d->cl, d->context, found->device, def, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact, &d->program, error);
-	return status ? status : create_kernels(d, error);
+	d->device = found->device;
+	d->def = *def;
+	return build_program(d, false, error);
 }
 
 static const carom_cl_found *same_device(const carom_cl_found *found, size_t count, const carom_device_info *which)

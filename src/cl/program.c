@@ -1,4 +1,5 @@
-/* One program a world: the kernels' headers, then the chosen alternatives, in the order of the slots. */
+/* A program of a world, for its steps or for its pictures: the kernels' headers, then the chosen alternatives, in the order
+ * of the slots. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +10,10 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[] = {"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward"};
+static const char *const headers[2][16] = {
+	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward"},
+	{"layout", "texture", "numbers", "vertices", "shapes"},
+};
 
 #define MAX_PARTS 64
 
@@ -91,13 +95,14 @@ static carom_status append_slot(sources *all, const carom_slot *slot, const caro
 	return CAROM_OK;
 }
 
-static carom_status collect(sources *all, const carom_pipeline *pipeline, carom_error *error)
+static carom_status collect(sources *all, const carom_pipeline *pipeline, bool draws, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	for (size_t i = 0; !status && i < sizeof headers / sizeof *headers; i++)
-		status = append(all, "", headers[i], error);
+	for (const char *const *header = headers[draws]; !status && *header; header++)
+		status = append(all, "", *header, error);
 	for (size_t i = 0; !status && i < carom_slot_count; i++)
-		status = append_slot(all, &carom_slots[i], pipeline, error);
+		if (carom_slots[i].draws == draws)
+			status = append_slot(all, &carom_slots[i], pipeline, error);
 	return status;
 }
 
@@ -112,15 +117,15 @@ static void keep_log(const carom_cl_api *cl, cl_program program, cl_device_id de
 	free(log);
 }
 
-carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool images,
-	bool exact, cl_program *program, carom_error *error)
+carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws,
+	bool images, bool exact, cl_program *program, carom_error *error)
 {
 	/* the macro brings back the image functions that PoCL 7.1 hides from OpenCL C 1.2 */
 	char options[256];
 	sources all = {.count = 0};
 	cl_program built = NULL;
 	cl_int code;
-	carom_status status = collect(&all, &def->pipeline, error);
+	carom_status status = collect(&all, &def->pipeline, draws, error);
 	if (status)
 		goto end;
 	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s", images ? " -DCAROM_IMAGES" : "",

@@ -21,11 +21,13 @@ template <typename T> struct Instance;
 template <> struct Instance<float> {
 	static Run<float> run(const Kernel &kernel) { return kernel.run; }
 	static InsideTest<float> inside(const Stage &stage) { return stage.inside; }
+	static FindTransform<float> transform(const Stage &stage) { return stage.transform; }
 };
 
 template <> struct Instance<double> {
 	static Run<double> run(const Kernel &kernel) { return kernel.run_double; }
 	static InsideTest<double> inside(const Stage &stage) { return stage.inside_double; }
+	static FindTransform<double> transform(const Stage &stage) { return stage.transform_double; }
 };
 
 template <typename T> struct Device : carom_device {
@@ -39,6 +41,7 @@ template <typename T> struct Device : carom_device {
 	std::atomic<uint64_t> reads{0};
 	Run<T> kernels[STAGE_COUNT] = {};
 	InsideTest<T> inside = nullptr;
+	FindTransform<T> transform = nullptr;
 };
 
 template <typename T> static Device<T> &of(carom_device *device)
@@ -60,7 +63,7 @@ static carom_status out_of_memory(carom_error *error, const char *for_what)
 
 template <typename T> static size_t scalar_size(carom_texel_format format)
 {
-	return format == TEXELS_BYTE ? 1 : sizeof(T);
+	return format == TEXELS_FLOAT ? sizeof(T) : 1; /* a quarter of a texel: a list's have four bytes, too */
 }
 
 /* Every texel the same; all the rows are if one is. */
@@ -69,7 +72,7 @@ template <typename T> static void fill_rows(Texture &texture, const float fill[4
 	const int32_t width = static_cast<int32_t>(texture.width), height = static_cast<int32_t>(texture.height);
 	for (int32_t y = 0; y < height; y++) {
 		for (int32_t channel = 0; channel < 4; channel++) {
-			if (texture.format == TEXELS_BYTE) {
+			if (texture.format != TEXELS_FLOAT) {
 				for (int32_t x = 0; x < width; x++)
 					Bytes(texture).row(y)[4 * x + channel] = static_cast<uint8_t>(fill[channel]);
 			} else {
@@ -135,7 +138,7 @@ static carom_status upload(carom_device *, carom_texture *texture, uint32_t rows
 	Texture &to = of(texture);
 	if (carom_status status = check_rows(to, rows, error))
 		return status;
-	if (to.format == TEXELS_BYTE) {
+	if (to.format != TEXELS_FLOAT) {
 		std::memcpy(to.memory.get(), texels, channel_count * to.width * rows);
 	} else {
 		const float *numbers = static_cast<const float *>(texels);
@@ -150,7 +153,7 @@ static carom_status download(carom_device *, carom_texture *texture, uint32_t ro
 	Texture &from = of(texture);
 	if (carom_status status = check_rows(from, rows, error))
 		return status;
-	if (from.format == TEXELS_BYTE) {
+	if (from.format != TEXELS_FLOAT) {
 		std::memcpy(texels, from.memory.get(), channel_count * from.width * rows);
 	} else {
 		T *numbers = static_cast<T *>(texels);
@@ -171,7 +174,8 @@ static void run_kernel(Device<T> &device, carom_stage stage, const Texture *cons
 {
 	using Clock = std::chrono::steady_clock;
 	const Clock::time_point start = device.profiled ? Clock::now() : Clock::time_point();
-	device.kernels[stage]({textures, domain, device.pool, device.inside, device.counted ? &device.reads : nullptr});
+	device.kernels[stage](
+		{textures, domain, device.pool, device.inside, device.transform, device.counted ? &device.reads : nullptr});
 	if (device.profiled) {
 		device.times[stage].seconds += std::chrono::duration<double>(Clock::now() - start).count();
 		device.times[stage].launches++;
@@ -235,6 +239,8 @@ template <typename T> static void choose(Device<T> &device, const carom_pipeline
 		}
 		if ((*stage)->inside && is_chosen(pipeline, **stage, nullptr))
 			device.inside = Instance<T>::inside(**stage);
+		if ((*stage)->transform && is_chosen(pipeline, **stage, nullptr))
+			device.transform = Instance<T>::transform(**stage);
 	}
 }
 
@@ -258,6 +264,8 @@ template <typename T> static carom_status check(const Device<T> &device, const c
 	}
 	if (!device.kernels[STAGE_REDUCE] && !device.kernels[STAGE_REDUCE_TILES])
 		return unknown(error, pipeline, "reduce");
+	if (!device.transform)
+		return unknown(error, pipeline, "transforms");
 	return device.inside ? CAROM_OK : unknown(error, pipeline, "inside");
 }
 

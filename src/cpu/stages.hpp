@@ -20,16 +20,27 @@ template <typename T> struct Convex;
 /* Is the point, in the polygon's frame, strictly inside? */
 template <typename T> using InsideTest = bool (*)(const Convex<T> &polygon, const Vec<T> &point);
 
+template <typename T> struct Job;
+
+/* Where a body is. */
+template <typename T> struct Transform {
+	T x, y, angle;
+};
+
+template <typename T> using FindTransform = Transform<T> (*)(const Job<T> &job, int32_t body);
+
 /* One run of a kernel. */
 template <typename T> struct Job {
 	const Texture *const *textures; /* those of the stage's definition */
 	const int32_t *domain;
 	Pool &pool;
-	InsideTest<T> inside; /* of the chosen alternative */
+	InsideTest<T> inside; /* of the chosen alternatives, these two */
+	FindTransform<T> transform;
 	std::atomic<uint64_t> *reads; /* of texels; null where they are not counted */
 
 	Texels<T> texels(int index) const { return Texels<T>(*textures[index]); }
 	Bytes bytes(int index) const { return Bytes(*textures[index]); }
+	int32_t *list(int index) const { return static_cast<int32_t *>(textures[index]->memory.get()); }
 };
 
 /* Where the textures are that most kernels begin with. */
@@ -45,9 +56,11 @@ struct Kernel {
 
 struct Stage {
 	const char *slot, *name;
-	Kernel kernels[2]; /* those without a function are none */
+	Kernel kernels[4]; /* those without a function are none */
 	InsideTest<float> inside;
 	InsideTest<double> inside_double;
+	FindTransform<float> transform = nullptr;
+	FindTransform<double> transform_double = nullptr;
 };
 
 /* Sorted by slot and name; ends with a null pointer. */

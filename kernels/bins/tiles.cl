@@ -1,0 +1,109 @@
+/* Which shapes each tile of pixels has, in painter's order: sorted by rows of tiles, then by column. Chunks of shapes are
+ * counted and written by one work-item each, so the order holds without atomics. */
+
+/* The tiles that a shape touches: first column and row, and those behind the last; none: the columns are equal. */
+int4 tiles_of(TEX_IN(shapes), float4 frame, int shape)
+{
+	float4 box = ROW_LOAD(shapes, SHAPES_WIDTH * shape + SHAPE_BOX);
+	int x0 = (int)(larger(CHANNEL(box, BOX_X0), CHANNEL(frame, BOX_X0)) - CHANNEL(frame, BOX_X0));
+	int y0 = (int)(larger(CHANNEL(box, BOX_Y0), CHANNEL(frame, BOX_Y0)) - CHANNEL(frame, BOX_Y0));
+	int x1 = (int)(smaller(CHANNEL(box, BOX_X1), CHANNEL(frame, BOX_X1)) - CHANNEL(frame, BOX_X0));
+	int y1 = (int)(smaller(CHANNEL(box, BOX_Y1), CHANNEL(frame, BOX_Y1)) - CHANNEL(frame, BOX_Y0));
+	if (x0 >= x1 || y0 >= y1)
+		return (int4)(0, 0, 0, 0);
+	return (int4)(x0, y0, x1 + PIXEL_TILE - 1, y1 + PIXEL_TILE - 1) / PIXEL_TILE;
+}
+
+int frame_fact(TEX_IN(frame), bool rows)
+{
+	float4 tiles = TEX_LOAD(frame, FRAME_TILES, 0);
+	return (int)(rows ? CHANNEL(tiles, TILES_ROWS) : CHANNEL(tiles, TILES_COLUMNS));
+}
+
+/* Of each row of tiles: how many of the chunk's shapes touch it, and how many tiles of it they touch. */
+__kernel void bin_count(TEX_IN(shapes), TEX_IN(frame), LIST_OUT(counts), int4 domain)
+{
+	int chunk = get_global_id(0), rows = frame_fact(TEX(frame), true);
+	if (chunk >= domain.x)
+		return;
+	__global int *mine = counts + 2 * chunk * rows;
+	float4 box = TEX_LOAD(frame, FRAME_BOX, 0);
+	for (int r = 0; r < 2 * rows; r++)
+		mine[r] = 0;
+	for (int k = chunk * BIN_CHUNK; k < min((chunk + 1) * BIN_CHUNK, domain.z); k++) {
+		int4 t = tiles_of(TEX(shapes), box, k);
+		for (int r = t.y; r < t.w; r++) {
+			mine[2 * r]++;
+			mine[2 * r + 1] += t.z - t.x;
+		}
+	}
+}
+
+/* Where in its row's part of the list a chunk begins, and how long that part is. */
+__kernel void bin_sum(LIST_IN(counts), TEX_IN(frame), LIST_OUT(offsets), LIST_OUT(totals), int4 domain)
+{
+	int r = get_global_id(0), rows = domain.x, shapes = 0, tiles = 0;
+	if (r >= rows)
+		return;
+	for (int chunk = 0; chunk < domain.z; chunk++) {
+		offsets[chunk * rows + r] = shapes;
+		shapes += counts[2 * (chunk * rows + r)];
+		tiles += counts[2 * (chunk * rows + r) + 1];
+	}
+	totals[2 * r] = shapes;
+	totals[2 * r + 1] = tiles;
+}
+
+__kernel void bin_rows(TEX_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_OUT(offsets), LIST_OUT(list), int4 domain)
+{
+	int chunk = get_global_id(0), rows = frame_fact(TEX(frame), true), start = 0;
+	if (chunk >= domain.x)
+		return;
+	__global int *mine = offsets + chunk * rows;
+	float4 box = TEX_LOAD(frame, FRAME_BOX, 0);
+	for (int r = 0; r < rows; r++) {
+		mine[r] += start;
+		start += totals[2 * r];
+	}
+	for (int k = chunk * BIN_CHUNK; k < min((chunk + 1) * BIN_CHUNK, domain.z); k++) {
+		int4 t = tiles_of(TEX(shapes), box, k);
+		for (int r = t.y; r < t.w; r++) {
+			uint at = (uint)mine[r]++;
+			if (at < (uint)domain.w)
+				list[at] = k;
+		}
+	}
+}
+
+__kernel void bin_tiles(TEX_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_IN(rows), LIST_OUT(ends), LIST_OUT(list),
+	int4 domain)
+{
+	int row = get_global_id(0), columns = frame_fact(TEX(frame), false);
+	uint begin = 0, from = 0, room = (uint)domain.w;
+	if (row >= domain.x)
+		return;
+	for (int r = 0; r < row; r++) {
+		begin += (uint)totals[2 * r];
+		from += (uint)totals[2 * r + 1];
+	}
+	uint end = min(begin + (uint)totals[2 * row], (uint)domain.z);
+	float4 box = TEX_LOAD(frame, FRAME_BOX, 0);
+	__global int *mine = ends + row * (columns + 1);
+	for (int c = 0; c <= columns; c++)
+		mine[c] = 0;
+	for (uint k = begin; k < end; k++) {
+		int4 t = tiles_of(TEX(shapes), box, rows[k]);
+		for (int c = t.x; c < t.z; c++)
+			mine[c]++;
+	}
+	for (int c = 0; c <= columns; c++)
+		mine[c] = (int)(from += (uint)mine[c]);
+	for (uint k = end; k-- > begin;) { /* from the back: each tile's end becomes its beginning */
+		int4 t = tiles_of(TEX(shapes), box, rows[k]);
+		for (int c = t.x; c < t.z; c++) {
+			uint at = (uint)--mine[c];
+			if (at < room)
+				list[at] = rows[k];
+		}
+	}
+}

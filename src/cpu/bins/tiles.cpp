@@ -1,0 +1,161 @@
+#include "cpu/stages.hpp"
+
+#include <algorithm>
+
+namespace carom::cpu {
+
+struct Tiles {
+	int32_t column, row, column_end, row_end;
+};
+
+/* The frame, cut into tiles. */
+template <typename T> class Grid
+{
+  public:
+	const int32_t columns, rows;
+
+	Grid(const Texels<T> &to_shapes, const Texels<T> &frame)
+		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))),
+		  rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))), shapes(to_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)),
+		  y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)), y1(frame.fact(FRAME_BOX, BOX_Y1))
+	{
+	}
+
+	/* Which tiles a shape touches. */
+	Tiles of(int32_t shape) const
+	{
+		const int32_t texel = SHAPES_WIDTH * shape + SHAPE_BOX;
+		const int32_t left = whole(larger(shapes.of(texel, BOX_X0), x0) - x0),
+					  top = whole(larger(shapes.of(texel, BOX_Y0), y0) - y0);
+		const int32_t right = whole(smaller(shapes.of(texel, BOX_X1), x1) - x0);
+		const int32_t bottom = whole(smaller(shapes.of(texel, BOX_Y1), y1) - y0);
+		if (left >= right || top >= bottom)
+			return {0, 0, 0, 0};
+		return {left / PIXEL_TILE, top / PIXEL_TILE, (right - 1) / PIXEL_TILE + 1, (bottom - 1) / PIXEL_TILE + 1};
+	}
+
+  private:
+	static int32_t whole(T v) { return static_cast<int32_t>(v); }
+
+	const Texels<T> shapes;
+	const T x0, y0, x1, y1;
+};
+
+/* Calls `visit(shape, row, tiles)` for the shapes of a chunk, in order, and the rows that each touches. */
+template <typename T, typename Visit> void visit_chunk(const Job<T> &job, const Grid<T> &grid, int32_t chunk, Visit visit)
+{
+	for (int32_t k = chunk * BIN_CHUNK; k < std::min((chunk + 1) * BIN_CHUNK, job.domain[2]); k++) {
+		const Tiles tiles = grid.of(k);
+		for (int32_t r = tiles.row; r < tiles.row_end; r++)
+			visit(k, r, tiles);
+	}
+}
+
+template <typename T> static void count(const Job<T> &job)
+{
+	const Grid<T> grid(job.texels(0), job.texels(1));
+	int32_t *counts = job.list(2);
+	job.pool.run(job.domain[0], 8, [&](int32_t begin, int32_t end) {
+		std::fill(counts + 2 * begin * grid.rows, counts + 2 * end * grid.rows, 0);
+		for (int32_t c = begin; c < end; c++) {
+			visit_chunk(job, grid, c, [&](int32_t, int32_t r, const Tiles &tiles) {
+				counts[2 * (c * grid.rows + r)]++;
+				counts[2 * (c * grid.rows + r) + 1] += tiles.column_end - tiles.column;
+			});
+		}
+	});
+}
+
+template <typename T> static void sum(const Job<T> &job)
+{
+	const int32_t rows = job.domain[0], chunks = job.domain[2];
+	const int32_t *counts = job.list(0);
+	int32_t *offsets = job.list(2), *totals = job.list(3);
+	std::fill(totals, totals + 2 * rows, 0);
+	for (int32_t c = 0; c < chunks; c++) {
+		for (int32_t r = 0; r < rows; r++) {
+			offsets[c * rows + r] = totals[2 * r];
+			totals[2 * r] += counts[2 * (c * rows + r)];
+			totals[2 * r + 1] += counts[2 * (c * rows + r) + 1];
+		}
+	}
+}
+
+/* Positions in lists are unsigned: what is beyond all room may wrap around, and the picture is drawn again. */
+static uint32_t up(int32_t &position)
+{
+	const uint32_t before = static_cast<uint32_t>(position);
+	position = static_cast<int32_t>(before + 1);
+	return before;
+}
+
+template <typename T> static void sort_by_row(const Job<T> &job)
+{
+	const Grid<T> grid(job.texels(0), job.texels(1));
+	const int32_t *totals = job.list(2);
+	int32_t *offsets = job.list(3), *list = job.list(4);
+	const uint32_t room = static_cast<uint32_t>(job.domain[3]);
+	job.pool.run(job.domain[0], 8, [&](int32_t begin, int32_t end) {
+		for (int32_t c = begin; c < end; c++) {
+			int32_t *mine = offsets + c * grid.rows;
+			uint32_t start = 0;
+			for (int32_t r = 0; r < grid.rows; start += static_cast<uint32_t>(totals[2 * r++]))
+				mine[r] = static_cast<int32_t>(static_cast<uint32_t>(mine[r]) + start);
+			visit_chunk(job, grid, c, [&](int32_t k, int32_t r, const Tiles &) {
+				const uint32_t at = up(mine[r]);
+				if (at < room)
+					list[at] = k;
+			});
+		}
+	});
+}
+
+/* One row of tiles: its shapes are counted a column, then written. */
+template <typename T> static void sort_row(const Job<T> &job, const Grid<T> &grid, int32_t row)
+{
+	const int32_t *totals = job.list(2), *shapes = job.list(3);
+	int32_t *ends = job.list(4) + row * (grid.columns + 1), *list = job.list(5);
+	uint32_t begin = 0, start = 0;
+	for (int32_t r = 0; r < row; r++) {
+		begin += static_cast<uint32_t>(totals[2 * r]);
+		start += static_cast<uint32_t>(totals[2 * r + 1]);
+	}
+	const uint32_t end = std::min(begin + static_cast<uint32_t>(totals[2 * row]), static_cast<uint32_t>(job.domain[2]));
+	std::vector<uint32_t> next(static_cast<size_t>(grid.columns) + 1, 0);
+	for (uint32_t k = begin; k < end; k++) {
+		const Tiles tiles = grid.of(shapes[k]);
+		for (int32_t c = tiles.column; c < tiles.column_end; c++)
+			next[static_cast<size_t>(c)]++;
+	}
+	for (int32_t c = 0; c <= grid.columns; c++) {
+		const uint32_t count = next[static_cast<size_t>(c)];
+		next[static_cast<size_t>(c)] = start;
+		ends[c] = static_cast<int32_t>(start);
+		start += count;
+	}
+	for (uint32_t k = begin; k < end; k++) {
+		const Tiles tiles = grid.of(shapes[k]);
+		for (int32_t c = tiles.column; c < tiles.column_end; c++) {
+			const uint32_t at = next[static_cast<size_t>(c)]++;
+			if (at < static_cast<uint32_t>(job.domain[3]))
+				list[at] = shapes[k];
+		}
+	}
+}
+
+template <typename T> static void sort_by_tile(const Job<T> &job)
+{
+	const Grid<T> grid(job.texels(0), job.texels(1));
+	job.pool.run(job.domain[0], 4, [&](int32_t begin, int32_t end) {
+		for (int32_t r = begin; r < end; r++)
+			sort_row(job, grid, r);
+	});
+}
+
+extern const Stage bins_tiles;
+const Stage bins_tiles{"bins", "tiles",
+	{{STAGE_BIN_COUNT, count<float>, count<double>}, {STAGE_BIN_SUM, sum<float>, sum<double>},
+		{STAGE_BIN_ROWS, sort_by_row<float>, sort_by_row<double>}, {STAGE_BIN_TILES, sort_by_tile<float>, sort_by_tile<double>}},
+	nullptr, nullptr};
+
+}

@@ -1,0 +1,126 @@
+/* Shapes in pixels: CONTRACT.md, "shapes". */
+#ifndef CAROM_CPU_SHAPES_HPP
+#define CAROM_CPU_SHAPES_HPP
+
+#include "cpu/stages.hpp"
+
+namespace carom::cpu {
+
+template <typename T> struct Box {
+	T x0, y0, x1, y1;
+
+	bool empty() const { return !(x0 < x1); }
+	Vec<T> first_pixel() const { return {x0 + T(0.5), y0 + T(0.5)}; }
+};
+
+template <typename T> struct Ink {
+	T fill, outline, width, opacity;
+};
+
+template <typename T> T clamped(T v, T low, T high)
+{
+	return smaller(larger(low, v), high);
+}
+
+template <typename T> T floor_pixel(T v)
+{
+	const T c = clamped(v, T(-FARTHEST), T(FARTHEST)), whole = static_cast<T>(static_cast<int32_t>(c));
+	return whole > c ? whole - 1 : whole;
+}
+
+template <typename T> T growth(T breadth)
+{
+	return clamped(T(0.5) * (1 - breadth), T(0), T(0.5));
+}
+
+template <typename T> bool in_sight(const Vec<T> &v)
+{
+	return std::abs(v.x()) < SEEN && std::abs(v.y()) < SEEN;
+}
+
+/* The pixels that may be touched; an empty box for none. */
+template <typename T> Box<T> touched(const Vec<T> &low, const Vec<T> &high, T margin, const Box<T> &clip)
+{
+	if (!in_sight(low) || !in_sight(high))
+		return {};
+	const Box<T> box{larger(floor_pixel(low.x() - margin), clip.x0), larger(floor_pixel(low.y() - margin), clip.y0),
+		smaller(-floor_pixel(-(high.x() + margin)), clip.x1), smaller(-floor_pixel(-(high.y() + margin)), clip.y1)};
+	return box.x0 < box.x1 && box.y0 < box.y1 ? box : Box<T>{};
+}
+
+/* What of the ink is seen of a shape of that mean breadth and length. */
+template <typename T> Ink<T> seen(const Ink<T> &ink, T breadth, T length)
+{
+	const T least = clamped(T(LEAST_OPACITY) * length, T(LEAST_OPACITY), T(LINE_OPACITY));
+	return {breadth < 1 && least >= T(LINE_OPACITY) ? ink.outline : ink.fill, ink.outline,
+		clamped(T(0.125) * breadth, T(0), ink.width), clamped(ink.opacity, T(0), T(1)) * clamped(breadth, least, T(1))};
+}
+
+/* Where shapes and edges go. */
+template <typename T> class ShapeWriter
+{
+  public:
+	ShapeWriter(const Texels<T> &to_shapes, const Texels<T> &to_edges) : shapes(to_shapes), edges(to_edges) {}
+
+	void hide(int32_t shape) const { put(SHAPES_WIDTH * shape + SHAPE_BOX, {0, 0, 0, 0}); }
+
+	/* False: it is not seen. */
+	bool shape(int32_t shape, const Box<T> &box, const Ink<T> &ink, int32_t first_edge, int32_t count) const
+	{
+		put(SHAPES_WIDTH * shape + SHAPE_BOX, {box.x0, box.y0, box.x1, box.y1});
+		if (box.empty())
+			return false;
+		put(SHAPES_WIDTH * shape + SHAPE_INK, {ink.fill, ink.outline, ink.width, ink.opacity});
+		put(SHAPES_WIDTH * shape + SHAPE_EDGES, {static_cast<T>(first_edge), static_cast<T>(count), 0, 0});
+		return true;
+	}
+
+	void edge(int32_t index, const Vec<T> &slope, T at, T bend) const
+	{
+		edges.of(index, EDGE_SLOPE_X) = slope.x();
+		edges.of(index, EDGE_SLOPE_Y) = slope.y();
+		edges.of(index, EDGE_AT) = at;
+		edges.of(index, EDGE_BEND) = bend;
+	}
+
+  private:
+	struct Texel {
+		T channels[channel_count];
+	};
+
+	void put(int32_t texel, const Texel &with) const
+	{
+		for (int channel = 0; channel < static_cast<int>(channel_count); channel++)
+			shapes.of(texel, channel) = with.channels[channel];
+	}
+
+	const Texels<T> shapes, edges;
+};
+
+/* A line from a point along a unit vector. */
+template <typename T> struct Line {
+	Vec<T> from, along;
+	T reach, breadth, color, opacity;
+
+	void write(const ShapeWriter<T> &to, int32_t shape, int32_t edge, const Box<T> &clip) const
+	{
+		const T half = T(0.5) * breadth;
+		const Vec<T> end = from + reach * along, wide(half * std::abs(along.y()), half * std::abs(along.x()));
+		const Vec<T> low(smaller(from.x(), end.x()) - wide.x(), smaller(from.y(), end.y()) - wide.y());
+		const Vec<T> high(larger(from.x(), end.x()) + wide.x(), larger(from.y(), end.y()) + wide.y());
+		const T size = norm(high - low), mean = (reach * breadth) / larger(size, T(1)), out = growth(mean);
+		const Box<T> box = reach > 0 ? touched(low, high, out, clip) : Box<T>{};
+		if (!to.shape(shape, box, seen<T>({color, color, 0, opacity}, mean, size), edge, LINE_EDGES))
+			return;
+		const Vec<T> d = box.first_pixel() - from, aside(along.y(), -along.x());
+		const T far = inner(along, d), off = inner(aside, d), side = half + out;
+		to.edge(edge, -along, -far - out, 0);
+		to.edge(edge + 1, along, (far - reach) - out, 0);
+		to.edge(edge + 2, -aside, -off - side, 0);
+		to.edge(edge + 3, aside, off - side, 0);
+	}
+};
+
+}
+
+#endif
