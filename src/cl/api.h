@@ -11,7 +11,7 @@
 #define CAROM_CL_FUNCTIONS(X)                                                                                            \
 	X(clGetPlatformIDs) X(clGetPlatformInfo) X(clGetDeviceIDs) X(clGetDeviceInfo) X(clCreateContext) X(clReleaseContext)  \
 	X(clCreateCommandQueue) X(clReleaseCommandQueue) X(clCreateProgramWithSource) X(clBuildProgram)                       \
-	X(clGetProgramBuildInfo) X(clReleaseProgram) X(clCreateKernelsInProgram) X(clGetKernelInfo) X(clReleaseKernel) X(clSetKernelArg)                   \
+	X(clGetProgramBuildInfo) X(clReleaseProgram) X(clCreateKernelsInProgram) X(clGetKernelInfo) X(clGetKernelWorkGroupInfo) X(clReleaseKernel) X(clSetKernelArg)                   \
 	X(clCreateBuffer) X(clCreateImage) X(clReleaseMemObject) X(clEnqueueFillBuffer) X(clEnqueueFillImage)                 \
 	X(clEnqueueWriteBuffer) X(clEnqueueReadBuffer) X(clEnqueueWriteImage) X(clEnqueueReadImage)                           \
 	X(clEnqueueNDRangeKernel) X(clFlush) X(clFinish) X(clGetEventProfilingInfo) X(clReleaseEvent)

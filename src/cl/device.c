@@ -12,6 +12,7 @@
 /* The last argument set, to spare the calls that would change nothing. */
 typedef struct bound_kernel {
 	cl_kernel kernel; /* NULL where the alternative has none */
+	size_t local;     /* work-items of a group */
 	const carom_texture *textures[CAROM_MAX_TEXTURES];
 } bound_kernel;
 
@@ -176,11 +177,14 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 	return CL_SUCCESS;
 }
 
-/* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. */
-static size_t local_size(carom_stage stage)
+/* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. Some devices take only small groups. */
+static size_t local_size(const cl_device *d, carom_stage stage, cl_kernel kernel)
 {
 	bool few = stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES);
-	return few ? 1 : 64;
+	size_t wanted = few ? 1 : 64, most = 0;
+	if (d->cl.clGetKernelWorkGroupInfo(kernel, d->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL) || most < 1)
+		most = 1;
+	return wanted < most ? wanted : most;
 }
 
 /* Adds up what the launches so far took, and forgets them. */
@@ -243,6 +247,7 @@ static void keep_kernel(cl_device *d, cl_kernel kernel)
 		if (strcmp(name, carom_stages[i].kernel) || d->kernels[i].kernel)
 			continue;
 		d->kernels[i].kernel = kernel;
+		d->kernels[i].local = local_size(d, (carom_stage)i, kernel);
 		return;
 	}
 	d->cl.clReleaseKernel(kernel);
@@ -272,8 +277,7 @@ static carom_status build_program(cl_device *d, bool draws, carom_error *error)
 static carom_status run_stage(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
 {
 	cl_device *d = of(device);
-	size_t local[2] = {local_size(stage), 1};
-	size_t global[2] = {((size_t)domain[0] + local[0] - 1) / local[0] * local[0], domain[1] > 1 ? (size_t)domain[1] : 1};
+	size_t local[2] = {1, 1}, global[2] = {0, domain[1] > 1 ? (size_t)domain[1] : 1};
 	cl_int4 size = {{domain[0], domain[1], domain[2], domain[3]}};
 	cl_uint next = 0;
 	cl_event *event;
@@ -283,6 +287,8 @@ static carom_status run_stage(carom_device *device, carom_stage stage, carom_tex
 		if (status)
 			return status;
 	}
+	local[0] = d->kernels[stage].local;
+	global[0] = ((size_t)domain[0] + local[0] - 1) / local[0] * local[0];
 	event = next_event(d, stage);
 	code = bind_textures(d, stage, textures, &next);
 	if (!code)
