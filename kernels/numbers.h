@@ -65,12 +65,9 @@ float2 rotation_of(float angle)
 	float z = x * x;
 	float s = x + (x * z) * (SINE_3 + z * (SINE_5 + z * SINE_7));
 	float c = (1.0f - 0.5f * z) + (z * z) * (COSINE_4 + z * (COSINE_6 + z * COSINE_8));
-	switch (quarters & 3) {
-	case 0: return (float2)(c, s);
-	case 1: return (float2)(-s, c);
-	case 2: return (float2)(-c, -s);
-	default: return (float2)(s, -c);
-	}
+	/* by the two bits of quarters & 3; a switch goes wrong for -2 in Oclgrind 21.10 */
+	float2 turned = (quarters & 1) ? (float2)(-s, c) : (float2)(c, s);
+	return (quarters & 2) ? (float2)(-turned.x, -turned.y) : turned;
 }
 
 /* The same direction in [-pi, pi]. */
