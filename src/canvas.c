@@ -82,7 +82,7 @@ static carom_status draw_block(carom_world *world, uint32_t shapes, int32_t colu
 	if (chunks)
 		TRY(carom_run(world, STAGE_BIN_ROWS, chunks, 1, (int32_t)shapes, row_room, error));
 	TRY(carom_run(world, STAGE_BIN_TILES, rows, 1, row_room, tile_room, error));
-	return carom_run(world, STAGE_PIXELS, columns * PIXEL_TILE, rows, tile_room, 0, error);
+	return carom_run(world, STAGE_PIXELS, columns * (PIXEL_TILE / 2), rows, tile_room, 0, error);
 }
 
 /* Makes the lists longer if they were too short: `again` tells. */

@@ -66,7 +66,7 @@ typedef enum carom_stage {
 	STAGE_BIN_SUM,   /* (rows of tiles, 1, chunks) */
 	STAGE_BIN_ROWS,  /* (chunks, 1, shapes, room in the list) */
 	STAGE_BIN_TILES, /* (rows of tiles, 1, room in the rows' list, room in the tiles') */
-	STAGE_PIXELS,    /* (tile columns x PIXEL_TILE, rows of tiles, room in the tiles' list) */
+	STAGE_PIXELS,    /* (tile columns x PIXEL_TILE / 2, rows of tiles, room in the tiles' list): two rows of pixels */
 	STAGE_COUNT
 } carom_stage;
 

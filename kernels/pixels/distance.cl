@@ -1,15 +1,15 @@
-/* The picture: eight pixels of a tile's row at once, each blended with the tile's shapes in turn. Colours are held as
+/* The picture: of a tile's pixels two rows at once, each blended with the tile's shapes in turn. Colours are held as
  * squares: light adds up nearly as the squares of sRGB values do, so an edge blended in squares is as bright as it
  * should be, for the price of a root. */
 
-typedef struct light8 {
-	float8 red, green, blue;
-} light8;
+typedef struct lights {
+	float16 red, green, blue;
+} lights;
 
-float8 share8(float8 v)
+float16 share16(float16 v)
 {
-	v = v > 0.0f ? v : (float8)(0.0f);
-	return v < 1.0f ? v : (float8)(1.0f);
+	v = v > 0.0f ? v : (float16)(0.0f);
+	return v < 1.0f ? v : (float16)(1.0f);
 }
 
 float4 squared_color(float color)
@@ -20,69 +20,78 @@ float4 squared_color(float color)
 }
 
 /* The signed distance from the shape to the pixels; x and y are counted from the first pixel of its box. */
-float8 distance8(TEX_IN(edges), int first, int count, float8 x, float y)
+float16 distance16(TEX_IN(edges), int first, int count, float16 x, float16 y)
 {
-	float8 most = (float8)(-INFINITY);
+	float16 most = (float16)(-INFINITY);
 	for (int k = first; k < first + count; k++) {
 		float4 edge = ROW_LOAD(edges, k);
-		float bend = CHANNEL(edge, EDGE_BEND), at = CHANNEL(edge, EDGE_AT) + (CHANNEL(edge, EDGE_SLOPE_Y) + bend * y) * y;
-		float8 s = at + (CHANNEL(edge, EDGE_SLOPE_X) + bend * x) * x;
+		float bend = CHANNEL(edge, EDGE_BEND);
+		float16 s = (CHANNEL(edge, EDGE_AT) + (CHANNEL(edge, EDGE_SLOPE_Y) + bend * y) * y) + (CHANNEL(edge, EDGE_SLOPE_X) + bend * x) * x;
 		if (bend > 0.0f) {
-			float8 square = 1.0f + (4.0f * bend) * s;
-			s = (2.0f * s) / (1.0f + sqrt(square > 0.0f ? square : (float8)(0.0f)));
+			float16 square = 1.0f + (4.0f * bend) * s;
+			s = (2.0f * s) / (1.0f + sqrt(square > 0.0f ? square : (float16)(0.0f)));
 		}
 		most = s > most ? s : most;
 	}
 	return most;
 }
 
-float8 blended(float8 ground, float outline, float fill, float8 cover, float8 inside, float opacity)
+float16 blended(float16 ground, float outline, float fill, float16 cover, float16 inside, float opacity)
 {
 	return ground + opacity * ((outline * (cover - inside) + fill * inside) - cover * ground);
 }
 
-void blend(light8 *light, TEX_IN(shapes), TEX_IN(edges), int shape, float4 box, float x, float y)
+void draw(lights *light, TEX_IN(shapes), TEX_IN(edges), int shape, float4 box, float16 x, float16 y)
 {
 	float4 ink = ROW_LOAD(shapes, SHAPES_WIDTH * shape + SHAPE_INK), sides = ROW_LOAD(shapes, SHAPES_WIDTH * shape + SHAPE_EDGES);
-	int first = (int)CHANNEL(sides, EDGES_FIRST), count = (int)CHANNEL(sides, EDGES_COUNT);
-	float8 across = (x - CHANNEL(box, BOX_X0)) + (float8)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
-	float8 far = distance8(TEX(edges), first, count, across, y - CHANNEL(box, BOX_Y0));
-	far = across >= 0.0f && across < CHANNEL(box, BOX_X1) - CHANNEL(box, BOX_X0) ? far : (float8)(1.0f);
-	float8 near = 0.5f - far, cover = share8(near), inside = share8(near - CHANNEL(ink, INK_WIDTH));
 	float4 fill = squared_color(CHANNEL(ink, INK_FILL)), outline = squared_color(CHANNEL(ink, INK_OUTLINE));
+	int count = (int)CHANNEL(sides, EDGES_COUNT);
 	float opacity = CHANNEL(ink, INK_OPACITY);
+	int16 inside_box = x >= CHANNEL(box, BOX_X0) && x < CHANNEL(box, BOX_X1) && y >= CHANNEL(box, BOX_Y0) && y < CHANNEL(box, BOX_Y1);
+	if (count == 0) {
+		light->red = inside_box ? (float16)(fill.x) : light->red;
+		light->green = inside_box ? (float16)(fill.y) : light->green;
+		light->blue = inside_box ? (float16)(fill.z) : light->blue;
+		return;
+	}
+	float16 far = distance16(TEX(edges), (int)CHANNEL(sides, EDGES_FIRST), count, x - CHANNEL(box, BOX_X0), y - CHANNEL(box, BOX_Y0));
+	float16 near = 0.5f - (inside_box ? far : (float16)(1.0f));
+	float16 cover = share16(near), inside = share16(near - CHANNEL(ink, INK_WIDTH));
 	light->red = blended(light->red, outline.x, fill.x, cover, inside, opacity);
 	light->green = blended(light->green, outline.y, fill.y, cover, inside, opacity);
 	light->blue = blended(light->blue, outline.z, fill.z, cover, inside, opacity);
 }
 
-uint8 level8(float8 squared)
+uint16 levels(float16 squared)
 {
-	return convert_uint8(sqrt(squared > 0.0f ? squared : (float8)(0.0f)) + 0.5f);
+	return convert_uint16(sqrt(squared > 0.0f ? squared : (float16)(0.0f)) + 0.5f);
 }
 
 __kernel void pixels(TEX_IN(shapes), TEX_IN(edges), TEX_IN(frame), LIST_IN(ends), LIST_IN(list), BYTES_OUT(picture), int4 domain)
 {
-	int item = get_global_id(0), row = get_global_id(1), column = item / PIXEL_TILE;
-	int x = column * PIXEL_TILE, y = row * PIXEL_TILE + item % PIXEL_TILE;
-	float4 frame_box = TEX_LOAD(frame, FRAME_BOX, 0), tiles = TEX_LOAD(frame, FRAME_TILES, 0);
-	int width = (int)(CHANNEL(frame_box, BOX_X1) - CHANNEL(frame_box, BOX_X0));
-	if (item >= domain.x || y >= (int)(CHANNEL(frame_box, BOX_Y1) - CHANNEL(frame_box, BOX_Y0)))
+	int item = get_global_id(0), row = get_global_id(1), column = item / (PIXEL_TILE / 2);
+	int x = column * PIXEL_TILE, y = row * PIXEL_TILE + item % (PIXEL_TILE / 2) * 2;
+	float4 box = TEX_LOAD(frame, FRAME_BOX, 0), tiles = TEX_LOAD(frame, FRAME_TILES, 0);
+	int width = (int)(CHANNEL(box, BOX_X1) - CHANNEL(box, BOX_X0)), height = (int)(CHANNEL(box, BOX_Y1) - CHANNEL(box, BOX_Y0));
+	if (item >= domain.x || y >= height)
 		return;
 	float4 ground = squared_color(CHANNEL(tiles, TILES_GROUND));
-	light8 light = {(float8)(ground.x), (float8)(ground.y), (float8)(ground.z)};
+	lights light = {(float16)(ground.x), (float16)(ground.y), (float16)(ground.z)};
+	float left = CHANNEL(box, BOX_X0) + (float)x, top = CHANNEL(box, BOX_Y0) + (float)y;
+	float16 xs = left + (float16)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
+	float16 ys = (float16)((float8)(top), (float8)(top + 1.0f));
 	int tile = row * ((int)CHANNEL(tiles, TILES_COLUMNS) + 1) + column;
-	float left = CHANNEL(frame_box, BOX_X0) + (float)x, top = CHANNEL(frame_box, BOX_Y0) + (float)y;
 	uint end = min((uint)ends[tile + 1], (uint)domain.z);
 	for (uint k = (uint)ends[tile]; k < end; k++) {
-		float4 box = ROW_LOAD(shapes, SHAPES_WIDTH * list[k] + SHAPE_BOX);
-		if (top >= CHANNEL(box, BOX_Y0) && top < CHANNEL(box, BOX_Y1))
-			blend(&light, TEX(shapes), TEX(edges), list[k], box, left, top);
+		float4 its = ROW_LOAD(shapes, SHAPES_WIDTH * list[k] + SHAPE_BOX);
+		if (top + 1.0f >= CHANNEL(its, BOX_Y0) && top < CHANNEL(its, BOX_Y1))
+			draw(&light, TEX(shapes), TEX(edges), list[k], its, xs, ys);
 	}
-	uint reds[8], greens[8], blues[8];
-	vstore8(level8(light.red), 0, reds);
-	vstore8(level8(light.green), 0, greens);
-	vstore8(level8(light.blue), 0, blues);
-	for (int k = 0; k < min(PIXEL_TILE, width - x); k++)
-		BYTES_STORE(picture, x + k, y, (uint4)(reds[k], greens[k], blues[k], 255));
+	uint reds[16], greens[16], blues[16];
+	vstore16(levels(light.red), 0, reds);
+	vstore16(levels(light.green), 0, greens);
+	vstore16(levels(light.blue), 0, blues);
+	for (int k = 0; k < 16; k++)
+		if (x + k % PIXEL_TILE < width && y + k / PIXEL_TILE < height)
+			BYTES_STORE(picture, x + k % PIXEL_TILE, y + k / PIXEL_TILE, (uint4)(reds[k], greens[k], blues[k], 255));
 }

@@ -7,18 +7,7 @@ namespace carom::cpu {
 /* Where the slot's textures are in the list. */
 enum : int { FROM_SHAPES, FROM_EDGES, FROM_FRAME, FROM_ENDS, FROM_LIST, TO_PICTURE };
 
-/* The pixels of a tile's row: a fixed count lets the compiler use SIMD. */
-constexpr int lanes = PIXEL_TILE;
-
-template <typename T> struct Lanes {
-	T at[lanes];
-
-	template <typename Function> void each(Function function)
-	{
-		for (int i = 0; i < lanes; i++)
-			at[i] = function(i);
-	}
-};
+constexpr int32_t side = PIXEL_TILE, area = side * side;
 
 /* Colours as squares: light adds up nearly as the squares of sRGB values do. */
 template <typename T> struct Light {
@@ -34,8 +23,16 @@ template <typename T> struct Light {
 	}
 };
 
+/* The pixels of a tile, row by row: one loop over all that a shape may touch, which compilers make vectors of. */
 template <typename T> struct Tile {
-	Lanes<T> light[lanes][3]; /* row, channel */
+	T x, y; /* of the first pixel */
+	T light[3][area];
+
+	void fill(const Light<T> &ground)
+	{
+		for (int c = 0; c < 3; c++)
+			std::fill(light[c], light[c] + area, ground.channels[c]);
+	}
 };
 
 template <typename T> T share(T v)
@@ -44,123 +41,162 @@ template <typename T> T share(T v)
 	return v < 1 ? v : 1;
 }
 
-template <typename T> class Painter
-{
-  public:
-	explicit Painter(const Job<T> &job) : shapes(job.texels(FROM_SHAPES)), edges(job.texels(FROM_EDGES)) {}
+/* Pixels of a tile, counted from the first pixel of a shape's box, and how far they are from the shape. */
+template <typename T> struct Distances {
+	int32_t count = 0;
+	T x[area], y[area], far[area];
 
-	/* Blends a shape with the tile whose first pixel is (x, y). */
-	void draw(Tile<T> &tile, int32_t shape, T x, T y) const
+	/* The rows from `top` to `bottom` - 1 of the tile. */
+	Distances(int32_t top, int32_t bottom, T from_x, T from_y)
 	{
-		const int32_t box = SHAPES_WIDTH * shape + SHAPE_BOX, with = SHAPES_WIDTH * shape + SHAPE_INK;
-		const int32_t sides = SHAPES_WIDTH * shape + SHAPE_EDGES;
-		const T y0 = shapes.of(box, BOX_Y0), y1 = shapes.of(box, BOX_Y1), width = shapes.of(with, INK_WIDTH);
-		const Light<T> fill(shapes.of(with, INK_FILL)), outline(shapes.of(with, INK_OUTLINE));
-		const int32_t first = static_cast<int32_t>(shapes.of(sides, EDGES_FIRST));
-		const int32_t count = static_cast<int32_t>(shapes.of(sides, EDGES_COUNT));
-		const int top = static_cast<int>(larger(y0 - y, T(0))), bottom = static_cast<int>(smaller(y1 - y, T(lanes)));
-		const T left = x - shapes.of(box, BOX_X0), breadth = shapes.of(box, BOX_X1) - shapes.of(box, BOX_X0);
-		for (int row = top; row < bottom; row++) {
-			Lanes<T> far = distance(first, count, left, (y + static_cast<T>(row)) - y0);
-			mask(far, left, breadth);
-			blend(tile.light[row], far, fill, outline, width, shapes.of(with, INK_OPACITY));
+		for (int32_t row = top; row < bottom; row++) {
+			for (int32_t i = 0; i < side; i++, count++) {
+				x[count] = from_x + static_cast<T>(i);
+				y[count] = from_y + static_cast<T>(row);
+				far[count] = -infinite<T>;
+			}
 		}
 	}
 
-  private:
-	/* From the shape to the pixels from x on, both counted from the first pixel of its box. */
-	Lanes<T> distance(int32_t first, int32_t count, T x, T y) const
+	void beyond_line(T slope_x, T slope_y, T at)
 	{
-		Lanes<T> most;
-		most.each([](int) { return -infinite<T>; });
-		for (int32_t k = first; k < first + count; k++) {
-			const T bend = edges.of(k, EDGE_BEND), slope = edges.of(k, EDGE_SLOPE_X);
-			const T at = edges.of(k, EDGE_AT) + (edges.of(k, EDGE_SLOPE_Y) + bend * y) * y;
-			Lanes<T> s;
-			s.each([=](int i) {
-				const T across = x + static_cast<T>(i);
-				return at + (slope + bend * across) * across;
-			});
-			if (bend > 0)
-				s.each([&](int i) { return (2 * s.at[i]) / (1 + std::sqrt(larger(T(0), 1 + (4 * bend) * s.at[i]))); });
-			most.each([&](int i) { return larger(most.at[i], s.at[i]); });
+		for (int32_t i = 0; i < count; i++)
+			far[i] = larger(far[i], (at + slope_y * y[i]) + slope_x * x[i]);
+	}
+
+	void beyond_disc(T slope_x, T slope_y, T at, T bend)
+	{
+		for (int32_t i = 0; i < count; i++) {
+			const T s = (at + (slope_y + bend * y[i]) * y[i]) + (slope_x + bend * x[i]) * x[i];
+			far[i] = larger(far[i], (2 * s) / (1 + std::sqrt(larger(T(0), 1 + (4 * bend) * s))));
 		}
-		return most;
 	}
 
 	/* What is outside the box is far. */
-	static void mask(Lanes<T> &far, T left, T breadth)
+	void mask(T width)
 	{
-		far.each([&](int i) {
-			const T across = left + static_cast<T>(i);
-			return across >= 0 && across < breadth ? far.at[i] : T(1);
-		});
+		for (int32_t i = 0; i < count; i++)
+			far[i] = (x[i] >= 0) & (x[i] < width) ? far[i] : T(1);
+	}
+};
+
+template <typename T> class Painter
+{
+public:
+	explicit Painter(const Job<T> &job) : shapes(job.texels(FROM_SHAPES)), edges(job.texels(FROM_EDGES)) {}
+
+	void draw(Tile<T> &tile, int32_t shape) const
+	{
+		const int32_t box = SHAPES_WIDTH * shape + SHAPE_BOX, sides = SHAPES_WIDTH * shape + SHAPE_EDGES;
+		const T x0 = shapes.of(box, BOX_X0), y0 = shapes.of(box, BOX_Y0);
+		const int32_t top = static_cast<int32_t>(larger(y0 - tile.y, T(0)));
+		const int32_t bottom = static_cast<int32_t>(smaller(shapes.of(box, BOX_Y1) - tile.y, T(side)));
+		const int32_t first = static_cast<int32_t>(shapes.of(sides, EDGES_FIRST));
+		const int32_t count = static_cast<int32_t>(shapes.of(sides, EDGES_COUNT));
+		Distances<T> distances(top, bottom, tile.x - x0, tile.y - y0);
+		if (count == 0) {
+			cover(tile, top * side, distances, shapes.of(box, BOX_X1) - x0, Light<T>(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_FILL)));
+			return;
+		}
+		for (int32_t k = first; k < first + count; k++)
+			measure(distances, k);
+		distances.mask(shapes.of(box, BOX_X1) - x0);
+		blend(tile, top * side, distances, SHAPES_WIDTH * shape + SHAPE_INK);
 	}
 
-	static void blend(Lanes<T> light[3], const Lanes<T> &far, const Light<T> &fill, const Light<T> &outline, T width, T opacity)
+private:
+	void measure(Distances<T> &distances, int32_t edge) const
 	{
-		Lanes<T> cover, inside;
-		cover.each([&](int i) { return share(T(0.5) - far.at[i]); });
-		inside.each([&](int i) { return share((T(0.5) - far.at[i]) - width); });
+		const T slope_x = edges.of(edge, EDGE_SLOPE_X), slope_y = edges.of(edge, EDGE_SLOPE_Y), at = edges.of(edge, EDGE_AT);
+		const T bend = edges.of(edge, EDGE_BEND);
+		if (bend > 0)
+			distances.beyond_disc(slope_x, slope_y, at, bend);
+		else
+			distances.beyond_line(slope_x, slope_y, at);
+	}
+
+	/* A shape without edges is its box, opaque. */
+	static void cover(Tile<T> &tile, int32_t from, const Distances<T> &distances, T width, const Light<T> &fill)
+	{
+		for (int c = 0; c < 3; c++) {
+			const T light = fill.channels[c];
+			T *ground = tile.light[c] + from;
+			for (int32_t i = 0; i < distances.count; i++)
+				ground[i] = (distances.x[i] >= 0) & (distances.x[i] < width) ? light : ground[i];
+		}
+	}
+
+	void blend(Tile<T> &tile, int32_t from, const Distances<T> &distances, int32_t ink) const
+	{
+		const Light<T> fill(shapes.of(ink, INK_FILL)), outline(shapes.of(ink, INK_OUTLINE));
+		const T width = shapes.of(ink, INK_WIDTH), opacity = shapes.of(ink, INK_OPACITY);
 		for (int c = 0; c < 3; c++) {
 			const T line = outline.channels[c], middle = fill.channels[c];
-			Lanes<T> &ground = light[c];
-			ground.each([&](int i) {
-				const T own = line * (cover.at[i] - inside.at[i]) + middle * inside.at[i];
-				return ground.at[i] + opacity * (own - cover.at[i] * ground.at[i]);
-			});
+			T *ground = tile.light[c] + from;
+			for (int32_t i = 0; i < distances.count; i++) {
+				const T near = T(0.5) - distances.far[i], cover = share(near), inside = share(near - width);
+				ground[i] = ground[i] + opacity * ((line * (cover - inside) + middle * inside) - cover * ground[i]);
+			}
 		}
 	}
 
 	const Texels<T> shapes, edges;
 };
 
-template <typename T> static void fill_tile(Tile<T> &tile, const Light<T> &ground)
-{
-	for (auto &row : tile.light)
-		for (int c = 0; c < 3; c++)
-			row[c].each([&](int) { return ground.channels[c]; });
-}
+template <typename T> struct Frame {
+	T x0, y0;
+	int32_t width, height, columns;
+	Light<T> ground;
 
-template <typename T> static void put_row(const Lanes<T> light[3], uint8_t *pixels, int32_t width)
+	explicit Frame(const Texels<T> &frame)
+		: x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)),
+		  width(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_X1) - x0)),
+		  height(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_Y1) - y0)),
+		  columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), ground(frame.fact(FRAME_TILES, TILES_GROUND))
+	{
+	}
+};
+
+/* Writes the tile that begins at column x and row y of the frame. */
+template <typename T> static void put_tile(const Tile<T> &tile, const Bytes &picture, const Frame<T> &frame, int32_t x, int32_t y)
 {
-	int32_t levels[3][lanes];
+	int32_t levels[3][area];
 	for (int c = 0; c < 3; c++)
-		for (int i = 0; i < lanes; i++)
-			levels[c][i] = static_cast<int32_t>(std::sqrt(larger(T(0), light[c].at[i])) + T(0.5));
-	for (int32_t i = 0; i < std::min(width, lanes); i++) {
-		for (int c = 0; c < 3; c++)
-			pixels[4 * i + c] = static_cast<uint8_t>(levels[c][i]);
-		pixels[4 * i + 3] = 255;
+		for (int32_t i = 0; i < area; i++)
+			levels[c][i] = static_cast<int32_t>(std::sqrt(larger(T(0), tile.light[c][i])) + T(0.5));
+	for (int32_t row = 0; row < std::min(side, frame.height - y); row++) {
+		uint8_t *pixels = picture.texel(x, y + row);
+		for (int32_t i = 0; i < std::min(side, frame.width - x); i++) {
+			for (int c = 0; c < 3; c++)
+				pixels[4 * i + c] = static_cast<uint8_t>(levels[c][row * side + i]);
+			pixels[4 * i + 3] = 255;
+		}
 	}
 }
 
-template <typename T> static void draw_row(const Job<T> &job, int32_t row)
+template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &frame, int32_t row)
 {
-	const Texels<T> frame = job.texels(FROM_FRAME);
-	const T x0 = frame.fact(FRAME_BOX, BOX_X0), y0 = frame.fact(FRAME_BOX, BOX_Y0);
-	const int32_t width = static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_X1) - x0);
-	const int32_t height = static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_Y1) - y0);
-	const int32_t columns = static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS)), y = row * lanes;
-	const int32_t *ends = job.list(FROM_ENDS) + row * (columns + 1), *list = job.list(FROM_LIST);
-	const Light<T> ground(frame.fact(FRAME_TILES, TILES_GROUND));
+	const int32_t *ends = job.list(FROM_ENDS) + row * (frame.columns + 1), *list = job.list(FROM_LIST);
+	const uint32_t room = static_cast<uint32_t>(job.domain[2]);
 	const Painter<T> painter(job);
 	Tile<T> tile;
-	for (int32_t c = 0; c < columns; c++) {
-		const uint32_t end = std::min(static_cast<uint32_t>(ends[c + 1]), static_cast<uint32_t>(job.domain[2]));
-		fill_tile(tile, ground);
+	for (int32_t c = 0; c < frame.columns; c++) {
+		const uint32_t end = std::min(static_cast<uint32_t>(ends[c + 1]), room);
+		tile.x = frame.x0 + static_cast<T>(c * side);
+		tile.y = frame.y0 + static_cast<T>(row * side);
+		tile.fill(frame.ground);
 		for (uint32_t k = static_cast<uint32_t>(ends[c]); k < end; k++)
-			painter.draw(tile, list[k], x0 + static_cast<T>(c * lanes), y0 + static_cast<T>(y));
-		for (int32_t i = 0; i < std::min(lanes, height - y); i++)
-			put_row(tile.light[i], job.bytes(TO_PICTURE).texel(c * lanes, y + i), width - c * lanes);
+			painter.draw(tile, list[k]);
+		put_tile(tile, job.bytes(TO_PICTURE), frame, c * side, row * side);
 	}
 }
 
 template <typename T> static void distance(const Job<T> &job)
 {
+	const Frame<T> frame(job.texels(FROM_FRAME));
 	job.pool.run(job.domain[1], 2, [&](int32_t begin, int32_t end) {
 		for (int32_t row = begin; row < end; row++)
-			draw_row(job, row);
+			draw_row(job, frame, row);
 	});
 }
 
