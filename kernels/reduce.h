@@ -26,16 +26,31 @@ float4 earlier(float4 a, float4 b)
 	return later ? b : a;
 }
 
+/* The one of `best` and the texel (row y, column x) that is earlier. In pass 0 the texels must come in the order of their
+ * rows and columns: then the times alone decide, which is most of the work of a reduction. */
+float4 earlier_at(TEX_IN(source), float4 best, int x, int y, int pass)
+{
+	float4 texel = TEX_LOAD(source, x, y);
+	if (pass > 0)
+		return earlier(best, texel);
+	return CHANNEL(texel, HITTIMES_HIT) < CHANNEL(best, REDUCED_HIT) ? candidate(texel, x, y) : best;
+}
+
 float4 earliest_of_four(TEX_IN(source), int x, int y, int pass)
 {
-	return earlier(
-		earlier(reduced_load(TEX(source), 2 * x, 2 * y, pass), reduced_load(TEX(source), 2 * x + 1, 2 * y, pass)),
-		earlier(reduced_load(TEX(source), 2 * x, 2 * y + 1, pass), reduced_load(TEX(source), 2 * x + 1, 2 * y + 1, pass)));
+	float4 best = reduced_load(TEX(source), 2 * x, 2 * y, pass);
+	best = earlier_at(TEX(source), best, 2 * x + 1, 2 * y, pass);
+	best = earlier_at(TEX(source), best, 2 * x, 2 * y + 1, pass);
+	return earlier_at(TEX(source), best, 2 * x + 1, 2 * y + 1, pass);
 }
 
 /* The four, and the two beside them that lie in squares on the diagonal, which have no fragment of their own. */
 float4 earliest_of_six(TEX_IN(source), int x, int y, int pass)
 {
-	return earlier(earliest_of_four(TEX(source), x, y, pass),
-		earlier(reduced_load(TEX(source), 2 * x, 2 * x + 1, pass), reduced_load(TEX(source), 2 * y, 2 * y + 1, pass)));
+	float4 best = reduced_load(TEX(source), 2 * x, 2 * x + 1, pass);
+	best = earlier_at(TEX(source), best, 2 * x, 2 * y, pass);
+	best = earlier_at(TEX(source), best, 2 * x + 1, 2 * y, pass);
+	best = earlier_at(TEX(source), best, 2 * x, 2 * y + 1, pass);
+	best = earlier_at(TEX(source), best, 2 * x + 1, 2 * y + 1, pass);
+	return earlier_at(TEX(source), best, 2 * y, 2 * y + 1, pass);
 }
