@@ -154,7 +154,7 @@ typedef struct carom_pipeline {
 	const char *impulse; /* pair_exact (default), accumulate [2.3] */
 	/* of pictures alone; all give the same */
 	const char *transforms; /* index (default): where bodies are is read on the device; to_cpu: it is read back and sent [3] */
-	const char *vertices; /* option1 (default): sent are body and ordinal, option2: first vertex and ordinal, option3: coordinates [3] */
+	const char *vertices; /* sent are option1: body and ordinal, option2: first vertex and ordinal, option3 (default): coordinates [3] */
 } carom_pipeline;
 
 /* Chooses `alternative` for `slot`, both by name. CAROM_UNKNOWN_NAME lists the known ones. */

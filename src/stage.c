@@ -48,7 +48,7 @@ const carom_slot carom_slots[] = {
 	{"impulse", offsetof(carom_pipeline, impulse), "pair_exact", false},
 	{"forward", SIZE_MAX, NULL, false},
 	{"transforms", offsetof(carom_pipeline, transforms), "index", true},
-	{"vertices", offsetof(carom_pipeline, vertices), "option1", true},
+	{"vertices", offsetof(carom_pipeline, vertices), "option3", true},
 	{"shapes", SIZE_MAX, "convex", true},
 	{"bins", SIZE_MAX, "tiles", true},
 	{"pixels", SIZE_MAX, "distance", true},
