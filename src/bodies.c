@@ -1,4 +1,5 @@
 /* From a body's definition to what the simulation needs: checks, centre of mass, mass and moment of inertia. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -233,6 +234,16 @@ static carom_status make_polygon(const carom_body_def *def, size_t index, carom_
 	return CAROM_OK;
 }
 
+/* Kernels divide by masses and square lengths, and some devices take floats below FLT_MIN for 0. */
+static bool is_computable(const carom_body *body)
+{
+	const float numbers[2] = {body->mass, body->inertia};
+	for (int i = 0; i < 2 && !body->is_static; i++)
+		if (!(numbers[i] >= FLT_MIN && numbers[i] <= 1.0f / FLT_MIN))
+			return false;
+	return body->bound >= 1e-12f && body->bound <= 1e12f;
+}
+
 carom_status carom_body_make(const carom_body_def *def, const carom_world *world, size_t index, carom_body *body, carom_vec2 *vertices,
 	carom_error *error)
 {
@@ -249,7 +260,7 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world *world
 	body->color = def->color;
 	body->is_static = def->is_static;
 	status = def->shape == CAROM_CIRCLE ? make_circle(def, body) : make_polygon(def, index, body, vertices, error);
-	if (!status && (!(body->mass > 0.0f) || !(body->inertia > 0.0f) || !isfinite(body->bound) || (!def->is_static && !isfinite(body->mass + body->inertia))))
-		status = fail(error, index, "mass", "the mass or moment of inertia is not a float above 0: the body is too small, too large, too light or too heavy");
+	if (!status && !is_computable(body))
+		status = fail(error, index, "mass", "the mass or moment of inertia is no float to compute with: the body is too small, too large, too light or too heavy");
 	return status;
 }

@@ -115,6 +115,12 @@ static bool outside_room(const carom_world_def *def, carom_vec2 p)
 	return def->has_room && !(p.x >= def->room_min.x && p.x <= def->room_max.x && p.y >= def->room_min.y && p.y <= def->room_max.y);
 }
 
+/* Into [-pi, pi]; what the kernels' rounding left a little outside stays, or a state that is read and set would change. */
+static float wrapped(float angle)
+{
+	return fabsf(angle) <= 3.1416f ? angle : (float)remainder((double)angle, 6.28318530717958647692);
+}
+
 static bool append_state(carom_world *world, const carom_body_def *def, const carom_body *body)
 {
 	float *linear = carom_array_grow(&world->linear, 4 * sizeof *linear), *rotational = carom_array_grow(&world->rotational, 4 * sizeof *rotational);
@@ -124,7 +130,7 @@ static bool append_state(carom_world *world, const carom_body_def *def, const ca
 	linear[LINEAR_Y] = def->position.y;
 	linear[LINEAR_VX] = def->velocity.x;
 	linear[LINEAR_VY] = def->velocity.y;
-	rotational[ROTATIONAL_ANGLE] = (float)remainder((double)def->angle, 6.28318530717958647692);
+	rotational[ROTATIONAL_ANGLE] = wrapped(def->angle);
 	rotational[ROTATIONAL_VELOCITY] = def->angular_velocity;
 	rotational[ROTATIONAL_RADIUS] = body->bound;
 	rotational[3] = 0.0f;
@@ -295,7 +301,7 @@ carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t c
 		l[LINEAR_Y] = states[i].position.y;
 		l[LINEAR_VX] = states[i].velocity.x;
 		l[LINEAR_VY] = states[i].velocity.y;
-		r[ROTATIONAL_ANGLE] = (float)remainder((double)states[i].angle, 6.28318530717958647692);
+		r[ROTATIONAL_ANGLE] = wrapped(states[i].angle);
 		r[ROTATIONAL_VELOCITY] = states[i].angular_velocity;
 	}
 	world->device_current = false;

@@ -119,8 +119,8 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 static bool fits(const carom_world *world, uint64_t capacity)
 {
 	const carom_device_info *info = &world->device->info;
-	const bool image_fits = world->device->storage != CAROM_STORAGE_IMAGE || capacity <= info->max_image_size;
-	return image_fits && 16 * capacity * capacity <= info->max_allocation && memory(&world->pipeline, &world->def, capacity) <= info->memory;
+	const bool has_sides = world->device->storage == CAROM_STORAGE_IMAGE || !info->is_opencl;
+	return (!has_sides || capacity <= info->max_image_size) && 16 * capacity * capacity <= info->max_allocation && memory(&world->pipeline, &world->def, capacity) <= info->memory;
 }
 
 /* Asked for first, so that a scene too large fails at once and without filling the memory. */
