@@ -1,0 +1,320 @@
+/* The public functions' errors and edges: statuses, definitions, names, devices, ranges of bodies, states and forces.
+ * SPDX-License-Identifier: MIT */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "command.h"
+#include "scenery.h"
+
+/* `status` with an error that begins with `said`. */
+static void assert_fails(carom_status status, const carom_error *error, carom_status expected, const char *said)
+{
+	if (status != expected || error->status != expected || strncmp(error->text, said, strlen(said)) != 0)
+		fail_msg(
+			"expected %s: \"%s ...\", got %s: \"%s\"", carom_status_name(expected), said, carom_status_name(status), error->text);
+}
+
+/* ---- Statuses, versions, NULL */
+
+static void statuses_have_names(void **unused)
+{
+	(void)unused;
+#define CHECK_NAME(name, sentence) \
+	assert_string_equal(carom_status_name(CAROM_##name), "CAROM_" #name); \
+	assert_string_equal(carom_status_text(CAROM_##name), sentence);
+	CAROM_STATUS_LIST(CHECK_NAME)
+#undef CHECK_NAME
+	assert_string_equal(carom_status_name((carom_status)99), "CAROM_?");
+	assert_string_equal(carom_status_name((carom_status)-1), "CAROM_?");
+	assert_non_null(carom_status_text((carom_status)99));
+}
+
+static void version_is_the_headers(void **unused)
+{
+	(void)unused;
+	char version[32];
+	snprintf(version, sizeof version, "%d.%d.%d", CAROM_VERSION_MAJOR, CAROM_VERSION_MINOR, CAROM_VERSION_PATCH);
+	assert_string_equal(carom_version(), version);
+}
+
+static void null_is_released(void **unused)
+{
+	(void)unused;
+	carom_world_destroy(NULL);
+	carom_scene_destroy(NULL);
+	carom_device_list_destroy(NULL);
+	carom_file_destroy(NULL);
+}
+
+/* Every error may be NULL, and success leaves the error alone. */
+static void errors_are_optional(void **unused)
+{
+	(void)unused;
+	carom_world_def def = carom_default_world_def();
+	carom_world *world = NULL;
+	carom_body_def body = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
+	carom_error error, untouched;
+	carom_device_info device;
+	uint64_t hash;
+	memset(&error, 0x5A, sizeof error);
+	untouched = error;
+	def.device = "cpu";
+	assert_int_equal(carom_world_create(&def, &world, &error), CAROM_OK);
+	assert_int_equal(carom_world_add(world, &body, 1, NULL, &error), CAROM_OK);
+	assert_int_equal(carom_world_step(world, 1, NULL, &error), CAROM_OK);
+	assert_int_equal(carom_world_advance(world, 0.01, NULL, &error), CAROM_OK);
+	assert_int_equal(carom_world_hash(world, &hash, &error), CAROM_OK);
+	assert_int_equal(carom_world_get_device(world, &device, &error), CAROM_OK);
+	assert_memory_equal(&error, &untouched, sizeof error);
+	assert_int_equal(carom_world_advance(world, -1.0, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_get_states(world, 0, 2, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_set_states(world, 0, 2, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_get_body(world, 1, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_set_force(world, 1, body.position, 0.0f, NULL), CAROM_INVALID_ARGUMENT);
+	carom_world_destroy(world);
+	world = NULL;
+	def.device = "abacus";
+	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_UNKNOWN_NAME);
+	def.time_step = 0.0f;
+	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_INVALID_ARGUMENT);
+	assert_null(world);
+}
+
+/* ---- The definition of a world */
+
+static void assert_refused(const carom_world_def *def, carom_status expected, const char *said)
+{
+	carom_world *world = (carom_world *)&world;
+	carom_error error = {0};
+	assert_fails(carom_world_create(def, &world, &error), &error, expected, said);
+	assert_ptr_equal(world, (carom_world *)&world);
+}
+
+#define REFUSE(said, field, value) \
+	do { \
+		carom_world_def bad = carom_default_world_def(); \
+		bad.device = "cpu"; \
+		bad.has_room = true; \
+		bad.room_min = (carom_vec2){-1.0f, -2.0f}; \
+		bad.room_max = (carom_vec2){1.0f, 2.0f}; \
+		bad.field = (value); \
+		assert_refused(&bad, CAROM_INVALID_ARGUMENT, said); \
+	} while (0)
+
+static void definitions_out_of_range(void **unused)
+{
+	(void)unused;
+	static const float no_numbers[] = {NAN, INFINITY, -INFINITY};
+	for (size_t i = 0; i < COUNT(no_numbers); i++) {
+		REFUSE("time_step: found ", time_step, no_numbers[i]);
+		REFUSE("gravity: must be two finite numbers", gravity.x, no_numbers[i]);
+		REFUSE("gravity: must be two finite numbers", gravity.y, no_numbers[i]);
+		REFUSE("restitution: found ", restitution, no_numbers[i]);
+		REFUSE("epsilon: found ", epsilon, no_numbers[i]);
+		REFUSE("room: min and max must be two finite numbers", room_min.x, no_numbers[i]);
+		REFUSE("room: min and max must be two finite numbers", room_min.y, no_numbers[i]);
+		REFUSE("room: min and max must be two finite numbers", room_max.x, no_numbers[i]);
+		REFUSE("room: min and max must be two finite numbers", room_max.y, no_numbers[i]);
+	}
+	REFUSE("time_step: found 0, must be above 0", time_step, 0.0f);
+	REFUSE("time_step: found -0.5, must be above 0", time_step, -0.5f);
+	REFUSE("restitution: found -0.5, must be from 0 to 1", restitution, -0.5f);
+	REFUSE("restitution: found 1.5, must be from 0 to 1", restitution, 1.5f);
+	REFUSE("epsilon: found 0, must be from 2^-22 to 0.5", epsilon, 0.0f);
+	REFUSE("epsilon: found 1.19209e-07, must be from 2^-22 to 0.5", epsilon, FLT_EPSILON);
+	REFUSE("epsilon: found 0.75, must be from 2^-22 to 0.5", epsilon, 0.75f);
+	REFUSE("room: min (1, -2) must be below max (1, 2)", room_min.x, 1.0f);
+	REFUSE("room: min (-1, 2.5) must be below max (1, 2)", room_min.y, 2.5f);
+}
+
+static void definitions_in_range(void **unused)
+{
+	(void)unused;
+	carom_world_def def = carom_default_world_def();
+	char device[] = "cpu";
+	carom_error error;
+	def.device = device;
+	def.epsilon = 2.0f * FLT_EPSILON;
+	def.restitution = 0.0f;
+	def.room_min = (carom_vec2){NAN, 1.0f}; /* no room: not looked at */
+	def.time_step = 0.25f;
+	for (int i = 0; i < 2; i++) {
+		carom_world *world = NULL;
+		device[0] = 'c';
+		scenery_check(carom_world_create(&def, &world, &error), &error);
+		device[0] = 'x';
+		assert_string_equal(carom_world_get_def(world)->device, "cpu");
+		assert_true(carom_world_get_def(world)->time_step == 0.25f && carom_world_get_def(world)->epsilon == def.epsilon);
+		assert_true(carom_world_time(world) == 0.0 && carom_world_body_count(world) == 0);
+		carom_world_destroy(world);
+		def.epsilon = 0.5f;
+		def.restitution = 1.0f;
+	}
+}
+
+/* ---- Names */
+
+static void unknown_names_list_the_known(void **unused)
+{
+	(void)unused;
+	carom_pipeline pipeline = {0};
+	carom_world_def def = carom_default_world_def();
+	carom_error error = {0};
+	assert_fails(
+		carom_pipeline_set(&pipeline, "toy", "separating", &error), &error, CAROM_UNKNOWN_NAME, "there is no slot 'toy'");
+	assert_non_null(strstr(error.text, "step, aabb, overlap, inside, toi, walls, reduce, impulse"));
+	assert_fails(
+		carom_pipeline_set(&pipeline, "forward", "collision", &error), &error, CAROM_UNKNOWN_NAME, "there is no slot 'forward'");
+	assert_fails(carom_pipeline_set(&pipeline, "toi", "guess", &error), &error, CAROM_UNKNOWN_NAME,
+		"the slot 'toi' has no alternative 'guess'");
+	assert_non_null(strstr(error.text, "bisection, circle_quadratic, separating"));
+	assert_null(pipeline.toi);
+	assert_fails(
+		carom_pipeline_set(&pipeline, "step", "", &error), &error, CAROM_UNKNOWN_NAME, "the slot 'step' has no alternative ''");
+	assert_non_null(strstr(error.text, "first_impact"));
+	assert_string_equal(carom_pipeline_get(&pipeline, "toi"), "circle_quadratic");
+	assert_int_equal(carom_pipeline_set(&pipeline, "toi", "separating", NULL), CAROM_OK);
+	assert_string_equal(carom_pipeline_get(&pipeline, "toi"), "separating");
+	assert_null(carom_pipeline_get(&pipeline, "toy"));
+	def.pipeline.reduce = "seven";
+	assert_refused(
+		&def, CAROM_UNKNOWN_NAME, "the slot 'reduce' has no alternative 'seven'; it has classic, four_six, six, tiled");
+}
+
+/* Every slot's alternatives, one of them the default; each may be chosen where there is a choice, and is then used. */
+static void stages_are_listed(void **unused)
+{
+	(void)unused;
+	carom_stage_info info;
+	const carom_pipeline empty = {0};
+	size_t count = 0, chosen = 0, defaults = 0;
+	for (; carom_stage_list(count, &info); count++) {
+		const char *standard = carom_pipeline_get(&empty, info.slot);
+		carom_world_def def = carom_default_world_def();
+		carom_world *world = NULL;
+		carom_error error = {0};
+		def.device = "cpu";
+		defaults += info.is_default;
+		assert_true(info.on_opencl && info.on_cpu);
+		assert_true(!standard || info.is_default == !strcmp(standard, info.alternative));
+		if (carom_pipeline_set(&def.pipeline, info.slot, info.alternative, &error)) {
+			assert_fails(error.status, &error, CAROM_UNKNOWN_NAME, "there is no slot");
+			continue;
+		}
+		chosen++;
+		scenery_check(carom_world_create(&def, &world, &error), &error);
+		assert_string_equal(carom_pipeline_get(&carom_world_get_def(world)->pipeline, info.slot), info.alternative);
+		carom_world_destroy(world);
+	}
+	assert_true(chosen >= 17 && count > chosen && defaults >= 10 && defaults < count);
+	assert_false(carom_stage_list(count + 1, &info));
+	assert_false(carom_stage_list(SIZE_MAX, &info));
+}
+
+/* ---- Devices */
+
+static void devices_are_listed(void **unused)
+{
+	(void)unused;
+	carom_device_info *list = NULL;
+	size_t count = 0, standard = 0, fallbacks = 0;
+	carom_error error;
+	scenery_check(carom_device_list_create(&list, &count, &error), &error);
+	for (size_t i = 0; i < count; i++) {
+		standard += list[i].is_default;
+		fallbacks += !list[i].is_opencl;
+		assert_true(list[i].works == (list[i].reason[0] == 0));
+		assert_true(!list[i].is_default || list[i].works);
+		assert_true(list[i].compute_units > 0 && list[i].memory > 0 && list[i].max_allocation > 0);
+	}
+	assert_int_equal(standard, 1);
+	assert_int_equal(fallbacks, 1);
+	assert_true(!list[count - 1].is_opencl && list[count - 1].works && list[count - 1].exact);
+	carom_device_list_destroy(list);
+}
+
+/* The name of the device that `name` gets; the environment's where it is NULL. */
+static bool opens_cpu(const char *name)
+{
+	carom_world_def def = carom_default_world_def();
+	carom_world *world = NULL;
+	carom_device_info info;
+	carom_error error;
+	def.device = name;
+	scenery_check(carom_world_create(&def, &world, &error), &error);
+	scenery_check(carom_world_get_device(world, &info, &error), &error);
+	carom_world_destroy(world);
+	return !info.is_opencl;
+}
+
+static void devices_by_name(void **unused)
+{
+	(void)unused;
+	carom_world_def def = carom_default_world_def();
+	carom_device_info *list = NULL;
+	size_t count = 0;
+	scenery_check(carom_device_list_create(&list, &count, NULL), NULL);
+	def.device = "abacus";
+	assert_refused(
+		&def, CAROM_UNKNOWN_NAME, "there is no device 'abacus'; use auto, cpu, opencl or part of one of these names: '");
+	assert_true(opens_cpu("cpu") && opens_cpu("CPU") && opens_cpu("caRoM"));
+	assert_true(opens_cpu("auto") == !list[0].works || !list[0].is_opencl);
+	assert_true(opens_cpu("") == opens_cpu("auto"));
+	if (list[0].is_opencl && list[0].works) {
+		assert_false(opens_cpu("OpenCL"));
+		assert_false(opens_cpu(list[0].platform));
+		assert_false(opens_cpu(list[0].name));
+	}
+	setenv("CAROM_DEVICE", "cpu", 1);
+	assert_true(opens_cpu(NULL));
+	setenv("CAROM_DEVICE", "abacus", 1);
+	assert_true(opens_cpu("cpu"));
+	def.device = NULL;
+	assert_refused(&def, CAROM_UNKNOWN_NAME, "there is no device 'abacus'");
+	unsetenv("CAROM_DEVICE");
+	assert_true(opens_cpu(NULL) == opens_cpu("auto"));
+	carom_device_list_destroy(list);
+}
+
+/* A machine with an OpenCL loader and no driver, and one without a loader: two files that are no libraries stand for none. */
+static void without_opencl_the_cpu_works(void **unused)
+{
+	(void)unused;
+	static const char *const machines[] = {
+		"mkdir -p $D/none && OCL_ICD_VENDORS=$D/none",
+		"mkdir -p $D/broken && : >$D/broken/libOpenCL.so && : >$D/broken/libOpenCL.so.1 && LD_LIBRARY_PATH=$D/broken",
+	};
+	char line[512], hash[64];
+	check("$C run scenes/thin_wall.json --steps 5 --hash --device cpu", 0, "runs on Carom: cpu");
+	snprintf(hash, sizeof hash, "%.63s", call.out);
+	for (size_t i = 0; i < COUNT(machines); i++) {
+		snprintf(line, sizeof line, "%s $C run scenes/thin_wall.json --steps 5 --hash --device auto", machines[i]);
+		check(line, 0, "runs on Carom: cpu");
+		assert_string_equal(call.out, hash);
+		snprintf(line, sizeof line, "%s $C run scenes/thin_wall.json --steps 5 --device opencl", machines[i]);
+		check(line, 2, "there is no device 'opencl'; use auto, cpu, opencl or part of one of these names: 'cpu");
+		assert_non_null(strstr(call.err, "no OpenCL device was found"));
+		snprintf(line, sizeof line, "%s $C devices", machines[i]);
+		check(line, 0, NULL);
+		assert_ptr_equal(strstr(call.out, "Carom: cpu"), call.out);
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(statuses_have_names),
+		cmocka_unit_test(version_is_the_headers),
+		cmocka_unit_test(null_is_released),
+		cmocka_unit_test(errors_are_optional),
+		cmocka_unit_test(definitions_out_of_range),
+		cmocka_unit_test(definitions_in_range),
+		cmocka_unit_test(unknown_names_list_the_known),
+		cmocka_unit_test(stages_are_listed),
+		cmocka_unit_test(devices_are_listed),
+		cmocka_unit_test(devices_by_name),
+		cmocka_unit_test(without_opencl_the_cpu_works),
+	};
+	return cmocka_run_group_tests_name("api", tests, make_folder, remove_folder);
+}

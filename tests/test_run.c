@@ -1,0 +1,387 @@
+/* Runs: the same twice, stopped and resumed, cut short, with any number of threads, several at once; and how much memory.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include "scenery.h"
+#include "world.h"
+
+enum { CROWD = 40 };
+
+/* A crowd in a room, in which much is hit; NULL where there is no such device. */
+static carom_world *crowd_on(const scenery_device *device, uint64_t seed, uint32_t threads)
+{
+	carom_world_def def = carom_default_world_def();
+	carom_body_def bodies[CROWD];
+	scenery_random random = {seed};
+	carom_error error;
+	def.has_room = true;
+	def.room_min = (carom_vec2){-5.0f, -5.0f};
+	def.room_max = (carom_vec2){5.0f, 5.0f};
+	def.gravity = (carom_vec2){0.5f, -1.0f};
+	def.threads = threads;
+	scenery_bodies(&random, SCENERY_MIXED, CROWD, 1.25f, 3.0f, bodies);
+	carom_world *world = scenery_world(&def, device);
+	if (world)
+		scenery_check(carom_world_add(world, bodies, CROWD, NULL, &error), &error);
+	return world;
+}
+
+static carom_report step(carom_world *world, uint64_t steps)
+{
+	carom_report report;
+	carom_error error;
+	scenery_check(carom_world_step(world, steps, &report, &error), &error);
+	return report;
+}
+
+static uint64_t hash_of(carom_world *world)
+{
+	uint64_t hash = 0;
+	carom_error error;
+	scenery_check(carom_world_hash(world, &hash, &error), &error);
+	return hash;
+}
+
+/* The hash after so many steps of a crowd of its own; 0 where there is no such device. */
+static uint64_t run_crowd(const scenery_device *device, uint64_t seed, uint32_t threads, uint64_t steps)
+{
+	carom_world *world = crowd_on(device, seed, threads);
+	uint64_t hash = 0;
+	if (world) {
+		assert_int_equal(step(world, steps).steps, steps);
+		hash = hash_of(world);
+	}
+	carom_world_destroy(world);
+	return hash;
+}
+
+/* ---- The same bits */
+
+static void the_same_run_twice(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+	{
+		const uint64_t hash = run_crowd(device, 5, 0, 500);
+		assert_true(hash == run_crowd(device, 5, 0, 500));
+		assert_true(!hash || hash != run_crowd(device, 5, 0, 501));
+		assert_true(!hash || hash != run_crowd(device, 6, 0, 500));
+	}
+}
+
+static void any_number_of_threads(void **unused)
+{
+	(void)unused;
+	static const uint32_t threads[] = {2, 3, 7, 100000};
+	const uint64_t hash = run_crowd(&scenery_devices[0], 5, 1, 300);
+	for (size_t i = 0; i < sizeof threads / sizeof *threads; i++)
+		assert_true(run_crowd(&scenery_devices[0], 5, threads[i], 300) == hash);
+}
+
+/* A thousand steps are five hundred, and five hundred of another world that goes on from there. */
+static void stopped_and_resumed(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+	{
+		carom_world *first = crowd_on(device, 8, 0), *second = crowd_on(device, 8, 0);
+		carom_body_state states[CROWD];
+		carom_error error;
+		if (!first)
+			continue;
+		const uint64_t hits = step(first, 500).hits;
+		scenery_check(carom_world_get_states(first, 0, CROWD, states, &error), &error);
+		scenery_check(carom_world_set_states(second, 0, CROWD, states, &error), &error);
+		assert_true(hash_of(first) == hash_of(second));
+		assert_true(hits > 100 && step(second, 500).hits == step(first, 500).hits);
+		assert_true(hash_of(first) == hash_of(second));
+		assert_true(hash_of(first) == run_crowd(device, 8, 0, 1000));
+		carom_world_destroy(first);
+		carom_world_destroy(second);
+	}
+}
+
+static void images_and_buffers(void **unused)
+{
+	(void)unused;
+	uint64_t hashes[3] = {0};
+	SCENERY_EACH_DEVICE(device)
+	{
+		carom_world *world = crowd_on(device, 9, 0);
+		carom_device_info info;
+		carom_error error;
+		if (!world)
+			continue;
+		scenery_check(carom_world_get_device(world, &info, &error), &error);
+		assert_true(info.is_opencl == !strcmp(device->name, "opencl"));
+		assert_true(info.uses_images == (device->storage == CAROM_STORAGE_IMAGE));
+		step(world, 700);
+		hashes[device - scenery_devices] = hash_of(world);
+		carom_world_destroy(world);
+	}
+	assert_true(!hashes[1] || hashes[1] == hashes[0]);
+	assert_true(!hashes[2] || hashes[2] == hashes[0]);
+}
+
+typedef struct errand {
+	const scenery_device *device;
+	uint64_t seed, hash;
+} errand;
+
+static void *run_errand(void *context)
+{
+	errand *e = context;
+	e->hash = run_crowd(e->device, e->seed, 2, 300);
+	return NULL;
+}
+
+static void worlds_in_four_threads(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+	{
+		pthread_t threads[4];
+		errand errands[4];
+		for (size_t i = 0; i < 4; i++) {
+			errands[i] = (errand){device, 20 + i, 0};
+			assert_int_equal(pthread_create(&threads[i], NULL, run_errand, &errands[i]), 0);
+		}
+		for (size_t i = 0; i < 4; i++)
+			assert_int_equal(pthread_join(threads[i], NULL), 0);
+		for (size_t i = 0; i < 4; i++)
+			assert_true(errands[i].hash == run_crowd(device, errands[i].seed, 0, 300));
+	}
+}
+
+/* ---- Progress */
+
+/* Counts its calls, and says stop when so many steps or seconds are done. */
+typedef struct watch {
+	uint64_t stop_at, calls;
+	double stop_after;
+	carom_report last;
+} watch;
+
+static bool look(void *context, const carom_report *so_far)
+{
+	watch *w = context;
+	assert_true(so_far->steps > w->last.steps && so_far->hits >= w->last.hits && so_far->advanced >= w->last.advanced);
+	w->calls++;
+	w->last = *so_far;
+	return so_far->steps < w->stop_at && so_far->advanced < w->stop_after;
+}
+
+/* Called or not, and cut short or not: the same steps give the same bits. */
+static void steps_cut_short(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+	{
+		const uint64_t whole = run_crowd(device, 12, 0, 600);
+		watch all = {.stop_at = UINT64_MAX, .stop_after = INFINITY}, some = {.stop_at = 200, .stop_after = INFINITY};
+		carom_world *world = crowd_on(device, 12, 0), *cut = crowd_on(device, 12, 0);
+		if (!world)
+			continue;
+		carom_world_set_progress(world, look, &all);
+		assert_int_equal(step(world, 600).steps, 600);
+		assert_true(all.calls >= 2 && all.last.steps == 600 && hash_of(world) == whole);
+		carom_world_set_progress(cut, look, &some);
+		const carom_report report = step(cut, 600);
+		assert_true(
+			report.steps >= 200 && report.steps < 600 && report.steps == some.last.steps && report.hits == some.last.hits);
+		assert_true(carom_world_time(cut) == report.advanced);
+		carom_world_set_progress(cut, NULL, NULL);
+		assert_int_equal(step(cut, 600 - report.steps).steps, 600 - report.steps);
+		assert_true(hash_of(cut) == whole);
+		carom_world_destroy(world);
+		carom_world_destroy(cut);
+	}
+}
+
+static void an_advance_cut_short(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+	{
+		watch some = {.stop_at = UINT64_MAX, .stop_after = 0.5};
+		carom_world *world = crowd_on(device, 13, 0);
+		carom_report report, rest;
+		carom_error error;
+		if (!world)
+			continue;
+		carom_world_set_progress(world, look, &some);
+		scenery_check(carom_world_advance(world, 4.0, &report, &error), &error);
+		assert_true(report.advanced >= 0.5 && report.advanced < 4.0 && report.advanced == some.last.advanced);
+		assert_true(carom_world_time(world) == report.advanced);
+		carom_world_set_progress(world, NULL, NULL);
+		scenery_check(carom_world_advance(world, 4.0 - report.advanced, &rest, &error), &error);
+		assert_true(fabs(carom_world_time(world) - 4.0) < 1e-9 && fabs(report.advanced + rest.advanced - 4.0) < 1e-9);
+		carom_world_destroy(world);
+	}
+}
+
+/* A run that fails tells what was done before, and where it stood still. */
+static void a_stall_tells_what_was_done(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+	{
+		carom_world_def def = carom_default_world_def();
+		const carom_body_def ball = scenery_circle(0.0f, 1.0f, 0.0f, 0.0f, 0.5f);
+		carom_report report = {0, 0, 0.0};
+		carom_body_state state;
+		carom_error error;
+		def.gravity = (carom_vec2){0.0f, -10.0f};
+		def.restitution = 0.25f;
+		def.has_room = true;
+		def.room_min = (carom_vec2){-2.0f, 0.0f};
+		def.room_max = (carom_vec2){2.0f, 4.0f};
+		carom_world *world = scenery_world(&def, device);
+		if (!world)
+			continue;
+		scenery_check(carom_world_add(world, &ball, 1, NULL, &error), &error);
+		assert_int_equal(carom_world_step(world, 100000, &report, &error), CAROM_STALLED);
+		assert_true(report.hits > 0 && report.steps >= report.hits && report.steps < 100000);
+		assert_true(report.advanced > 0.3 && report.advanced < 3.0 && carom_world_time(world) == report.advanced);
+		scenery_check(carom_world_get_states(world, 0, 1, &state, &error), &error);
+		assert_true(fabsf(state.position.y - 0.5f) < 1e-3f);
+		carom_world_destroy(world);
+	}
+}
+
+/* ---- Memory */
+
+static uint64_t taken;
+static carom_status (*real_create)(
+	carom_device *, carom_texel_format, uint32_t, uint32_t, const float *, carom_texture **, carom_error *);
+
+static carom_status counting_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height,
+	const float fill[4], carom_texture **texture, carom_error *error)
+{
+	taken += (uint64_t)width * height * (format == TEXELS_FLOAT ? 16 : 4);
+	return real_create(device, format, width, height, fill, texture, error);
+}
+
+/* What the textures of `count` bodies take, by watching the device make them. */
+static uint64_t memory_taken(const carom_world_def *def, size_t count)
+{
+	carom_world *world = scenery_world(def, &scenery_devices[0]);
+	carom_device_class counting = *world->device->kind;
+	const carom_body_def body = scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f);
+	carom_error error;
+	real_create = counting.create;
+	counting.create = counting_create;
+	taken = 0;
+	for (size_t i = 0; i < count; i++)
+		scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
+	world->device->kind = &counting;
+	scenery_check(carom_textures_update(world, &error), &error);
+	carom_world_destroy(world);
+	return taken;
+}
+
+static void memory_is_known_beforehand(void **unused)
+{
+	(void)unused;
+	static const size_t counts[] = {1, 8, 9, 100, 1000};
+	static const char *const reductions[] = {"classic", "four_six", "tiled"};
+	for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+		for (size_t k = 0; k < 6; k++) {
+			carom_world_def def = carom_default_world_def();
+			def.pipeline.reduce = reductions[k / 2];
+			def.pipeline.toi = k % 2 ? "bisection" : "separating";
+			def.iterations = 3;
+			const uint64_t said = carom_world_memory(&def, counts[i], 4 * counts[i]), is = memory_taken(&def, counts[i]);
+			if (!(said > 0.95 * (double)is && said < 1.25 * (double)is))
+				fail_msg("%zu bodies, %s: said to take %llu bytes, take %llu", counts[i], reductions[k / 2],
+					(unsigned long long)said, (unsigned long long)is);
+		}
+	}
+	carom_world_def unknown = carom_default_world_def();
+	unknown.pipeline.toi = "guess";
+	assert_true(carom_world_memory(&unknown, 10, 40) == 0);
+}
+
+static double seconds(void)
+{
+	struct timespec now;
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static long most_memory(void)
+{
+	struct rusage usage;
+	getrusage(RUSAGE_SELF, &usage);
+	return usage.ru_maxrss / 1024; /* MiB on Linux */
+}
+
+/* Said at once, with the texture's name and without filling the memory; and the bodies are still there. */
+static void assert_too_many(carom_world *world, const carom_body_def *bodies, size_t count)
+{
+	const double start = seconds();
+	const long before = most_memory();
+	char square[64];
+	carom_report report = {9, 9, 9.0};
+	carom_body_state state;
+	carom_error error = {0};
+	scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);
+	snprintf(square, sizeof square, "HitTimes, of %zu x %zu texels", count, count);
+	for (int i = 0; i < 2; i++) {
+		assert_int_equal(carom_world_step(world, 1, &report, &error), CAROM_LIMIT);
+		assert_int_equal(error.status, CAROM_LIMIT);
+		if (!strstr(error.text, square) || !strstr(error.text, "first_impact") || !strstr(error.text, world->device->info.name))
+			fail_msg("%s", error.text);
+		assert_int_equal(report.steps, 0);
+	}
+	scenery_check(carom_world_get_states(world, 65535, 1, &state, &error), &error);
+	assert_true(state.position.x == 255.0f && state.position.y == 255.0f);
+	assert_true(seconds() - start < 5.0);
+	assert_true(most_memory() - before < 256);
+}
+
+static void too_many_bodies(void **unused)
+{
+	(void)unused;
+	const size_t most = 1u << 18;
+	carom_body_def *bodies = calloc(most, sizeof *bodies);
+	assert_non_null(bodies);
+	for (size_t i = 0; i < most; i++)
+		bodies[i] = scenery_circle((float)(i % 256), (float)(i / 256), 0.0f, 0.0f, 0.25f);
+	for (size_t i = 0; i < scenery_device_count + 1; i++) { /* the last is a CPU with boundless memory */
+		const scenery_device *device = &scenery_devices[i % scenery_device_count];
+		carom_world_def def = carom_default_world_def();
+		carom_world *world = scenery_world(&def, device);
+		if (!world)
+			continue;
+		if (i == scenery_device_count)
+			world->device->info.memory = world->device->info.max_allocation = (uint64_t)1 << 50;
+		/* an OpenCL device that holds 64 GiB in one buffer gets bodies for 1 TiB */
+		const bool is_huge = device->storage == CAROM_STORAGE_BUFFER && world->device->info.max_allocation >> 36;
+		assert_too_many(world, bodies, is_huge ? most : 65536);
+		carom_world_destroy(world);
+	}
+	free(bodies);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(the_same_run_twice),
+		cmocka_unit_test(any_number_of_threads),
+		cmocka_unit_test(stopped_and_resumed),
+		cmocka_unit_test(images_and_buffers),
+		cmocka_unit_test(worlds_in_four_threads),
+		cmocka_unit_test(steps_cut_short),
+		cmocka_unit_test(an_advance_cut_short),
+		cmocka_unit_test(a_stall_tells_what_was_done),
+		cmocka_unit_test(memory_is_known_beforehand),
+		cmocka_unit_test(too_many_bodies),
+	};
+	return cmocka_run_group_tests_name("run", tests, NULL, NULL);
+}
