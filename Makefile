@@ -3,6 +3,7 @@
 BUILD ?= build
 PREFIX ?= /usr/local
 PKG_CONFIG ?= pkg-config
+CAIRO ?= yes
 OPTIMIZE ?= -O3
 WERROR ?= -Werror
 
@@ -35,6 +36,9 @@ KERNELS := $(sort $(wildcard kernels/*.h kernels/*/*.cl))
 STAGES := $(sort $(wildcard src/cpu/*/*.cpp))
 LIBRARY := $(sort $(wildcard src/*.c src/step/*.c src/cl/*.c src/cpu/*.cpp)) $(STAGES)
 COMMAND := $(sort $(wildcard tools/carom*.c))
+ifeq ($(CAIRO),no)
+COMMAND := $(filter-out tools/carom_plot%.c,$(COMMAND)) tools/without_cairo.c
+endif
 TESTS := $(sort $(wildcard tests/test_*.c))
 HELPERS := $(filter-out $(TESTS),$(sort $(wildcard tests/*.c)))
 
@@ -51,6 +55,8 @@ system_includes = $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags $(1) 
 EIGEN := $(call system_includes,eigen3)
 PACKAGES := $(call system_includes,libpng) $(call system_includes,jansson) $(call system_includes,OpenCL-Headers)
 CMOCKA := $(call system_includes,cmocka)
+CAIRO_INCLUDES := $(call system_includes,cairo)
+CAIRO_LIBRARIES := $(if $(filter no,$(CAIRO)),,$(shell $(PKG_CONFIG) --libs cairo 2>/dev/null))
 LIBRARIES := $(shell $(PKG_CONFIG) --libs libpng jansson 2>/dev/null) -ldl -lpthread -lm
 CMOCKA_LIBRARIES := $(shell $(PKG_CONFIG) --libs cmocka 2>/dev/null)
 
@@ -80,14 +86,16 @@ help:
 	@echo 'make                 build the command, the static and the shared library into build/'
 	@echo 'make demo            run scenes and write their pictures into build/demo/'
 	@echo 'make check           build and run the tests and the checks of the source'
+	@echo 'make bench           measure the tables of the paper and write them into build/bench/'
 	@echo 'make install         install below PREFIX=$(PREFIX), staged in DESTDIR='
 	@echo 'make clean           remove build/'
+	@echo 'CAIRO=no             build the command without cairo, and so without the charts of `carom bench`'
 	@echo 'SANITIZE=1           build into build/sanitize/ with the address and undefined behaviour sanitizers'
 	@echo 'V=1                  show the commands'
 	@echo 'CC= CXX= CFLAGS= CXXFLAGS= CPPFLAGS= LDFLAGS= OPTIMIZE= WERROR=   as usual'
 
-$(BUILD)/carom: $(COMMAND_OBJECTS) $(BUILD)/libcarom.a
-	$(call say,LINK) $(LINK) -o $@ $^ $(LIBRARIES)
+$(BUILD)/carom: $(COMMAND_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/command.list
+	$(call say,LINK) $(LINK) -o $@ $(filter %.o %.a,$^) $(CAIRO_LIBRARIES) $(LIBRARIES)
 
 $(BUILD)/libcarom.a: $(LIBRARY_OBJECTS) $(BUILD)/library.list
 	@rm -f $@
@@ -119,6 +127,7 @@ $(BUILD)/%.o: $(BUILD)/%.cpp $(BUILD)/flags
 $(BUILD)/src/cpu/%.o $(BUILD)/cpu_stages.o: private PACKAGES := $(EIGEN)
 $(BUILD)/tools/%.o: private PACKAGES :=
 $(BUILD)/tools/%.o: private INCLUDES := -Iinclude
+$(call object,$(wildcard tools/carom_plot*.c)): private PACKAGES := $(CAIRO_INCLUDES)
 $(BUILD)/tests/%.o: private PACKAGES += $(CMOCKA)
 $(BUILD)/tests/%.o: private INCLUDES += -Itests
 
@@ -147,6 +156,7 @@ $(BUILD)/$(1): FORCE | $(BUILD)/needs
 endef
 $(eval $(call remember,flags,$$(CC) $$(ALL_CFLAGS) $$(CXX) $$(ALL_CXXFLAGS) $$(EIGEN) $$(LINK)))
 $(eval $(call remember,library.list,$$(LIBRARY)))
+$(eval $(call remember,command.list,$$(COMMAND)))
 $(eval $(call remember,kernels.list,$$(KERNELS)))
 $(eval $(call remember,stages.list,$$(STAGES)))
 $(eval $(call remember,helpers.list,$$(HELPERS)))
@@ -157,7 +167,7 @@ need = { echo 'make: $(1) is missing: run tools/bootstrap' >&2; exit 1; }
 $(BUILD)/needs:
 	@for command in $(NEEDED_COMMANDS); do \
 		command -v "$$command" >/dev/null 2>&1 || { echo "make: $$command is missing: run tools/bootstrap" >&2; exit 1; }; done
-	@for package in libpng jansson eigen3; do \
+	@for package in libpng jansson eigen3 $(if $(filter no,$(CAIRO)),,cairo); do \
 		$(PKG_CONFIG) --exists $$package || { echo "make: $$package is missing: run tools/bootstrap" >&2; exit 1; }; done
 	@echo '#include <CL/cl.h>' | $(CC) $(PACKAGES) $(CPPFLAGS) -E -DCL_TARGET_OPENCL_VERSION=120 -x c - >/dev/null 2>&1 || $(call need,CL/cl.h)
 	@mkdir -p $(@D)/tests && touch $@
@@ -195,6 +205,16 @@ demo: all
 	@$(demo_lines); $(BUILD)/carom run scenes/$$scene.json $$options --png $$png </dev/null || exit 1; done
 	@echo; $(demo_lines); echo "$$png: $${shows# }"; done
 
+# ---- The paper's tables. BENCH are more options for each call of `carom bench`.
+
+BENCH_TABLES := table1 table2 table3 table4 table5
+
+bench: all
+	@mkdir -p $(BUILD)/bench
+	@status=0; for table in $(BENCH_TABLES); do \
+		$(BUILD)/carom bench $$table --csv $(BUILD)/bench/$$table.csv $(if $(filter no,$(CAIRO)),,--plot $(BUILD)/bench/$$table.png) \
+			$(BENCH) </dev/null || status=1; echo; done; exit $$status
+
 # ---- Installing
 
 $(BUILD)/carom.pc: $(BUILD)/pc.list
@@ -219,7 +239,7 @@ clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check demo install clean FORCE
+.PHONY: all help check demo bench install clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all

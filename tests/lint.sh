@@ -55,6 +55,7 @@ report "Eigen is included only in src/cpu" "$(includes '(Eigen|unsupported)/' in
 report "png.h is included only in src/png.c" "$(includes 'png\.h' include src tools | grep -v '^src/png\.c:')"
 report "jansson.h is included only in src/scene_*" \
 	"$(includes 'jansson' include src tools | grep -vE '^src/scene_(read|write|json)\.[ch]:')"
+report "cairo.h is included only in tools/carom_plot*" "$(includes 'cairo' include src tools tests | grep -v '^tools/carom_plot')"
 
 inner=$(sources src kernels | grep -E '\.h(pp)?$' | sed 's|.*/||' | sort -u | tr '\n' '|' | sed 's/\./\\./g; s/|$//')
 report "the command sees of Carom only carom.h" \

@@ -9,6 +9,7 @@ static const struct command *const commands[] = {
 	&generate_command,
 	&devices_command,
 	&stages_command,
+	&bench_command,
 };
 
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)

@@ -52,7 +52,7 @@ struct command {
 	int (*main)(int argc, char **argv); /* the exit code; argv[0] is the command's name */
 };
 
-extern const struct command run_command, generate_command, devices_command, stages_command;
+extern const struct command run_command, generate_command, devices_command, stages_command, bench_command;
 
 /* ---- carom_options.c */
 

@@ -1,0 +1,201 @@
+/* carom bench: the paper's tables, measured here.
+ * SPDX-License-Identifier: MIT */
+#include "carom_bench.h"
+#include "carom_plot.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What `carom bench` takes by name, and `all` in this order. */
+static const struct bench_table *const tables[] = {
+	&bench_table1,
+	&bench_table2,
+	&bench_table3,
+	&bench_table4,
+	&bench_table5,
+};
+
+#define TABLE_COUNT (sizeof tables / sizeof *tables)
+
+#define LEAST_BODIES 8 /* of fewer, not all numbers can be placed in their room */
+#define MOST_BODIES 65536
+
+/* ---- Options ---- */
+
+static carom_status read_runs(const char *text, void *target, carom_error *error)
+{
+	uint64_t runs = 0;
+	if (read_count(text, &runs, error) != CAROM_OK || runs < 1 || runs > MAX_RUNS)
+		return wrong(error, "found \"%s\"; allowed: a whole number from 1 to %d", text, MAX_RUNS);
+	*(uint64_t *)target = runs;
+	return CAROM_OK;
+}
+
+static carom_status read_sizes(const char *text, void *target, carom_error *error)
+{
+	struct bench_options *options = target;
+	const char *at = text;
+	options->size_count = 0;
+	for (;;) {
+		char *end = NULL;
+		unsigned long size = *at >= '0' && *at <= '9' ? strtoul(at, &end, 10) : 0;
+		if (size < LEAST_BODIES || size > MOST_BODIES || (*end && *end != ',') || options->size_count == MAX_SIZES)
+			return wrong(error, "found \"%s\"; allowed: at most %d numbers of bodies, %d to %d each, like 256,512", text,
+				MAX_SIZES, LEAST_BODIES, MOST_BODIES);
+		options->sizes[options->size_count++] = (uint32_t)size;
+		if (!*end)
+			return CAROM_OK;
+		at = end + 1;
+	}
+}
+
+static const struct option options_table[] = {
+	{"csv", "FILE.csv", read_text, offsetof(struct bench_options, csv), "write a table with a row a measurement, of all tables"},
+	{"plot", "FILE.png", read_text, offsetof(struct bench_options, plot),
+		"draw a chart; `all` draws one a table: FILE-table1.png and so on"},
+	{"runs", "N", read_runs, offsetof(struct bench_options, runs),
+		"runs of each figure, 1 to 99; their median is shown; default 5"},
+	{"seconds", "S", read_positive, offsetof(struct bench_options, seconds),
+		"about how long a run may last: where 1,000 repetitions take longer, 10 to 500 are measured and scaled; default 0.5"},
+	{"sizes", "N,N,..", read_sizes, 0,
+		"numbers of bodies, 8 to 65536; default those of the paper's table: 256 to 2048, for table2 to 4096"},
+	{NULL, NULL, NULL, 0, NULL},
+};
+
+/* ---- Files ---- */
+
+/* Where the table's chart goes; false if that is too long a name. */
+static bool chart_path(const struct bench_options *options, const struct bench_table *table, bool all, char *path, size_t size)
+{
+	const char *plot = options->plot, *dot = strrchr(plot, '.'), *slash = strrchr(plot, '/');
+	size_t stem = dot && dot != plot && (!slash || dot > slash + 1) ? (size_t)(dot - plot) : strlen(plot);
+	int length =
+		all ? snprintf(path, size, "%.*s-%s%s", (int)stem, plot, table->name, plot + stem) : snprintf(path, size, "%s", plot);
+	return length >= 0 && (size_t)length < size;
+}
+
+static carom_status draw_chart(
+	const struct bench_options *options, const struct bench_result *result, bool all, carom_error *error)
+{
+	char path[4096];
+	if (!options->plot)
+		return CAROM_OK;
+	if (!chart_path(options, result->table, all, path, sizeof path))
+		return wrong(error, "--plot: the name is too long");
+	return bench_draw(result, path, error);
+}
+
+/* ---- Tables ---- */
+
+static carom_status run_table(
+	const struct bench_table *table, const struct bench_options *options, bool all, FILE *csv, carom_error *error)
+{
+	struct bench_result *result = calloc(1, sizeof *result);
+	if (!result) {
+		wrong(error, "there is not enough memory for the figures");
+		return error->status = CAROM_OUT_OF_MEMORY;
+	}
+	carom_status status = bench_measure(table, options, result, error);
+	if (status == CAROM_OK) {
+		bench_print(result);
+		fflush(stdout);
+		if (csv)
+			bench_write_csv(csv, result);
+		status = draw_chart(options, result, all, error);
+	}
+	free(result);
+	return status;
+}
+
+/* `all` leaves out what this build of the library can't do. */
+static carom_status run_tables(const struct bench_options *options, const char *name, FILE *csv, carom_error *error)
+{
+	bool all = strcmp(name, "all") == 0, printed = false;
+	carom_status status = CAROM_OK;
+	for (size_t k = 0; status == CAROM_OK && k < TABLE_COUNT; k++) {
+		if (!all && strcmp(name, tables[k]->name) != 0)
+			continue;
+		carom_error found;
+		status = bench_check(tables[k], options, &found);
+		if (status != CAROM_OK)
+			wrong(error, "%s can't be measured: %.900s", tables[k]->name, found.text);
+		if (status == CAROM_UNKNOWN_NAME && all) {
+			say(&options->common, "%s", error->text);
+			status = CAROM_OK;
+			continue;
+		}
+		if (status == CAROM_OK && printed)
+			printf("\n\n");
+		if (status == CAROM_OK)
+			status = run_table(tables[k], options, all, csv, error);
+		printed = true;
+	}
+	return status;
+}
+
+static carom_status check_name(const char *name, carom_error *error)
+{
+	char known[256] = "";
+	for (size_t k = 0; k < TABLE_COUNT; k++) {
+		if (strcmp(name, tables[k]->name) == 0)
+			return CAROM_OK;
+		strcat(strcat(known, tables[k]->name), ", ");
+	}
+	return strcmp(name, "all") == 0 ? CAROM_OK : wrong(error, "%.80s: no such table; allowed: %sall", name, known);
+}
+
+/* The CSV file, and whether charts can be written, is looked at before minutes are spent. */
+static carom_status run_bench(const struct bench_options *options, const char *name, carom_error *error)
+{
+	carom_file *file = NULL;
+	FILE *csv = NULL;
+	carom_status status = check_name(name, error);
+	if (status == CAROM_OK && options->plot)
+		status = plot_check(options->plot, error);
+	if (status == CAROM_OK && options->csv)
+		status = carom_file_create(options->csv, &file, &csv, error);
+	if (csv)
+		bench_write_csv_header(csv);
+	if (status == CAROM_OK)
+		status = run_tables(options, name, csv, error);
+	if (status == CAROM_OK && file) {
+		status = carom_file_commit(file, error);
+	} else {
+		carom_file_destroy(file);
+	}
+	return status;
+}
+
+static int bench_main(int argc, char **argv)
+{
+	struct bench_options options = {.runs = 5, .seconds = 0.5};
+	carom_error error;
+	int code = parse_options(&bench_command, argc, argv, &options.common);
+	if (code >= 0)
+		return code;
+	if (run_bench(&options, options.common.argument_count ? options.common.arguments[0] : "all", &error) != CAROM_OK)
+		return report(&error);
+	return finish_output();
+}
+
+const struct command bench_command = {
+	.name = "bench",
+	.arguments = "[table1 | table2 | table3 | table4 | table5 | all]",
+	.least_arguments = 0,
+	.most_arguments = 1,
+	.summary = "Measures the tables of the paper here, and prints its figures beside",
+	.details = "\n  table1  the bisection kernels, with the loop inside and outside\n"
+			   "  table2  the minimum of all hit times, by each alternative of reduce\n"
+			   "  table3  the six combinations of the rendering phase\n"
+			   "  table4  whole steps of circles and triangles, on OpenCL and on the CPU fallback, drawn and not drawn\n"
+			   "  table5  each kernel of a step\n"
+			   "  all     all of these, the default: about four minutes on two cores\n\n"
+			   "Figures are seconds for 1,000 repetitions, as in the paper: the median of the runs, the least and the\n"
+			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
+			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run begins with the same\n"
+			   "state, alternatives take turns, and everything is warmed up before. The device is --device, or what is\n"
+			   "chosen by default; table4 measures the CPU fallback beside it. --set fills the slots that the table\n"
+			   "does not vary; the others are the defaults.\n",
+	.options = options_table,
+	.main = bench_main,
+};

@@ -1,0 +1,195 @@
+/* What was measured: as text beside the paper's figures, and as CSV with a row a measurement.
+ * SPDX-License-Identifier: MIT */
+#include "carom_bench.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* ---- Text ---- */
+
+/* Three significant digits, without an exponent. */
+static const char *format_seconds(double seconds, char *text, size_t size)
+{
+	int decimals = 2;
+	for (double limit = 1; decimals < 6 && seconds < limit; limit /= 10)
+		decimals++;
+	snprintf(text, size, "%.*f", seconds >= 100 ? 0 : seconds >= 10 ? 1 : decimals, seconds);
+	return text;
+}
+
+static const char *format_ratio(double ratio, char *text, size_t size)
+{
+	snprintf(text, size, "%.*f", ratio >= 100 ? 0 : ratio >= 10 ? 1 : 2, ratio);
+	return text;
+}
+
+static void print_device(const char *what, const carom_device_info *device)
+{
+	printf("%s: %s%s%s%s%s%s, ", what, device->platform, *device->platform ? ": " : "", device->name,
+		*device->version ? " (" : "", device->version, *device->version ? ")" : "");
+	if (device->is_opencl) {
+		printf("%u compute units, textures in %s\n", (unsigned)device->compute_units, device->uses_images ? "images" : "buffers");
+	} else {
+		printf("%u cores\n", (unsigned)device->compute_units);
+	}
+}
+
+static void print_cell(
+	const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index)
+{
+	char median[32], least[32], most[32], spread[72], paper[32] = "-", ratio[32] = "-", over[32];
+	struct bench_summary sum = bench_summarize(result, row, column, index);
+	format_seconds(sum.median, median, sizeof median);
+	snprintf(spread, sizeof spread, "%s - %s", format_seconds(sum.least, least, sizeof least),
+		format_seconds(sum.most, most, sizeof most));
+	if (sum.paper > 0)
+		format_seconds(sum.paper, paper, sizeof paper);
+	if (sum.paper > 0 && sum.median > 0)
+		format_ratio(sum.paper / sum.median, ratio, sizeof ratio);
+	snprintf(over, sizeof over, "%" PRIu64 "%s", row->repetitions, row->repetitions < REPETITIONS ? ", scaled" : "");
+	printf("%8u  %-20s%10s  %-22s%10s%14s  %s\n", (unsigned)row->bodies, column->label, median, spread, paper, ratio, over);
+}
+
+static bool is_measured(const struct bench_row *row)
+{
+	for (size_t k = 0; k < MAX_COLUMNS; k++) {
+		if (row->cells[k].measured)
+			return true;
+	}
+	return false;
+}
+
+static void print_part(const struct bench_result *result, size_t index)
+{
+	const struct bench_part *part = &result->table->parts[index];
+	printf("\n%s\n", part->title);
+	printf("%8s  %-20s%10s  %-22s%10s%14s  %s\n", "bodies", "", "Carom, s", "least - most", "paper, s", "paper / Carom",
+		"repetitions");
+	for (size_t i = 0; i < result->row_count; i++) {
+		const struct bench_row *row = &result->rows[index][i];
+		for (size_t k = 0; k < part->column_count; k++) {
+			if (row->cells[k].measured)
+				print_cell(result, row, &part->columns[k], k);
+		}
+		if (i + 1 < result->row_count && part->column_count > 1 && is_measured(row))
+			putchar('\n');
+	}
+}
+
+static bool has_left_out(const struct bench_result *result)
+{
+	for (size_t part = 0; part < result->table->part_count; part++) {
+		for (size_t k = 0; k < result->table->parts[part].column_count; k++) {
+			if (!result->rows[part][0].cells[k].measured)
+				return true;
+		}
+	}
+	return false;
+}
+
+static void print_reading(const struct bench_result *result)
+{
+	printf("Carom: the median of %zu runs, with the least and the most. Where fewer than 1,000 repetitions were measured, the\n"
+		   "times are scaled to 1,000. A ratio above 1 means that Carom is faster.\n"
+		   "The paper: NVIDIA GeForce 7900 GS; its CPU figures: Intel Core 2 Duo, 1.86 GHz.\n",
+		result->runs);
+}
+
+static bool has_kernels(const struct bench_table *table)
+{
+	for (size_t part = 0; part < table->part_count; part++) {
+		for (size_t k = 0; k < table->parts[part].column_count; k++) {
+			if (*table->parts[part].columns[k].kernels)
+				return true;
+		}
+	}
+	return false;
+}
+
+void bench_print(const struct bench_result *result)
+{
+	printf("%s\n", result->table->title);
+	print_device("device", &result->device);
+	if (*result->fallback.name)
+		print_device("CPU fallback", &result->fallback);
+	for (size_t part = 0; part < result->table->part_count; part++)
+		print_part(result, part);
+	putchar('\n');
+	print_reading(result);
+	if (has_kernels(result->table))
+		printf("Kernels' times are %s.\n",
+			result->device.is_opencl ? "OpenCL's, by profiling events: launching is not in them" : "by the wall clock");
+	if (has_left_out(result))
+		printf("What is named OpenCL was left out: the device chosen is none of OpenCL's.\n");
+	fputs(result->table->notes, stdout);
+}
+
+/* ---- CSV ---- */
+
+void bench_write_csv_header(FILE *stream)
+{
+	fputs("version,table,part,device,storage,bodies,shape,alternative,pipeline,iterations,run,repetitions,launches,seconds,"
+		  "seconds_per_1000,paper_seconds_per_1000\n",
+		stream);
+}
+
+/* Device names may have commas and quotes. */
+static void put_text(FILE *stream, const char *text)
+{
+	putc('"', stream);
+	for (; *text; text++) {
+		if (*text == '"')
+			putc('"', stream);
+		putc(*text, stream);
+	}
+	fputs("\",", stream);
+}
+
+static const char *storage_of(const carom_device_info *device)
+{
+	if (!device->is_opencl)
+		return "memory";
+	return device->uses_images ? "image" : "buffer";
+}
+
+/* What the runs of a cell have in common, up to the run's number. */
+static void put_cell(
+	FILE *stream, const struct bench_result *result, size_t part, uint32_t bodies, const struct bench_column *column)
+{
+	const struct bench_subject *subject = &result->table->parts[part].subjects[column->subject];
+	const carom_device_info *device = subject->place == PLACE_CPU ? &result->fallback : &result->device;
+	char name[512];
+	snprintf(name, sizeof name, "%s%s%s", device->platform, *device->platform ? ": " : "", device->name);
+	fprintf(stream, "%s,%s,", carom_version(), result->table->name);
+	put_text(stream, result->table->parts[part].title);
+	put_text(stream, name);
+	fprintf(stream, "%s,%u,%s,", storage_of(device), (unsigned)bodies, subject->sides ? "triangle" : "circle");
+	put_text(stream, column->label);
+	put_text(stream, result->pipelines[part][column->subject]);
+	fprintf(stream, "%u,", (unsigned)subject->iterations);
+}
+
+static void write_cell(FILE *stream, const struct bench_result *result, size_t part, const struct bench_row *row, size_t index)
+{
+	const struct bench_column *column = &result->table->parts[part].columns[index];
+	const struct bench_cell *cell = &row->cells[index];
+	double paper = bench_summarize(result, row, column, index).paper;
+	for (size_t run = 0; cell->measured && run < result->runs; run++) {
+		put_cell(stream, result, part, row->bodies, column);
+		fprintf(stream, "%zu,%" PRIu64 ",%" PRIu64 ",%.9g,%.9g,", run + 1, row->repetitions, cell->launches, cell->seconds[run],
+			cell->seconds[run] * REPETITIONS / (double)row->repetitions);
+		if (paper > 0)
+			fprintf(stream, "%.9g", paper);
+		putc('\n', stream);
+	}
+}
+
+void bench_write_csv(FILE *stream, const struct bench_result *result)
+{
+	for (size_t part = 0; part < result->table->part_count; part++) {
+		for (size_t i = 0; i < result->row_count; i++) {
+			for (size_t k = 0; k < result->table->parts[part].column_count; k++)
+				write_cell(stream, result, part, &result->rows[part][i], k);
+		}
+	}
+}

@@ -1,0 +1,109 @@
+/* Worlds to measure: bodies as `carom generate` places them, at a fill of 0.25, radius 0.5 m, speed up to 2 m/s.
+ * SPDX-License-Identifier: MIT */
+#include "carom_bench.h"
+#include "carom_placement.h"
+
+#include <stdlib.h>
+
+#define WIDTH 640u
+#define HEIGHT 480u
+
+carom_status bench_world_def(
+	const struct bench_subject *subject, const struct bench_options *options, carom_world_def *def, carom_error *error)
+{
+	struct common_options common = options->common;
+	for (size_t k = 0; k < sizeof subject->sets / sizeof *subject->sets && subject->sets[k]; k++) {
+		if (common.set_count == MAX_SETS)
+			return wrong(error, "--set: more than %d together with those of the table", MAX_SETS);
+		common.sets[common.set_count++] = subject->sets[k];
+	}
+	if (subject->place == PLACE_CPU)
+		common.device = "cpu";
+	*def = carom_default_world_def();
+	def->iterations = subject->iterations;
+	return apply_options(&common, def, error);
+}
+
+/* The bodies in their room. */
+static carom_status create(
+	const struct bench_subject *subject, uint32_t count, carom_world_def *def, carom_world **world, carom_error *error)
+{
+	const struct placement_def placement = {
+		.sides = subject->sides, .count = count, .fill = 0.25, .speed = 2, .radius = 0.5, .seed = 1};
+	carom_body_def *bodies = NULL;
+	float half;
+	carom_status status = placement_create(&placement, &bodies, &half, error);
+	if (status != CAROM_OK)
+		return status;
+	def->has_room = true;
+	def->room_min = (carom_vec2){-half, -half};
+	def->room_max = (carom_vec2){half, half};
+	status = carom_world_create(def, world, error);
+	if (status == CAROM_OK)
+		status = carom_world_add(*world, bodies, count, NULL, error);
+	free(bodies);
+	return status;
+}
+
+static carom_status no_memory(carom_error *error)
+{
+	wrong(error, "there is not enough memory to measure");
+	return error->status = CAROM_OUT_OF_MEMORY;
+}
+
+carom_status bench_world_create(const struct bench_subject *subject, const struct bench_options *options, uint32_t bodies,
+	bool profile, struct bench_world *world, carom_error *error)
+{
+	carom_world_def def;
+	*world = (struct bench_world){.subject = subject};
+	carom_status status = bench_world_def(subject, options, &def, error);
+	def.profile = profile;
+	if (status == CAROM_OK)
+		status = create(subject, bodies, &def, &world->world, error);
+	if (status == CAROM_OK) {
+		world->states = malloc(bodies * sizeof *world->states);
+		world->pixels = subject->work == WORK_STEPS ? NULL : malloc((size_t)4 * WIDTH * HEIGHT);
+		if (!world->states || (subject->work != WORK_STEPS && !world->pixels))
+			status = no_memory(error);
+	}
+	if (status == CAROM_OK)
+		status = carom_world_get_states(world->world, 0, bodies, world->states, error);
+	if (status != CAROM_OK)
+		bench_world_destroy(world);
+	return status;
+}
+
+void bench_world_destroy(struct bench_world *world)
+{
+	carom_world_destroy(world->world);
+	free(world->states);
+	free(world->pixels);
+	*world = (struct bench_world){NULL};
+}
+
+carom_status bench_world_restore(struct bench_world *world, carom_error *error)
+{
+	return carom_world_set_states(world->world, 0, carom_world_body_count(world->world), world->states, error);
+}
+
+static carom_status draw(struct bench_world *world, carom_error *error)
+{
+	carom_render_def def = carom_default_render_def();
+	def.width = WIDTH;
+	def.height = HEIGHT;
+	return carom_world_render(world->world, &def, world->pixels, error);
+}
+
+carom_status bench_world_work(struct bench_world *world, uint64_t times, carom_error *error)
+{
+	carom_status status = CAROM_OK;
+	if (world->subject->work == WORK_STEPS)
+		return carom_world_step(world->world, times, NULL, error);
+	for (uint64_t k = 0; status == CAROM_OK && k < times; k++) {
+		if (world->subject->work == WORK_DRAWN_STEPS)
+			status = carom_world_step(world->world, 1, NULL, error);
+		if (status == CAROM_OK)
+			status = draw(world, error);
+	}
+	return status;
+}
