@@ -56,7 +56,7 @@ static const struct option options_table[] = {
 	{"runs", "N", read_runs, offsetof(struct bench_options, runs),
 		"runs of each figure, 1 to 99; their median is shown; default 5"},
 	{"seconds", "S", read_positive, offsetof(struct bench_options, seconds),
-		"about how long a run may last: where 1,000 repetitions take longer, 10 to 500 are measured and scaled; default 0.5"},
+		"about how long a run may last: where 1,000 repetitions take longer, 20 to 500 are measured and scaled; default 0.5"},
 	{"sizes", "N,N,..", read_sizes, 0,
 		"numbers of bodies, 8 to 65536; default those of the paper's table: 256 to 2048, for table2 to 4096"},
 	{NULL, NULL, NULL, 0, NULL},
@@ -192,8 +192,8 @@ const struct command bench_command = {
 			   "  all     all of these, the default: about four minutes on two cores\n\n"
 			   "Figures are seconds for 1,000 repetitions, as in the paper: the median of the runs, the least and the\n"
 			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
-			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run begins with the same\n"
-			   "state, alternatives take turns, and everything is warmed up before. The device is --device, or what is\n"
+			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"
+			   "states, alternatives take turns, and everything is warmed up before. The device is --device, or what is\n"
 			   "chosen by default; table4 measures the CPU fallback beside it. --set fills the slots that the table\n"
 			   "does not vary; the others are the defaults.\n",
 	.options = options_table,

@@ -123,11 +123,21 @@ carom_status bench_measure(
 
 /* ---- carom_bench_world.c */
 
-/* A world that is measured, and the state to which each run begins. */
+/* The states at the stops along 1,000 steps of the default pipeline. The first steps alone would not do: bodies that have not
+ * met yet are cheaper to look at. */
+struct bench_path {
+	size_t stops;
+	carom_body_state *states; /* of all bodies, stop after stop */
+};
+
+/* Made on the CPU fallback: the same states whatever is measured. */
+carom_status bench_path_create(const struct bench_part *part, uint32_t bodies, struct bench_path *path, carom_error *error);
+void bench_path_destroy(struct bench_path *path);
+
+/* A world that is measured. */
 struct bench_world {
 	const struct bench_subject *subject;
 	carom_world *world;
-	carom_body_state *states;
 	uint8_t *pixels; /* NULL where nothing is drawn */
 };
 
@@ -137,7 +147,7 @@ carom_status bench_world_def(
 carom_status bench_world_create(const struct bench_subject *subject, const struct bench_options *options, uint32_t bodies,
 	bool profile, struct bench_world *world, carom_error *error);
 void bench_world_destroy(struct bench_world *world);
-carom_status bench_world_restore(struct bench_world *world, carom_error *error);
+carom_status bench_world_restore(struct bench_world *world, const struct bench_path *path, size_t stop, carom_error *error);
 /* Does the subject's work that often. */
 carom_status bench_world_work(struct bench_world *world, uint64_t times, carom_error *error);
 

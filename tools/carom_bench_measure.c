@@ -1,4 +1,4 @@
-/* Measuring: alternatives that are compared take turns, each run begins with the same state, and nothing is timed before
+/* Measuring: alternatives that are compared take turns, each run goes through the same states, and nothing is timed before
  * every kernel has been compiled and every page touched.
  * SPDX-License-Identifier: MIT */
 #include "carom_bench.h"
@@ -7,7 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define LEAST_REPETITIONS 10
+#define LEAST_REPETITIONS 20 /* two from each stop */
+#define UNTIMED 2
 #define WARM_PART 0.1 /* of a run: long enough to tell how fast a subject is */
 
 /* ---- Progress ---- */
@@ -58,29 +59,39 @@ static carom_kernel_time sum_kernels(carom_world *world, const struct bench_colu
 	return sum;
 }
 
-static void record(struct bench_cell *cell, size_t run, const struct bench_column *column, carom_kernel_time before,
-	carom_kernel_time after, double wall)
-{
-	cell->measured = true;
-	cell->seconds[run] = *column->kernels ? after.seconds - before.seconds : wall;
-	cell->launches = after.launches - before.launches;
-}
-
-static carom_status measure_run(struct bench_world *world, const struct bench_part *part, size_t subject, struct bench_row *row,
-	size_t run, carom_error *error)
+static carom_status measure_work(struct bench_world *world, const struct bench_part *part, struct bench_row *row, size_t run,
+	uint64_t times, carom_error *error)
 {
 	carom_kernel_time before[MAX_COLUMNS];
-	carom_status status = bench_world_restore(world, error);
 	for (size_t k = 0; k < part->column_count; k++)
 		before[k] = sum_kernels(world->world, &part->columns[k]);
 	double begun = wall_seconds();
-	if (status == CAROM_OK)
-		status = bench_world_work(world, row->repetitions, error);
+	carom_status status = bench_world_work(world, times, error);
 	double wall = wall_seconds() - begun;
 	for (size_t k = 0; status == CAROM_OK && k < part->column_count; k++) {
 		const struct bench_column *column = &part->columns[k];
-		if (column->subject == subject)
-			record(&row->cells[k], run, column, before[k], sum_kernels(world->world, column), wall);
+		if (&part->subjects[column->subject] != world->subject)
+			continue;
+		carom_kernel_time after = sum_kernels(world->world, column);
+		row->cells[k].measured = true;
+		row->cells[k].seconds[run] += *column->kernels ? after.seconds - before[k].seconds : wall;
+		row->cells[k].launches += run == 0 ? after.launches - before[k].launches : 0;
+	}
+	return status;
+}
+
+/* As many repetitions from each stop; the first there are not timed, since they send the state and clear what the stop before
+ * has left. */
+static carom_status measure_run(struct bench_world *world, const struct bench_part *part, const struct bench_path *path,
+	struct bench_row *row, size_t run, carom_error *error)
+{
+	carom_status status = CAROM_OK;
+	for (size_t stop = 0; status == CAROM_OK && stop < path->stops; stop++) {
+		status = bench_world_restore(world, path, stop, error);
+		if (status == CAROM_OK)
+			status = bench_world_work(world, UNTIMED, error);
+		if (status == CAROM_OK)
+			status = measure_work(world, part, row, run, row->repetitions / path->stops, error);
 	}
 	return status;
 }
@@ -88,9 +99,12 @@ static carom_status measure_run(struct bench_world *world, const struct bench_pa
 /* ---- A row ---- */
 
 /* Seconds a repetition takes once all is warm, measured over `least` seconds at least. */
-static carom_status warm_up(struct bench_world *world, double least, double *seconds, carom_error *error)
+static carom_status warm_up(
+	struct bench_world *world, const struct bench_path *path, double least, double *seconds, carom_error *error)
 {
-	carom_status status = bench_world_work(world, 2, error);
+	carom_status status = bench_world_restore(world, path, path->stops - 1, error);
+	if (status == CAROM_OK)
+		status = bench_world_work(world, UNTIMED, error);
 	for (uint64_t times = 1; status == CAROM_OK; times *= 4) {
 		double begun = wall_seconds();
 		status = bench_world_work(world, times, error);
@@ -104,7 +118,7 @@ static carom_status warm_up(struct bench_world *world, double least, double *sec
 /* A round number, so that it seldom differs from one call to the next. */
 static uint64_t choose_repetitions(double wanted)
 {
-	static const uint64_t rounds[] = {1000, 500, 200, 100, 50, 20};
+	static const uint64_t rounds[] = {1000, 500, 200, 100, 50};
 	for (size_t k = 0; k < sizeof rounds / sizeof *rounds; k++) {
 		if ((double)rounds[k] <= wanted)
 			return rounds[k];
@@ -128,7 +142,7 @@ static bool left_out(const struct bench_result *result, const struct bench_subje
 
 /* All worlds of a part, warm; where a subject is left out, none. */
 static carom_status prepare(const struct bench_part *part, const struct bench_options *options, const struct bench_result *result,
-	struct bench_row *row, struct bench_world *worlds, carom_error *error)
+	const struct bench_path *path, struct bench_row *row, struct bench_world *worlds, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	double slowest = 0, seconds = 0;
@@ -139,7 +153,7 @@ static carom_status prepare(const struct bench_part *part, const struct bench_op
 		show(options, result, part, row->bodies, 0, subject->label);
 		status = bench_world_create(subject, options, row->bodies, is_profiled(part, k), &worlds[k], error);
 		if (status == CAROM_OK)
-			status = warm_up(&worlds[k], WARM_PART * options->seconds, &seconds, error);
+			status = warm_up(&worlds[k], path, WARM_PART * options->seconds, &seconds, error);
 		slowest = seconds > slowest ? seconds : slowest;
 	}
 	row->repetitions = choose_repetitions(slowest > 0 ? options->seconds / slowest : REPETITIONS);
@@ -147,16 +161,17 @@ static carom_status prepare(const struct bench_part *part, const struct bench_op
 }
 
 static carom_status measure_row(const struct bench_part *part, const struct bench_options *options,
-	const struct bench_result *result, struct bench_row *row, struct bench_world *worlds, carom_error *error)
+	const struct bench_result *result, const struct bench_path *path, struct bench_row *row, struct bench_world *worlds,
+	carom_error *error)
 {
-	carom_status status = prepare(part, options, result, row, worlds, error);
+	carom_status status = prepare(part, options, result, path, row, worlds, error);
 	for (size_t run = 0; run < options->runs; run++) {
 		for (size_t k = 0; status == CAROM_OK && k < part->subject_count; k++) {
 			size_t subject = (k + run) % part->subject_count; /* so that none always follows the same */
 			if (!worlds[subject].world)
 				continue;
 			show(options, result, part, row->bodies, run + 1, part->subjects[subject].label);
-			status = measure_run(&worlds[subject], part, subject, row, run, error);
+			status = measure_run(&worlds[subject], part, path, row, run, error);
 		}
 	}
 	return status;
@@ -184,12 +199,18 @@ static carom_status measure_part(
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < result->row_count; k++) {
 		struct bench_world worlds[MAX_SUBJECTS] = {{NULL}};
-		status = measure_row(&result->table->parts[part], options, result, &result->rows[part][k], worlds, error);
+		struct bench_row *row = &result->rows[part][k];
+		struct bench_path path = {0, NULL};
+		show(options, result, &result->table->parts[part], row->bodies, 0, "1,000 steps to begin from");
+		status = bench_path_create(&result->table->parts[part], row->bodies, &path, error);
+		if (status == CAROM_OK)
+			status = measure_row(&result->table->parts[part], options, result, &path, row, worlds, error);
 		for (size_t i = 0; i < MAX_SUBJECTS; i++) {
 			if (worlds[i].world)
 				describe_pipeline(worlds[i].world, result->pipelines[part][i], sizeof result->pipelines[part][i]);
 			bench_world_destroy(&worlds[i]);
 		}
+		bench_path_destroy(&path);
 	}
 	return status;
 }

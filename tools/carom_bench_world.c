@@ -7,6 +7,7 @@
 
 #define WIDTH 640u
 #define HEIGHT 480u
+#define STOPS 10
 
 carom_status bench_world_def(
 	const struct bench_subject *subject, const struct bench_options *options, carom_world_def *def, carom_error *error)
@@ -51,6 +52,45 @@ static carom_status no_memory(carom_error *error)
 	return error->status = CAROM_OUT_OF_MEMORY;
 }
 
+/* ---- Paths ---- */
+
+static carom_status walk(carom_world *world, uint32_t bodies, struct bench_path *path, carom_error *error)
+{
+	carom_status status = carom_world_get_states(world, 0, bodies, path->states, error);
+	for (size_t stop = 1; status == CAROM_OK && stop < path->stops; stop++) {
+		status = carom_world_step(world, REPETITIONS / path->stops, NULL, error);
+		if (status == CAROM_OK)
+			status = carom_world_get_states(world, 0, bodies, path->states + stop * bodies, error);
+	}
+	return status;
+}
+
+carom_status bench_path_create(const struct bench_part *part, uint32_t bodies, struct bench_path *path, carom_error *error)
+{
+	carom_world_def def = carom_default_world_def();
+	carom_world *world = NULL;
+	def.device = "cpu";
+	path->stops = part->subjects[0].work == WORK_PICTURES ? 1 : STOPS;
+	path->states = malloc(path->stops * bodies * sizeof *path->states);
+	carom_status status = path->states ? CAROM_OK : no_memory(error);
+	if (status == CAROM_OK)
+		status = create(&part->subjects[0], bodies, &def, &world, error);
+	if (status == CAROM_OK)
+		status = walk(world, bodies, path, error);
+	carom_world_destroy(world);
+	if (status != CAROM_OK)
+		bench_path_destroy(path);
+	return status;
+}
+
+void bench_path_destroy(struct bench_path *path)
+{
+	free(path->states);
+	*path = (struct bench_path){0, NULL};
+}
+
+/* ---- Worlds ---- */
+
 carom_status bench_world_create(const struct bench_subject *subject, const struct bench_options *options, uint32_t bodies,
 	bool profile, struct bench_world *world, carom_error *error)
 {
@@ -60,14 +100,10 @@ carom_status bench_world_create(const struct bench_subject *subject, const struc
 	def.profile = profile;
 	if (status == CAROM_OK)
 		status = create(subject, bodies, &def, &world->world, error);
-	if (status == CAROM_OK) {
-		world->states = malloc(bodies * sizeof *world->states);
-		world->pixels = subject->work == WORK_STEPS ? NULL : malloc((size_t)4 * WIDTH * HEIGHT);
-		if (!world->states || (subject->work != WORK_STEPS && !world->pixels))
-			status = no_memory(error);
+	if (status == CAROM_OK && subject->work != WORK_STEPS) {
+		world->pixels = malloc((size_t)4 * WIDTH * HEIGHT);
+		status = world->pixels ? CAROM_OK : no_memory(error);
 	}
-	if (status == CAROM_OK)
-		status = carom_world_get_states(world->world, 0, bodies, world->states, error);
 	if (status != CAROM_OK)
 		bench_world_destroy(world);
 	return status;
@@ -76,14 +112,14 @@ carom_status bench_world_create(const struct bench_subject *subject, const struc
 void bench_world_destroy(struct bench_world *world)
 {
 	carom_world_destroy(world->world);
-	free(world->states);
 	free(world->pixels);
 	*world = (struct bench_world){NULL};
 }
 
-carom_status bench_world_restore(struct bench_world *world, carom_error *error)
+carom_status bench_world_restore(struct bench_world *world, const struct bench_path *path, size_t stop, carom_error *error)
 {
-	return carom_world_set_states(world->world, 0, carom_world_body_count(world->world), world->states, error);
+	size_t bodies = carom_world_body_count(world->world);
+	return carom_world_set_states(world->world, 0, bodies, path->states + stop * bodies, error);
 }
 
 static carom_status draw(struct bench_world *world, carom_error *error)
