@@ -87,7 +87,7 @@ static double number(size_t row, enum field field)
 static void check_row(size_t row, double bodies)
 {
 	assert_string_equal(csv.at[row][VERSION], carom_version());
-	assert_true(number(row, BODIES) == bodies && number(row, SECONDS) > 0 && number(row, REPETITIONS) >= 20);
+	assert_true(number(row, BODIES) == bodies && number(row, SECONDS) > 0 && number(row, REPETITIONS) >= 10);
 	assert_true(number(row, RUN) == (double)(1 + (row - 1) % 2));
 	assert_true(fabs(number(row, PER_1000) * number(row, REPETITIONS) / (1000 * number(row, SECONDS)) - 1) < 1e-6);
 	assert_true(*csv.at[row][DEVICE] && strstr(csv.at[row][PIPELINE], "step=first_impact aabb=tight overlap=all_pairs"));
@@ -208,7 +208,7 @@ static void the_papers_figures_stand_beside_its_sizes(void **state)
 	assert_string_equal(paper_of("512", "tiled"), "");
 	assert_string_equal(paper_of("100", "six"), "");
 	assert_non_null(strstr(call.out, "1.42"));
-	assert_non_null(strstr(call.out, "20, scaled"));
+	assert_non_null(strstr(call.out, "10, scaled"));
 }
 
 static void launches_and_settings_are_told(void **state)

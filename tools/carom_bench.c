@@ -56,7 +56,7 @@ static const struct option options_table[] = {
 	{"runs", "N", read_runs, offsetof(struct bench_options, runs),
 		"runs of each figure, 1 to 99; their median is shown; default 5"},
 	{"seconds", "S", read_positive, offsetof(struct bench_options, seconds),
-		"about how long a run may last: where 1,000 repetitions take longer, 20 to 500 are measured and scaled; default 0.5"},
+		"about how long a run may last: where 1,000 repetitions take longer, 10 to 500 are measured and scaled; default 0.5"},
 	{"sizes", "N,N,..", read_sizes, 0,
 		"numbers of bodies, 8 to 65536; default those of the paper's table: 256 to 2048, for table2 to 4096"},
 	{NULL, NULL, NULL, 0, NULL},

@@ -7,7 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define LEAST_REPETITIONS 20 /* two from each stop */
+#define LEAST_REPETITIONS 10 /* two from every second stop */
+#define FEW_REPETITIONS 50
 #define UNTIMED 2
 #define WARM_PART 0.1 /* of a run: long enough to tell how fast a subject is */
 
@@ -80,18 +81,20 @@ static carom_status measure_work(struct bench_world *world, const struct bench_p
 	return status;
 }
 
-/* As many repetitions from each stop; the first there are not timed, since they send the state and clear what the stop before
- * has left. */
+/* As many repetitions from each stop, or where they are few from every second; the first there are not timed, since they
+ * send the state and clear what the stop before has left. */
 static carom_status measure_run(struct bench_world *world, const struct bench_part *part, const struct bench_path *path,
 	struct bench_row *row, size_t run, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	for (size_t stop = 0; status == CAROM_OK && stop < path->stops; stop++) {
+	size_t stride = row->repetitions <= FEW_REPETITIONS && path->stops > 1 ? 2 : 1;
+	uint64_t times = row->repetitions / (path->stops / stride);
+	for (size_t stop = stride - 1; status == CAROM_OK && stop < path->stops; stop += stride) {
 		status = bench_world_restore(world, path, stop, error);
 		if (status == CAROM_OK)
 			status = bench_world_work(world, UNTIMED, error);
 		if (status == CAROM_OK)
-			status = measure_work(world, part, row, run, row->repetitions / path->stops, error);
+			status = measure_work(world, part, row, run, times, error);
 	}
 	return status;
 }
@@ -118,7 +121,7 @@ static carom_status warm_up(
 /* A round number, so that it seldom differs from one call to the next. */
 static uint64_t choose_repetitions(double wanted)
 {
-	static const uint64_t rounds[] = {1000, 500, 200, 100, 50};
+	static const uint64_t rounds[] = {1000, 500, 200, 100, 50, 20};
 	for (size_t k = 0; k < sizeof rounds / sizeof *rounds; k++) {
 		if ((double)rounds[k] <= wanted)
 			return rounds[k];

@@ -89,11 +89,11 @@ static bool has_left_out(const struct bench_result *result)
 
 static void print_reading(const struct bench_result *result)
 {
-	printf(
-		"Carom: the median of %zu runs, with the least and the most. Where fewer than 1,000 repetitions were measured, they are\n"
-		"scaled to 1,000; steps are measured in ten places, 100 steps apart, all alternatives from the same states.\n"
-		"A ratio above 1 means that Carom is faster.\n"
-		"The paper: NVIDIA GeForce 7900 GS; its CPU figures: Intel Core 2 Duo, 1.86 GHz.\n",
+	printf("Carom: the median of %zu runs, with the least and the most. scaled: fewer repetitions than 1,000 were measured; of "
+		   "steps\n"
+		   "a few at every 100th or 200th of 1,000, by all alternatives from the same states.\n"
+		   "A ratio above 1 means that Carom is faster.\n"
+		   "The paper: NVIDIA GeForce 7900 GS; its CPU figures: Intel Core 2 Duo, 1.86 GHz.\n",
 		result->runs);
 }
 
