@@ -215,7 +215,7 @@ typedef struct carom_world_def {
 	carom_pipeline pipeline;
 	const char *device;    /* auto (default), cpu, opencl, or part of a platform's or device's name, in any case; NULL: the
 	                          environment's CAROM_DEVICE, else auto */
-	carom_storage storage; /* default CAROM_STORAGE_AUTO */
+	carom_storage storage; /* default CAROM_STORAGE_AUTO; of an OpenCL device, the CPU fallback has its own */
 	uint32_t threads;      /* of the CPU fallback; 0 (the default) for one a core */
 	bool profile;          /* measure each kernel, for carom_world_profile; default false, since it takes time itself */
 } carom_world_def;
@@ -255,7 +255,8 @@ typedef struct carom_report {
  * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED: time can't get on, and the state is the
  * one at which it stood still. */
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
-/* Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. */
+/* Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. In a world without
+ * bodies nothing runs, and no time passes. */
 CAROM_API carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error);
 /* The same up to the simulated time `time` (s, not before carom_world_time), but at most `most_steps` steps. Calls for the same
  * time go on where the one before ended: cutting the way into several calls changes no bit. */
