@@ -89,10 +89,9 @@ static bool has_left_out(const struct bench_result *result)
 
 static void print_reading(const struct bench_result *result)
 {
-	printf("Carom: the median of %zu runs, with the least and the most. scaled: fewer repetitions than 1,000 were measured; of "
-		   "steps\n"
-		   "a few at every 100th or 200th of 1,000, by all alternatives from the same states.\n"
-		   "A ratio above 1 means that Carom is faster.\n"
+	printf("Carom: the median of %zu runs, with the least and the most.\n"
+		   "scaled: fewer repetitions than 1,000 were measured; of steps a few at every 100th or 200th of 1,000.\n"
+		   "All alternatives go on from the same states. A ratio above 1 means that Carom is faster.\n"
 		   "The paper: NVIDIA GeForce 7900 GS; its CPU figures: Intel Core 2 Duo, 1.86 GHz.\n",
 		result->runs);
 }
