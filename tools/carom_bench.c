@@ -189,7 +189,7 @@ const struct command bench_command = {
 			   "  table3  the six combinations of the rendering phase\n"
 			   "  table4  whole steps of circles and triangles, on OpenCL and on the CPU fallback, drawn and not drawn\n"
 			   "  table5  each kernel of a step\n"
-			   "  all     all of these, the default: about four minutes on two cores\n\n"
+			   "  all     all of these, the default: four to six minutes on two cores\n\n"
 			   "Figures are seconds for 1,000 repetitions, as in the paper: the median of the runs, the least and the\n"
 			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"
