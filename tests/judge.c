@@ -51,8 +51,7 @@ void judge_fill(carom_world *world, uint64_t seed)
 	scenery_check(carom_textures_update(world, &error), &error);
 }
 
-/* A world whose device is the double instance. */
-static carom_world *oracle_of(const carom_world_def *def)
+carom_world *judge_oracle(const carom_world_def *def)
 {
 	carom_world *world = scenery_world(def, &scenery_devices[0]);
 	carom_device_def device = {.pipeline = world->pipeline};
@@ -281,7 +280,7 @@ bool judge(const char *slot, const char *alternative, const scenery_device *devi
 	if (!b->device)
 		return false;
 	b->reference = scenery_world(&def, &scenery_devices[0]);
-	b->oracle = oracle_of(&def);
+	b->oracle = judge_oracle(&def);
 	judge_fill(b->reference, seed);
 	judge_fill(b->oracle, seed);
 	judge_fill(b->device, seed);

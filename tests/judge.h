@@ -18,6 +18,8 @@ typedef struct judgement {
 carom_world_def judge_arena(const char *slot, const char *alternative);
 /* JUDGE_BODIES random bodies of all shapes, some of which overlap, with forces. */
 void judge_fill(carom_world *world, uint64_t seed);
+/* A world on the CPU's instance in double: what the others are held against. */
+carom_world *judge_oracle(const carom_world_def *def);
 /* Three steps, stage by stage. False where the device is not there. */
 bool judge(const char *slot, const char *alternative, const scenery_device *device, uint64_t seed, judgement *result);
 

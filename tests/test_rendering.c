@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "judge.h"
 #include "layout.h"
 #include "rendering.h"
 
@@ -15,17 +16,6 @@ typedef struct trial {
 	carom_world *reference, *oracle, *device;
 	size_t compared, wrong_bits, wrong_values;
 } trial;
-
-static carom_world *oracle_of(const carom_world_def *def)
-{
-	carom_world *world = scenery_world(def, &scenery_devices[0]);
-	carom_device_def device = {.pipeline = world->pipeline};
-	carom_error error;
-	carom_device_close(world->device);
-	world->device = NULL;
-	scenery_check(carom_cpu_open_double(&device, &world->device, &error), &error);
-	return world;
-}
 
 /* The first `items` texels, or ints of a list, as they lie on the world's device; `size` bytes a number. */
 static void *fetch(carom_world *world, carom_role role, uint32_t items, size_t size)
@@ -101,7 +91,7 @@ static bool try_device(const scenery_device *device, const char *option, trial *
 	if (!t->device)
 		return false;
 	t->reference = scenery_world(&def, &scenery_devices[0]);
-	t->oracle = oracle_of(&def);
+	t->oracle = judge_oracle(&def);
 	fill(t->reference);
 	fill(t->oracle);
 	fill(t->device);
