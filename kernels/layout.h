@@ -74,7 +74,9 @@
 #define TIME_REMAINING_LOW 3
 #define CLOCK_COUNTS 3 /* texel */
 #define COUNTS_STEPS 0
-#define COUNTS_HITS 1
+#define COUNTS_HITS 1 /* sum of two floats */
+#define COUNTS_HITS_LOW 3
+#define COUNTS_HELD 2 /* bodies that were held, see HOLD_LIMIT */
 
 /* AABB [2.1] of the body over the whole step */
 #define AABB_MIN_X 0
@@ -121,6 +123,104 @@
 #define IMPULSE_Y 1
 #define IMPULSE_TORQUE_A 2 /* N m s about A's centre of mass */
 #define IMPULSE_TORQUE_B 3 /* of -J about B's */
+
+/* ---- The step events. Bodies are kept in slots sorted by place; records are lists of four floats, lists are of ints. */
+
+/* Slots: four records a slot. Which body it is, is a number below 2^22. */
+#define SLOT_WIDTH 4
+#define SLOT_PLACE 0 /* record: the channels of Linear */
+#define SLOT_TURN 1 /* record */
+#define TURN_ANGLE 0
+#define TURN_VELOCITY 1
+#define TURN_RADIUS 2
+#define TURN_RESTITUTION 3
+#define SLOT_MASS 2 /* record */
+#define MASS_INVERSE 0         /* 1 / kg; 0 for a static body */
+#define MASS_INVERSE_INERTIA 1
+#define MASS_FIRST 2           /* GEOMETRY_FIRST, GEOMETRY_COUNT */
+#define MASS_COUNT 3
+#define SLOT_PUSH 3 /* record */
+#define PUSH_X 0 /* m/s^2: gravity and force; 0 for a static body */
+#define PUSH_Y 1
+#define PUSH_TORQUE 2 /* rad/s^2 */
+#define PUSH_BODY 3   /* index of the body */
+
+/* Reach: a record a slot, the box (AABB's channels) that the body does not leave while the lists of neighbours are good */
+
+/* Work: four records a slot, of bodies that an event changed in this step */
+#define WORK_WIDTH 4
+#define WORK_PLACE 0 /* record: as SLOT_PLACE, at WORK_TIME */
+#define WORK_TURN 1 /* record */
+#define WORK_ANGLE 0
+#define WORK_VELOCITY 1
+#define WORK_TIME 2 /* part of the step */
+#define WORK_HELD 3 /* 1: it stays where it is until the step ends */
+#define WORK_NEXT 2 /* record: the body's first event, by what is known */
+#define NEXT_TIME 0 /* part of the step, NO_HIT if there is none */
+#define NEXT_ROW 1  /* bodies: the larger index, the less; or the body and -1 - wall */
+#define NEXT_COLUMN 2
+#define NEXT_PARTNER 3 /* its slot, or -1 - wall */
+#define WORK_BOX 3 /* record: AABB's channels, of all the way in this step */
+
+/* Members: eight ints a slot */
+#define MEMBER_WIDTH 8
+#define MEMBER_PARENT 0 /* union-find over slots: clusters that meet are one */
+#define MEMBER_OWNER 1  /* cluster (slot of its leader) that may change the body, -1 for none */
+#define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
+#define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
+#define MEMBER_EVENTS 4 /* of the body in this step */
+#define MEMBER_WEIGHT 5 /* of these against HOLD_LIMIT */
+#define MEMBER_SEEN 6   /* events of the partner when NEXT was found */
+#define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
+
+/* Spans: four ints a slot */
+#define SPAN_WIDTH 4
+#define SPAN_START 0 /* in Neighbours: those to test a pair with, */
+#define SPAN_HALF 1  /* then those that test it themselves */
+#define SPAN_END 2
+#define SPAN_CELL 3
+
+/* Cells: three ints a cell, of CELL_ROW cells a row */
+#define CELL_WIDTH 3
+#define CELL_COUNT 0
+#define CELL_START 1
+#define CELL_END 2
+#define CELL_LEVELS 16 /* each with cells twice as large as the one before */
+
+/* Nodes: two ints; small bodies found beside a large one */
+#define NODE_WIDTH 2
+#define NODE_SLOT 0
+#define NODE_LINK 1
+
+/* Status: ints, and some floats in their bits */
+#define STATUS_WIDTH 32
+#define STATUS_STALE 0      /* 1: the lists of neighbours are to be made anew before the next step */
+#define STATUS_SMALL 1      /* 1: Neighbours or Nodes has too little room for them */
+#define STATUS_UNDER_WAY 2  /* 1: a step is, with clusters to do again */
+#define STATUS_COMMIT 3     /* 1: the step is done */
+#define STATUS_LEFT 4       /* 1: a body would leave its reach: the step begins again, with other lists */
+#define STATUS_ROUND 5      /* the last round that has clusters to do; rounds are numbered on and on */
+#define STATUS_ACTIVE 6     /* slots in Active */
+#define STATUS_SEEDS 7      /* of these when the round began */
+#define STATUS_HITS 8       /* of the step */
+#define STATUS_HELD 9       /* bodies, of the step */
+#define STATUS_NEIGHBOURS 10 /* ints wanted in Neighbours */
+#define STATUS_NODES 11     /* nodes wanted */
+#define STATUS_ROOM 12      /* ints there are in Neighbours */
+#define STATUS_NODE_ROOM 13
+#define STATUS_LEVELS 14    /* bits: levels that have bodies */
+#define STATUS_PLACED 15    /* slots that have got their place */
+#define STATUS_PACE 16      /* float bits, m: what the slower bodies may go before the lists are stale */
+#define STATUS_CELL 17      /* float bits, m: the side of a cell of level 0 */
+#define STATUS_BUILDS 18    /* how often neighbours were found, steps done, steps begun again: since the host asked */
+#define STATUS_STEPS 19
+#define STATUS_RETRIES 20
+
+/* Rules of events: a body that weighs more than HOLD_LIMIT in one step is held. An event weighs 1, or HOLD_RAPID where the
+ * restitution is below 1 and the body's event before was less than HOLD_GAP of a step ago. */
+#define HOLD_LIMIT 4096
+#define HOLD_RAPID 512
+#define HOLD_GAP 0.0009765625f
 
 /* ---- Rendering [3] */
 

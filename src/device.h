@@ -15,7 +15,8 @@ typedef struct carom_texture carom_texture; /* each kind of device has its own *
 typedef enum carom_texel_format {
 	TEXELS_FLOAT, /* four floats */
 	TEXELS_BYTE,  /* four bytes */
-	TEXELS_LIST,  /* one int; on every device a buffer: to kernels these are lists */
+	TEXELS_LIST,   /* one int; on every device a buffer: to kernels these are lists */
+	TEXELS_RECORD, /* four floats, the same: records. On the CPU the four lie side by side */
 } carom_texel_format;
 
 /* Rows first: (x, y) is column x of row y. Functions that fail fill in the error. */

@@ -9,6 +9,7 @@
 #include "step/step.h"
 
 #define STATE ROLE_LINEAR, ROLE_ROTATIONAL, ROLE_GEOMETRY, ROLE_FORCES, ROLE_UNIFORMS
+#define LISTS ROLE_SPANS, ROLE_NEIGHBOURS, ROLE_STATUS, ROLE_MEMBERS, ROLE_ACTIVE
 
 const carom_stage_def carom_stages[STAGE_COUNT] = {
 	[STAGE_AABB] = {"aabb", NULL, "aabb", 7, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_AABB}},
@@ -24,6 +25,25 @@ const carom_stage_def carom_stages[STAGE_COUNT] = {
 	[STAGE_IMPULSE] = {"impulse", NULL, "impulse", 7, 1, {STATE, ROLE_VERTICES, ROLE_CLOCK, ROLE_IMPULSE}},
 	[STAGE_NO_COLLISION] = {"forward", "no_collision", "forward_no_collision", 6, 2, {STATE, ROLE_CLOCK, ROLE_LINEAR, ROLE_ROTATIONAL}},
 	[STAGE_COLLISION] = {"forward", "collision", "forward_collision", 7, 2, {STATE, ROLE_CLOCK, ROLE_IMPULSE, ROLE_LINEAR, ROLE_ROTATIONAL}},
+	[STAGE_LOAD] = {"neighbours", NULL, "slots_load", 5, 2, {STATE, ROLE_SLOTS, ROLE_NEED}},
+	[STAGE_PACE] = {"neighbours", NULL, "neighbours_pace", 3, 0, {ROLE_UNIFORMS, ROLE_SLOTS, ROLE_STATUS}},
+	[STAGE_REACH] = {"neighbours", NULL, "neighbours_reach", 6, 0,
+		{ROLE_VERTICES, ROLE_SLOTS, ROLE_NEED, ROLE_STATUS, ROLE_SPANS, ROLE_CELLS}},
+	[STAGE_CELLS] = {"neighbours", NULL, "neighbours_cells", 2, 0, {ROLE_STATUS, ROLE_CELLS}},
+	[STAGE_SORT] = {"neighbours", NULL, "neighbours_sort", 6, 4,
+		{ROLE_VERTICES, ROLE_SLOTS, ROLE_NEED, ROLE_STATUS, ROLE_SPANS, ROLE_CELLS, ROLE_SLOTS, ROLE_NEED, ROLE_REACH, ROLE_MEMBERS}},
+	[STAGE_NEAR] = {"neighbours", NULL, "neighbours_near", 8, 0,
+		{ROLE_SLOTS, ROLE_REACH, ROLE_STATUS, ROLE_CELLS, ROLE_SPANS, ROLE_NEIGHBOURS, ROLE_NODES, ROLE_MEMBERS}},
+	[STAGE_GATHER] = {"neighbours", NULL, "neighbours_gather", 5, 0, {ROLE_STATUS, ROLE_SPANS, ROLE_NEIGHBOURS, ROLE_NODES, ROLE_MEMBERS}},
+	[STAGE_SEEK] = {"events", NULL, "events_seek", 9, 0, {ROLE_VERTICES, ROLE_UNIFORMS, ROLE_CLOCK, ROLE_SLOTS, LISTS}},
+	[STAGE_MUSTER] = {"events", NULL, "events_muster", 5, 0, {ROLE_SLOTS, ROLE_STATUS, ROLE_MEMBERS, ROLE_ACTIVE, ROLE_WORK}},
+	[STAGE_RESOLVE] = {"events", NULL, "events_resolve", 12, 0,
+		{ROLE_VERTICES, ROLE_UNIFORMS, ROLE_CLOCK, ROLE_SLOTS, LISTS, ROLE_WORK, ROLE_REACH, ROLE_NEED}},
+	[STAGE_CHECK] = {"events", NULL, "events_check", 10, 0, {ROLE_VERTICES, ROLE_UNIFORMS, ROLE_CLOCK, ROLE_SLOTS, LISTS, ROLE_WORK}},
+	[STAGE_SETTLE] = {"events", NULL, "events_settle", 3, 1, {ROLE_UNIFORMS, ROLE_CLOCK, ROLE_STATUS, ROLE_CLOCK}},
+	[STAGE_DRIFT] = {"forward", "drift", "forward_drift", 7, 0,
+		{ROLE_UNIFORMS, ROLE_CLOCK, ROLE_SLOTS, ROLE_REACH, ROLE_STATUS, ROLE_MEMBERS, ROLE_WORK}},
+	[STAGE_UNLOAD] = {"neighbours", NULL, "slots_unload", 1, 2, {ROLE_SLOTS, ROLE_LINEAR, ROLE_ROTATIONAL}},
 	[STAGE_VERTICES] = {"vertices", NULL, "vertices", 7, 1,
 		{ROLE_STREAM, ROLE_LINEAR, ROLE_ROTATIONAL, ROLE_TRANSFORMS, ROLE_GEOMETRY, ROLE_VERTICES, ROLE_VIEW, ROLE_PLACED}},
 	[STAGE_SHAPES] = {"shapes", NULL, "shapes", 4, 2, {ROLE_DRAWS, ROLE_MARKS, ROLE_PLACED, ROLE_VIEW, ROLE_SHAPES, ROLE_EDGES}},
@@ -46,6 +66,8 @@ const carom_slot carom_slots[] = {
 	{"reduce", offsetof(carom_pipeline, reduce), "tiled", false},
 	{"first", SIZE_MAX, "earliest", false},
 	{"impulse", offsetof(carom_pipeline, impulse), "pair_exact", false},
+	{"neighbours", SIZE_MAX, "grid", false},
+	{"events", SIZE_MAX, "clusters", false},
 	{"forward", SIZE_MAX, NULL, false},
 	{"transforms", offsetof(carom_pipeline, transforms), "index", true},
 	{"vertices", offsetof(carom_pipeline, vertices), "option3", true},

@@ -27,6 +27,18 @@ typedef enum carom_role {
 	ROLE_WALLS,      /* one texel WALLS_GROUP bodies */
 	ROLE_REDUCED,    /* pair: the level before and the level to make */
 	ROLE_IMPULSE,    /* 1 x 1 */
+	/* of the step events: records and lists, which a kernel may change in place wherever they stand */
+	ROLE_SLOTS,      /* pair of records, SLOT_WIDTH a slot: a slot is a body, sorted by place */
+	ROLE_NEED,       /* pair of lists, float bits: m, how far from its place a body needs to get */
+	ROLE_REACH,      /* records, one a slot */
+	ROLE_WORK,       /* records, WORK_WIDTH a slot */
+	ROLE_MEMBERS,    /* list, MEMBER_WIDTH a slot */
+	ROLE_ACTIVE,     /* list: the slots of bodies in clusters */
+	ROLE_SPANS,      /* list, SPAN_WIDTH a slot */
+	ROLE_NEIGHBOURS, /* list: slots */
+	ROLE_NODES,      /* list, NODE_WIDTH a node */
+	ROLE_CELLS,      /* list, CELL_WIDTH a cell */
+	ROLE_STATUS,     /* list, STATUS_WIDTH */
 	/* of pictures, made when the first is drawn; lists are those of ints */
 	ROLE_STREAM,      /* one texel a vertex */
 	ROLE_TRANSFORMS,  /* one texel a body */
@@ -59,6 +71,21 @@ typedef enum carom_stage {
 	STAGE_IMPULSE,      /* (1) */
 	STAGE_NO_COLLISION, /* (bodies) */
 	STAGE_COLLISION,    /* (bodies) */
+	/* the step events; "share": work-items that share what is active, `round` being the number of the round */
+	STAGE_LOAD,     /* (slots): the state into slots */
+	STAGE_PACE,     /* (1, 1, slots, window in 1/256 of a time step) */
+	STAGE_REACH,    /* (slots, 1, cells a row, rows) */
+	STAGE_CELLS,    /* (rows, 1, cells a row) */
+	STAGE_SORT,     /* (slots) */
+	STAGE_NEAR,     /* (slots, 1, cells a row, rows) */
+	STAGE_GATHER,   /* (slots) */
+	STAGE_SEEK,     /* (slots, 1, round) */
+	STAGE_MUSTER,   /* (share, 1, round) */
+	STAGE_RESOLVE,  /* (share, 1, round) */
+	STAGE_CHECK,    /* (share, 1, round) */
+	STAGE_SETTLE,   /* (1, 1, round) */
+	STAGE_DRIFT,    /* (slots) */
+	STAGE_UNLOAD,   /* (slots): the slots into the state */
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
 	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */
@@ -70,7 +97,7 @@ typedef enum carom_stage {
 	STAGE_COUNT
 } carom_stage;
 
-#define CAROM_MAX_TEXTURES 14
+#define CAROM_MAX_TEXTURES 16
 
 typedef struct carom_stage_def {
 	const char *slot;

@@ -26,8 +26,10 @@ uint32_t carom_capacity(size_t items)
 
 static carom_texel_format format_of(carom_role role)
 {
-	if (role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST)
+	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED)
 		return TEXELS_LIST;
+	if (role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK)
+		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
 

@@ -46,7 +46,13 @@ static cl_device *of(const carom_device *device)
 
 static size_t texel_size(carom_texel_format format)
 {
-	return format == TEXELS_FLOAT ? 4 * sizeof(float) : 4; /* bytes, or an int */
+	return format == TEXELS_FLOAT || format == TEXELS_RECORD ? 4 * sizeof(float) : 4; /* bytes, or an int */
+}
+
+/* Is it a buffer whatever the storage, and bare to kernels? */
+static bool is_list(carom_texel_format format)
+{
+	return format == TEXELS_LIST || format == TEXELS_RECORD;
 }
 
 static carom_status device_fail(const cl_device *d, carom_error *error, cl_int code, const char *what)
@@ -85,7 +91,7 @@ static cl_int fill_texture(cl_device *d, carom_texture *t, const float fill[4])
 	}
 	if (t->is_image)
 		return d->cl.clEnqueueFillImage(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : color, origin, region, 0, NULL, NULL);
-	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : bytes, texel_size(t->format), 0,
+	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, texel_size(t->format) == sizeof(float[4]) ? (const void *)fill : bytes, texel_size(t->format), 0,
 		(size_t)t->width * t->height * texel_size(t->format), 0, NULL, NULL);
 }
 
@@ -112,7 +118,7 @@ static carom_status create_texture(carom_device *device, carom_texel_format form
 	t->width = width;
 	t->height = height;
 	t->format = format;
-	t->is_image = device->storage == CAROM_STORAGE_IMAGE && format != TEXELS_LIST;
+	t->is_image = device->storage == CAROM_STORAGE_IMAGE && !is_list(format);
 	code = t->is_image ? make_image(d, t) : make_buffer(d, t);
 	if (!code)
 		code = fill_texture(d, t, fill);
@@ -160,12 +166,12 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 		if (!same)
 			code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &textures[i]->memory);
 		++*next;
-		if (!textures[i]->is_image && textures[i]->format != TEXELS_LIST) {
+		if (!textures[i]->is_image && !is_list(textures[i]->format)) {
 			if (!same && !code)
 				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof width, &width);
 			++*next;
 		}
-		if (d->reads && textures[i]->format != TEXELS_LIST) {
+		if (d->reads && !is_list(textures[i]->format)) {
 			if (!same && !code)
 				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &d->reads);
 			++*next;

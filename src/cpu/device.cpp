@@ -63,12 +63,18 @@ static carom_status out_of_memory(carom_error *error, const char *for_what)
 
 template <typename T> static size_t scalar_size(carom_texel_format format)
 {
-	return format == TEXELS_FLOAT ? sizeof(T) : 1; /* a quarter of a texel: a list's have four bytes, too */
+	return format == TEXELS_FLOAT || format == TEXELS_RECORD ? sizeof(T) : 1; /* a quarter of a texel: a list's have four bytes, too */
 }
 
 /* Every texel the same; all the rows are if one is. */
 template <typename T> static void fill_rows(Texture &texture, const float fill[4])
 {
+	if (texture.format == TEXELS_RECORD) {
+		T *record = static_cast<T *>(texture.memory.get());
+		for (size_t left = size_t(texture.width) * texture.height; left > 0; left--, record += channel_count)
+			std::copy(fill, fill + channel_count, record);
+		return;
+	}
 	const int32_t width = static_cast<int32_t>(texture.width), height = static_cast<int32_t>(texture.height);
 	for (int32_t y = 0; y < height; y++) {
 		for (int32_t channel = 0; channel < 4; channel++) {
@@ -138,7 +144,10 @@ static carom_status upload(carom_device *, carom_texture *texture, uint32_t rows
 	Texture &to = of(texture);
 	if (carom_status status = check_rows(to, rows, error))
 		return status;
-	if (to.format != TEXELS_FLOAT) {
+	if (to.format == TEXELS_RECORD) {
+		const float *numbers = static_cast<const float *>(texels);
+		std::copy(numbers, numbers + channel_count * to.width * rows, static_cast<T *>(to.memory.get()));
+	} else if (to.format != TEXELS_FLOAT) {
 		std::memcpy(to.memory.get(), texels, channel_count * to.width * rows);
 	} else {
 		const float *numbers = static_cast<const float *>(texels);
@@ -154,7 +163,7 @@ static carom_status download(carom_device *, carom_texture *texture, uint32_t ro
 	if (carom_status status = check_rows(from, rows, error))
 		return status;
 	if (from.format != TEXELS_FLOAT) {
-		std::memcpy(texels, from.memory.get(), channel_count * from.width * rows);
+		std::memcpy(texels, from.memory.get(), channel_count * scalar_size<T>(from.format) * from.width * rows);
 	} else {
 		T *numbers = static_cast<T *>(texels);
 		copy_rows<T>(from, rows, [=](T &number, size_t index) { numbers[index] = number; });
@@ -253,7 +262,7 @@ static carom_status unknown(carom_error *error, const carom_pipeline &pipeline, 
 /* Not every alternative has them. */
 static bool is_optional(int stage)
 {
-	return stage == STAGE_TOI_NEXT || stage == STAGE_REDUCE || stage == STAGE_REDUCE_TILES;
+	return stage == STAGE_TOI_NEXT || stage == STAGE_REDUCE || stage == STAGE_REDUCE_TILES || (stage >= STAGE_LOAD && stage <= STAGE_UNLOAD);
 }
 
 template <typename T> static carom_status check(const Device<T> &device, const carom_pipeline &pipeline, carom_error *error)

@@ -41,6 +41,8 @@ template <typename T> struct Job {
 	Texels<T> texels(int index) const { return Texels<T>(*textures[index]); }
 	Bytes bytes(int index) const { return Bytes(*textures[index]); }
 	int32_t *list(int index) const { return static_cast<int32_t *>(textures[index]->memory.get()); }
+	/* Four numbers a record, side by side. */
+	T *records(int index) const { return static_cast<T *>(textures[index]->memory.get()); }
 };
 
 /* Where the textures are that most kernels begin with. */
@@ -56,7 +58,7 @@ struct Kernel {
 
 struct Stage {
 	const char *slot, *name;
-	Kernel kernels[4]; /* those without a function are none */
+	Kernel kernels[8]; /* those without a function are none */
 	InsideTest<float> inside;
 	InsideTest<double> inside_double;
 	FindTransform<float> transform = nullptr;
