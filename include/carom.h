@@ -248,6 +248,7 @@ CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index,
 typedef struct carom_report {
 	uint64_t steps;   /* steps done */
 	uint64_t hits;    /* hits resolved */
+	uint64_t held;    /* how often a body was held until the end of a step of events, since it was hit too often in it */
 	double advanced;  /* s, simulated */
 } carom_report;
 

@@ -57,7 +57,8 @@ static carom_status read_clock(carom_world *world, double start, carom_report *r
 	if (status)
 		return status;
 	report->steps = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_STEPS];
-	report->hits = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_HITS];
+	report->hits = (uint64_t)((double)texel(clock, CLOCK_COUNTS)[COUNTS_HITS] + (double)texel(clock, CLOCK_COUNTS)[COUNTS_HITS_LOW]);
+	report->held = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_HELD];
 	report->advanced = (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED] + (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED_LOW];
 	world->time = start + report->advanced;
 	world->remaining[0] = texel(clock, CLOCK_TIME)[TIME_REMAINING];
@@ -69,10 +70,14 @@ static carom_status read_clock(carom_world *world, double start, carom_report *r
 static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *error)
 {
 	carom_status status = CAROM_OK;
+	if (world->step->begin)
+		status = world->step->begin(world, error);
 	world->host_current = false;
 	for (uint64_t i = 0; !status && i < steps; i++)
 		status = world->step->run(world, error);
-	return status ? status : world->device->kind->flush(world->device, error);
+	if (!status)
+		status = world->device->kind->flush(world->device, error);
+	return status || !world->step->finish ? status : world->step->finish(world, error);
 }
 
 /* Not many more steps than the time that remains takes, by a guess from how it went so far: those after the end are
@@ -113,7 +118,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 {
 	const double start = world->time;
 	const carom_report sum = *report;
-	carom_report done = {0, 0, 0.0};
+	carom_report done = {0};
 	carom_status status = start_clock(world, error);
 	while (!status && *go_on && done.steps < steps && !is_over(world)) {
 		const double begun = seconds_now();
@@ -124,6 +129,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 		adapt_batch(world, batch, seconds_now() - begun);
 		report->steps = sum.steps + done.steps;
 		report->hits = sum.hits + done.hits;
+		report->held = sum.held + done.held;
 		report->advanced = sum.advanced + done.advanced;
 		if (!status && world->progress)
 			*go_on = world->progress(world->progress_context, report);
@@ -134,7 +140,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 static carom_status run_all(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
 	const uint64_t leg = 1u << 22;
-	carom_report done = {0, 0, 0.0};
+	carom_report done = {0};
 	bool go_on = true;
 	carom_status status = CAROM_OK;
 	if (world->body_count > 0 && steps > 0 && !is_over(world))

@@ -66,6 +66,7 @@ void carom_textures_destroy(carom_world *world)
 	}
 	world->capacity = world->vertex_capacity = 0;
 	world->bodies_current = world->device_current = world->prepared = false;
+	world->events.loaded = world->events.ahead = false;
 	world->canvas = (carom_canvas){0};
 }
 
@@ -232,10 +233,21 @@ static carom_status transfer(carom_world *world, bool down, carom_error *error)
 	return status;
 }
 
+/* The textures of the state, where the step has a newer one of its own. */
+static carom_status unload(carom_world *world, carom_error *error)
+{
+	carom_status status = world->events.ahead ? world->step->unload(world, error) : CAROM_OK;
+	if (!status)
+		world->events.ahead = false;
+	return status;
+}
+
 carom_status carom_textures_hold(carom_world *world, carom_error *error)
 {
 	uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(vertex_texels(world));
-	carom_status status = CAROM_OK;
+	carom_status status = unload(world, error);
+	if (status)
+		return status;
 	if (capacity != world->capacity || vertex_capacity != world->vertex_capacity) {
 		carom_textures_destroy(world);
 		status = create_all(world, capacity, vertex_capacity, error);
@@ -246,6 +258,8 @@ carom_status carom_textures_hold(carom_world *world, carom_error *error)
 		world->capacity = capacity;
 		world->vertex_capacity = vertex_capacity;
 	}
+	if (!world->bodies_current || !world->device_current)
+		world->events.loaded = false;
 	if (!world->bodies_current)
 		status = upload_bodies(world, error);
 	if (status)
@@ -260,7 +274,10 @@ carom_status carom_textures_hold(carom_world *world, carom_error *error)
 
 carom_status carom_textures_update(carom_world *world, carom_error *error)
 {
-	carom_status status = carom_textures_hold(world, error);
+	carom_status status;
+	if (world->prepared && world->bodies_current && world->device_current)
+		return CAROM_OK;
+	status = carom_textures_hold(world, error);
 	if (status || world->prepared)
 		return status;
 	status = world->step->prepare(world, error);
@@ -275,7 +292,9 @@ carom_status carom_textures_fetch(carom_world *world, carom_error *error)
 	carom_status status;
 	if (world->host_current)
 		return CAROM_OK;
-	status = transfer(world, true, error);
+	status = unload(world, error);
+	if (!status)
+		status = transfer(world, true, error);
 	if (!status)
 		world->host_current = true;
 	return status;

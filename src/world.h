@@ -35,6 +35,20 @@ typedef struct carom_pair {
 
 #define CAROM_MAX_LEVELS 16
 
+/* What the step events has on the device, and how it is driven: none of it changes a result. */
+typedef struct carom_events {
+	bool loaded;           /* the slots have the state, or are ahead of the textures */
+	bool ahead;            /* the textures of the state are older than the slots */
+	uint32_t room, node_room; /* ints of Neighbours, nodes of Nodes */
+	uint32_t columns, rows;   /* of cells */
+	uint32_t window;       /* 1/256 of a time step that the lists are to last */
+	uint32_t steps_a_list; /* steps handed over between two makings of the lists */
+	uint32_t rounds;       /* handed over a step */
+	uint32_t since;        /* steps handed over since the last making */
+	int32_t round;         /* its number */
+	uint32_t idle;         /* batches in a row that ended no step */
+} carom_events;
+
 /* What there is on the device for pictures; all zero while none has been drawn. */
 typedef struct carom_canvas {
 	uint32_t room[ROLE_COUNT]; /* texels or ints that a texture of rendering holds */
@@ -64,6 +78,7 @@ struct carom_world {
 	carom_pair textures[ROLE_COUNT];
 	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
 	bool prepared;             /* the step has its textures, too */
+	carom_events events;
 	carom_canvas canvas;
 	float stalled;             /* steps in a row that did not get on */
 	double time;               /* s */

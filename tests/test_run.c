@@ -233,7 +233,7 @@ static void a_stall_tells_what_was_done(void **unused)
 	{
 		carom_world_def def = carom_default_world_def();
 		const carom_body_def ball = scenery_circle(0.0f, 1.0f, 0.0f, 0.0f, 0.5f);
-		carom_report report = {0, 0, 0.0};
+		carom_report report = {0};
 		carom_body_state state;
 		carom_error error;
 		def.gravity = (carom_vec2){0.0f, -10.0f};
@@ -327,7 +327,7 @@ static void assert_too_many(carom_world *world, const carom_body_def *bodies, si
 	const double start = seconds();
 	const long before = most_memory();
 	char square[64];
-	carom_report report = {9, 9, 9.0};
+	carom_report report = {9, 9, 9, 9.0};
 	carom_body_state state;
 	carom_error error = {0};
 	scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);

@@ -157,4 +157,4 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	return CAROM_OK;
 }
 
-const carom_step carom_step_first_impact = {"first_impact", prepare, run, memory};
+const carom_step carom_step_first_impact = {"first_impact", prepare, run, NULL, NULL, NULL, memory};

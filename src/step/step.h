@@ -12,11 +12,16 @@ typedef struct carom_step {
 	carom_status (*prepare)(struct carom_world *world, carom_error *error);
 	/* Hands one step to the device, from the world's front textures to its back textures, and swaps them. Never waits. */
 	carom_status (*run)(struct carom_world *world, carom_error *error);
+	/* The next three may be NULL. Before and after a batch of runs; the device may be at work while the first is called. */
+	carom_status (*begin)(struct carom_world *world, carom_error *error);
+	carom_status (*finish)(struct carom_world *world, carom_error *error);
+	/* Brings the textures of the state up to date, of a step that keeps the state elsewhere (world->ahead). */
+	carom_status (*unload)(struct carom_world *world, carom_error *error);
 	/* Bytes of what prepare creates. */
 	uint64_t (*memory)(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count);
 } carom_step;
 
-extern const carom_step carom_step_first_impact;
+extern const carom_step carom_step_first_impact, carom_step_events;
 
 extern const carom_step *const carom_steps[];
 extern const size_t carom_step_count;

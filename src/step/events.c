@@ -1,0 +1,213 @@
+/* The step events: every hit of a time step at its exact time, in parallel, with work that grows as the number of bodies.
+ *
+ * Bodies live in slots, sorted by place, with lists of the neighbours that they could reach for a while. A step looks at
+ * the pairs of these lists for hits; bodies that hit form clusters, and each cluster is a queue of events that one
+ * work-item runs to the end of the step. Clusters that get into each other's way are united and run again, in rounds.
+ * A step that can't be done as it was handed over (lists too old or too small, more rounds needed) changes nothing, and
+ * those behind it in the batch go on with it: nobody waits. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout.h"
+#include "status.h"
+#include "step/step.h"
+#include "world.h"
+
+#define TRY(call)                      \
+	do {                               \
+		carom_status status_ = (call); \
+		if (status_)                   \
+			return status_;            \
+	} while (0)
+
+#define FIRST_WINDOW 1024 /* 1/256 of a time step */
+#define MOST_WINDOW 4096
+#define MOST_ROUNDS 64
+#define MOST_IDLE 256     /* batches that end no step: something is wrong */
+#define SHARE 16          /* slots for one work-item of those that share what is active */
+
+static int32_t share_of(int32_t count)
+{
+	return count / SHARE + 64;
+}
+
+/* New lists of neighbours. */
+static carom_status find_neighbours(carom_world *world, int32_t count, carom_error *error)
+{
+	carom_events *events = &world->events;
+	const int32_t columns = (int32_t)events->columns, rows = (int32_t)events->rows;
+	TRY(carom_run(world, STAGE_PACE, 1, 1, count, (int32_t)events->window, error));
+	TRY(carom_run(world, STAGE_REACH, count, 1, columns, rows, error));
+	TRY(carom_run(world, STAGE_CELLS, rows, 1, columns, 0, error));
+	TRY(carom_run(world, STAGE_SORT, count, 1, 0, 0, error));
+	carom_swap(world, ROLE_SLOTS);
+	carom_swap(world, ROLE_NEED);
+	TRY(carom_run(world, STAGE_NEAR, count, 1, columns, rows, error));
+	TRY(carom_run(world, STAGE_GATHER, count, 1, 0, 0, error));
+	events->since = 0;
+	return CAROM_OK;
+}
+
+/* Clusters that are in conflict after one round are done again in the next. */
+static carom_status resolve(carom_world *world, int32_t count, carom_error *error)
+{
+	const int32_t share = share_of(count);
+	TRY(carom_run(world, STAGE_SEEK, count, 1, world->events.round + 1, 0, error));
+	for (uint32_t i = 0; i < world->events.rounds; i++) {
+		const int32_t round = ++world->events.round;
+		TRY(carom_run(world, STAGE_MUSTER, share, 1, round, 0, error));
+		TRY(carom_run(world, STAGE_RESOLVE, share, 1, round, 0, error));
+		TRY(carom_run(world, STAGE_CHECK, share, 1, round, 0, error));
+	}
+	return CAROM_OK;
+}
+
+static carom_status run(carom_world *world, carom_error *error)
+{
+	const int32_t count = (int32_t)world->body_count;
+	if (world->events.since >= world->events.steps_a_list)
+		TRY(find_neighbours(world, count, error));
+	world->events.since++;
+	TRY(resolve(world, count, error));
+	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, 0, error));
+	carom_swap(world, ROLE_CLOCK);
+	return carom_run(world, STAGE_DRIFT, count, 1, 0, 0, error);
+}
+
+/* A texture of so many ints or records, folded into rows. */
+static carom_status create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error)
+{
+	static const float zero[4] = {0};
+	carom_textures_drop(world, role);
+	if (items > UINT32_MAX / 2)
+		return carom_fail(error, CAROM_LIMIT, "the step events needs a list of %llu items: more than any device has", (unsigned long long)items);
+	return carom_textures_create(world, role, pair, carom_row_width((uint32_t)items), carom_row_count((uint32_t)items), zero, error);
+}
+
+static carom_status send_status(carom_world *world, const int32_t *status, carom_error *error)
+{
+	return world->device->kind->upload(world->device, world->textures[ROLE_STATUS].front, 1, status, error);
+}
+
+static carom_status begin(carom_world *world, carom_error *error)
+{
+	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
+	if (world->events.loaded)
+		return CAROM_OK;
+	status[STATUS_ROOM] = (int32_t)world->events.room;
+	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
+	TRY(send_status(world, status, error));
+	TRY(carom_run(world, STAGE_LOAD, (int32_t)world->body_count, 1, 0, 0, error));
+	carom_swap(world, ROLE_SLOTS);
+	carom_swap(world, ROLE_NEED);
+	world->events.loaded = true;
+	world->events.ahead = true; /* not yet, but a batch follows */
+	world->events.since = UINT32_MAX / 2;
+	world->events.round = 0;
+	return CAROM_OK;
+}
+
+static carom_status unload(carom_world *world, carom_error *error)
+{
+	TRY(carom_run(world, STAGE_UNLOAD, (int32_t)world->body_count, 1, 0, 0, error));
+	carom_swap(world, ROLE_LINEAR);
+	carom_swap(world, ROLE_ROTATIONAL);
+	return CAROM_OK;
+}
+
+static uint32_t enough(int32_t wanted)
+{
+	return (uint32_t)wanted + (uint32_t)wanted / 4;
+}
+
+/* Lists that were too small grow; the work is done again. */
+static carom_status grow(carom_world *world, int32_t *status, carom_error *error)
+{
+	carom_events *events = &world->events;
+	if (status[STATUS_NEIGHBOURS] > status[STATUS_ROOM]) {
+		events->room = enough(status[STATUS_NEIGHBOURS]);
+		TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
+		status[STATUS_ROOM] = (int32_t)events->room;
+	}
+	if (status[STATUS_NODES] > status[STATUS_NODE_ROOM]) {
+		events->node_room = enough(status[STATUS_NODES]);
+		TRY(create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
+		status[STATUS_NODE_ROOM] = (int32_t)events->node_room;
+	}
+	events->since = UINT32_MAX / 2;
+	return CAROM_OK;
+}
+
+/* How many steps are handed over to one making of the lists, and with how many rounds, follows from how it went. */
+static carom_status adapt(carom_world *world, const int32_t *status, carom_error *error)
+{
+	carom_events *events = &world->events;
+	const int32_t steps = status[STATUS_STEPS], builds = status[STATUS_BUILDS];
+	events->idle = steps > 0 ? 0 : events->idle + 1;
+	if (events->idle > MOST_IDLE)
+		return carom_fail(error, CAROM_DEVICE, "'%s' ends no step of events any more", world->device->info.name);
+	if (steps == 0 && events->rounds < MOST_ROUNDS)
+		events->rounds *= 2;
+	else if (steps > 0 && events->rounds > 2)
+		events->rounds--;
+	if (builds > 0 && steps >= builds * (int32_t)events->steps_a_list && events->steps_a_list < 64)
+		events->steps_a_list++;
+	else if (builds > 0)
+		events->steps_a_list = steps / builds > 1 ? (uint32_t)(steps / builds) : 1;
+	return CAROM_OK;
+}
+
+static carom_status finish(carom_world *world, carom_error *error)
+{
+	int32_t status[STATUS_WIDTH];
+	TRY(world->device->kind->download(world->device, world->textures[ROLE_STATUS].front, 1, status, error));
+	if (status[STATUS_SMALL])
+		TRY(grow(world, status, error));
+	else
+		TRY(adapt(world, status, error));
+	if (status[STATUS_STALE])
+		world->events.since = UINT32_MAX / 2;
+	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_RETRIES] = 0;
+	return send_status(world, status, error);
+}
+
+/* Twice as many cells as bodies, in rows of a power of two. */
+static void choose_cells(carom_events *events, uint32_t capacity)
+{
+	events->rows = events->columns = 4;
+	while (events->rows * events->columns < 2 * capacity) {
+		if (events->columns <= events->rows)
+			events->columns *= 2;
+		else
+			events->rows *= 2;
+	}
+}
+
+static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count)
+{
+	const uint64_t n = carom_capacity(body_count);
+	(void)pipeline;
+	(void)def;
+	return n * (16 * (2 * SLOT_WIDTH + 1 + WORK_WIDTH) + 4 * (2 + MEMBER_WIDTH + 1 + SPAN_WIDTH + 2 * CELL_WIDTH + 16 + 1)) + 4 * STATUS_WIDTH;
+}
+
+static carom_status prepare(carom_world *world, carom_error *error)
+{
+	const uint64_t n = world->capacity;
+	carom_events *events = &world->events;
+	*events = (carom_events){.room = 16 * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = FIRST_WINDOW, .steps_a_list = 2, .rounds = 2};
+	choose_cells(slots, world->capacity);
+	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
+	TRY(create_list(world, ROLE_NEED, true, n, error));
+	TRY(create_list(world, ROLE_REACH, false, n, error));
+	TRY(create_list(world, ROLE_WORK, false, WORK_WIDTH * n, error));
+	TRY(create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * n, error));
+	TRY(create_list(world, ROLE_ACTIVE, false, n, error));
+	TRY(create_list(world, ROLE_SPANS, false, SPAN_WIDTH * n, error));
+	TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
+	TRY(create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
+	TRY(create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * events->rows, error));
+	return create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
+}
+
+const carom_step carom_step_events = {"events", prepare, run, begin, finish, unload, memory};
