@@ -19,32 +19,43 @@ float torque_of(contact c, float2 lever0, float2 lever1, float2 j)
 /* The alternative's own: impulses (j0, j1) at the contact's points that part the reference a and the incident body b. */
 float2 contact_impulses(body a, body b, contact c, float restitution, float stillness);
 
-float4 room_impulse(STATE_IN, TEX_IN(vertices), float4 hit, float length)
+/* Of body k's contact with a wall at time t of its step; *total: of the two points together. */
+float4 wall_push(TEX_IN(vertices), float4 room, body k, int wall, float t, float restitution, float length, float *total)
 {
 	float offset;
-	float4 room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
-	body k = body_load(STATE, (int)CHANNEL(hit, HIT_ROW), length), walls = k;
-	float2 n = wall_normal(room, -1 - (int)CHANNEL(hit, HIT_COLUMN), &offset);
-	contact c = wall_contact(TEX(vertices), k, n, CHANNEL(hit, HIT_TIME), wall_slop(k));
+	body walls = k;
+	float2 n = wall_normal(room, wall, &offset);
+	contact c = wall_contact(TEX(vertices), k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
-	float2 j = contact_impulses(walls, k, c, larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)), wall_stillness(k));
-	float total = j.x + j.y;
+	float2 j = contact_impulses(walls, k, c, restitution, wall_stillness(k));
+	*total = j.x + j.y;
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
-	return (float4)((total * n.x) / length, (total * n.y) / length, torque / length, 0.0f);
+	return (float4)((*total * n.x) / length, (*total * n.y) / length, torque / length, 0.0f);
 }
 
-float4 pair_impulse(STATE_IN, TEX_IN(vertices), float4 hit, float length)
+/* Of the contact of bodies a and b, the row's and the column's, at time t of their step. */
+float4 pair_push(TEX_IN(vertices), body a, body b, float t, float length, float *total)
 {
-	body a = body_load(STATE, (int)CHANNEL(hit, HIT_ROW), length), b = body_load(STATE, (int)CHANNEL(hit, HIT_COLUMN), length);
-	pose p = pose_at(a, b, CHANNEL(hit, HIT_TIME));
+	pose p = pose_at(a, b, t);
 	float slop = pair_slop(a, b), restitution = larger(a.restitution, b.restitution), stillness = pair_stillness(a, b);
 	contact c = contact_at(TEX(vertices), a, b, p, best_axis(TEX(vertices), a, b, p), slop);
 	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, stillness) : contact_impulses(a, b, c, restitution, stillness);
-	float total = j.x + j.y;
+	*total = j.x + j.y;
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;
-	float2 push = (float2)((total * c.n.x) / length, (total * c.n.y) / length);
+	float2 push = (float2)((*total * c.n.x) / length, (*total * c.n.y) / length);
 	return c.swapped ? (float4)(push.x, push.y, inc, ref) : (float4)(-push.x, -push.y, ref, inc);
+}
+
+float4 hit_push(STATE_IN, TEX_IN(vertices), float4 hit, float length)
+{
+	int column = (int)CHANNEL(hit, HIT_COLUMN);
+	float t = CHANNEL(hit, HIT_TIME), total;
+	body a = body_load(STATE, (int)CHANNEL(hit, HIT_ROW), length);
+	if (column >= 0)
+		return pair_push(TEX(vertices), a, body_load(STATE, column, length), t, length, &total);
+	return wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), a, -1 - column, t,
+		larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION)), length, &total);
 }
 
 __kernel void impulse(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(impulse), int4 domain)
@@ -56,7 +67,6 @@ __kernel void impulse(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(impulse
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	float4 result = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	if (CHANNEL(hit, HIT_TIME) <= 1.0f && CHANNEL(hit, HIT_DONE) > 0.0f)
-		result = CHANNEL(hit, HIT_COLUMN) < 0.0f ? room_impulse(STATE, TEX(vertices), hit, length)
-		                                         : pair_impulse(STATE, TEX(vertices), hit, length);
+		result = hit_push(STATE, TEX(vertices), hit, length);
 	TEX_STORE(impulse, 0, 0, result);
 }

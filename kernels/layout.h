@@ -162,8 +162,8 @@
 #define NEXT_PARTNER 3 /* its slot, or -1 - wall */
 #define WORK_BOX 3 /* record: AABB's channels, of all the way in this step */
 
-/* Members: eight ints a slot */
-#define MEMBER_WIDTH 8
+/* Members: twelve ints a slot */
+#define MEMBER_WIDTH 12
 #define MEMBER_PARENT 0 /* union-find over slots: clusters that meet are one */
 #define MEMBER_OWNER 1  /* cluster (slot of its leader) that may change the body, -1 for none */
 #define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
@@ -171,6 +171,7 @@
 #define MEMBER_EVENTS 4 /* of the body in this step */
 #define MEMBER_WEIGHT 5 /* of these against HOLD_LIMIT */
 #define MEMBER_SEEN 6   /* events of the partner when NEXT was found */
+#define MEMBER_HITS 8   /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
 
 /* Spans: four ints a slot */
@@ -185,7 +186,7 @@
 #define CELL_COUNT 0
 #define CELL_START 1
 #define CELL_END 2
-#define CELL_LEVELS 16 /* each with cells twice as large as the one before */
+#define CELL_LEVELS 24 /* each with cells twice as large as the one before */
 
 /* Nodes: two ints; small bodies found beside a large one */
 #define NODE_WIDTH 2
@@ -212,6 +213,7 @@
 #define STATUS_PLACED 15    /* slots that have got their place */
 #define STATUS_PACE 16      /* float bits, m: what the slower bodies may go before the lists are stale */
 #define STATUS_CELL 17      /* float bits, m: the side of a cell of level 0 */
+#define STATUS_WINDOW 21    /* float bits, s: how long the lists are to last */
 #define STATUS_BUILDS 18    /* how often neighbours were found, steps done, steps begun again: since the host asked */
 #define STATUS_STEPS 19
 #define STATUS_RETRIES 20

@@ -56,3 +56,7 @@ contact wall_contact(TEX_IN(vertices), body k, float2 n, float t, float slop)
 	c.rate[1] = inner(n, v) - w * cross2(n, c.inc[1]);
 	return c;
 }
+
+/* The alternative's own of slot walls: when the body hits the wall, in parts of its step; not <= 1 if it doesn't. */
+float circle_wall(body k, float2 n, float offset);
+float polygon_wall(TEX_IN(vertices), body k, float2 n, float offset, float *done);

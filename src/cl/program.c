@@ -10,8 +10,9 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][16] = {
-	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward"},
+static const char *const headers[2][20] = {
+	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots",
+	 "reach", "cluster", "answer", "queue"},
 	{"layout", "texture", "numbers", "vertices", "shapes"},
 };
 

@@ -196,7 +196,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
 	*events = (carom_events){.room = 16 * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = FIRST_WINDOW, .steps_a_list = 2, .rounds = 2};
-	choose_cells(slots, world->capacity);
+	choose_cells(events, world->capacity);
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));
 	TRY(create_list(world, ROLE_REACH, false, n, error));

@@ -1,0 +1,117 @@
+/* Events of bodies in slots, and the clusters in which they are answered: CONTRACT.md, "The step events". */
+
+#define LISTS_IN LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active)
+#define LISTS spans, neighbours, status, members, active
+
+/* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. */
+float pair_time(TEX_IN(vertices), RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length)
+{
+	float t0 = larger(k.time, o.time), rest = 1.0f - t0;
+	k = moved(slots, s, k, t0, length);
+	o = moved(slots, other, o, t0, length);
+	body a = body_of(slots, s, k, length), b = body_of(slots, other, o, length);
+	if (stay_apart(a, b, rest))
+		return NO_HIT;
+	bool in_order = slot_body(slots, s) > slot_body(slots, other);
+	float hit = CHANNEL(in_order ? pair_first(TEX(vertices), a, b, rules) : pair_first(TEX(vertices), b, a, rules), HITTIMES_HIT);
+	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;
+}
+
+/* Can the body reach the room's walls before the step ends? */
+bool near_walls(body k, float4 room)
+{
+	float pad = (((span(k.a) + k.radius) + span(k.v)) + span(k.x)) * (4.0f * SLOP) + (k.radius + span(k.a));
+	float2 end = (float2)(k.x.x + k.v.x, k.x.y + k.v.y);
+	return smaller(k.x.x, end.x) - pad < CHANNEL(room, ROOM_MIN_X) || smaller(k.x.y, end.y) - pad < CHANNEL(room, ROOM_MIN_Y)
+		|| larger(k.x.x, end.x) + pad > CHANNEL(room, ROOM_MAX_X) || larger(k.x.y, end.y) + pad > CHANNEL(room, ROOM_MAX_Y);
+}
+
+/* When the trajectory hits which wall first. */
+float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, int *which)
+{
+	float4 room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
+	float rest = 1.0f - k.time, first = NO_HIT;
+	*which = 0;
+	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f))
+		return NO_HIT;
+	body b = body_of(slots, s, k, length);
+	if (!(b.inverse_mass > 0.0f) || !near_walls(b, room))
+		return NO_HIT;
+	for (int wall = 0; wall < 4; wall++) {
+		float offset, done = 1.0f;
+		float2 n = wall_normal(room, wall, &offset);
+		float t = b.count == 1 ? circle_wall(b, n, offset) : polygon_wall(TEX(vertices), b, n, offset, &done);
+		float u = t <= rest ? smaller(k.time + t, 1.0f) : NO_HIT;
+		if (u < first || (u == first && u <= 1.0f)) { /* of equal ones the least column: the last wall */
+			first = u;
+			*which = wall;
+		}
+	}
+	return first;
+}
+
+/* Is the event (time, row, column) before the other? */
+bool event_before(float4 a, float4 b)
+{
+	if (CHANNEL(a, NEXT_TIME) != CHANNEL(b, NEXT_TIME))
+		return CHANNEL(a, NEXT_TIME) < CHANNEL(b, NEXT_TIME);
+	if (CHANNEL(a, NEXT_ROW) != CHANNEL(b, NEXT_ROW))
+		return CHANNEL(a, NEXT_ROW) < CHANNEL(b, NEXT_ROW);
+	return CHANNEL(a, NEXT_COLUMN) < CHANNEL(b, NEXT_COLUMN);
+}
+
+int int_load(LIST_OUT(list), int index)
+{
+	return atomic_or(&list[index], 0);
+}
+
+int find_root(LIST_OUT(members), int s)
+{
+	for (;;) {
+		int parent = int_load(members, MEMBER(s, MEMBER_PARENT));
+		if (parent == s)
+			return s;
+		s = parent;
+	}
+}
+
+/* The larger root hangs itself onto the less; who comes second tries again from what it finds. */
+void unite(LIST_OUT(members), int a, int b)
+{
+	for (;;) {
+		a = find_root(members, a);
+		b = find_root(members, b);
+		if (a == b)
+			return;
+		int child = a > b ? a : b, parent = a > b ? b : a;
+		if (atomic_cmpxchg(&members[MEMBER(child, MEMBER_PARENT)], child, parent) == child)
+			return;
+	}
+}
+
+/* The body is one of those that events change in this step. */
+void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), int s, int round)
+{
+	if (atomic_cmpxchg(&members[MEMBER(s, MEMBER_OWNER)], -1, s) != -1)
+		return;
+	atomic_xchg(&members[MEMBER(s, MEMBER_ROUND)], round);
+	active[atomic_inc(&status[STATUS_ACTIVE])] = s;
+	atomic_max(&status[STATUS_ROUND], round);
+}
+
+/* Two clusters get into each other's way: they are one in the next round. */
+void conflict(LIST_OUT(status), LIST_OUT(members), int a, int b, int round)
+{
+	unite(members, a, b);
+	atomic_xchg(&members[MEMBER(a, MEMBER_ROUND)], round + 1);
+	atomic_xchg(&members[MEMBER(b, MEMBER_ROUND)], round + 1);
+	atomic_xchg(&members[MEMBER(a, MEMBER_HEAD)], -1);
+	atomic_xchg(&members[MEMBER(b, MEMBER_HEAD)], -1);
+	atomic_max(&status[STATUS_ROUND], round + 1);
+}
+
+/* Is a step to be done, with lists that are good? */
+bool lists_are_good(LIST_OUT(status))
+{
+	return !int_load(status, STATUS_STALE) && !int_load(status, STATUS_SMALL);
+}

@@ -1,0 +1,119 @@
+/* All the hits of a step: bodies that hit form clusters, and each cluster is a queue of events that one work-item runs. */
+
+__kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, int4 domain)
+{
+	int s = get_global_id(0), wall;
+	float length = step_length(TEX(uniforms), TEX(clock));
+	if (s >= domain.x || !(length > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
+		return;
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
+	trajectory k = trajectory_start(slots, s);
+	if (wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall) <= 1.0f)
+		activate(status, members, active, s, domain.z);
+	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
+		int other = neighbours[i];
+		if (!(pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length) <= 1.0f))
+			continue;
+		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
+		if (changes)
+			activate(status, members, active, s, domain.z);
+		if (other_changes)
+			activate(status, members, active, other, domain.z);
+		if (changes && other_changes)
+			unite(members, s, other);
+	}
+}
+
+__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), int4 domain)
+{
+	if (status[STATUS_ROUND] != domain.z)
+		return;
+	int count = status[STATUS_ACTIVE];
+	if (get_global_id(0) == 0)
+		status[STATUS_SEEDS] = count;
+	for (int i = get_global_id(0); i < count; i += domain.x) {
+		int s = active[i], owner = members[MEMBER(s, MEMBER_OWNER)];
+		if (int_load(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
+			continue;
+		int root = find_root(members, s);
+		if (members[MEMBER(s, MEMBER_HITS)] > 0)
+			atomic_sub(&status[STATUS_HITS], members[MEMBER(s, MEMBER_HITS)]);
+		if (members[MEMBER(s, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * s + WORK_TURN], WORK_HELD) > 0.0f)
+			atomic_dec(&status[STATUS_HELD]);
+		work_begin(slots, members, work, s);
+		members[MEMBER(s, MEMBER_OWNER)] = root;
+		members[MEMBER(s, MEMBER_LINK)] = atomic_xchg(&members[MEMBER(root, MEMBER_HEAD)], s);
+	}
+}
+
+__kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
+	LIST_OUT(need), int4 domain)
+{
+	if (int_load(status, STATUS_ROUND) < domain.z)
+		return;
+	int seeds = status[STATUS_SEEDS];
+	float length = step_length(TEX(uniforms), TEX(clock));
+	for (int i = get_global_id(0); i < seeds; i += domain.x) {
+		int s = active[i];
+		if (int_load(members, MEMBER(s, MEMBER_HEAD)) < 0 || int_load(members, MEMBER(s, MEMBER_ROUND)) != domain.z)
+			continue;
+		cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, s, domain.z, length);
+	}
+}
+
+/* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
+__kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work), int4 domain)
+{
+	if (int_load(status, STATUS_ROUND) < domain.z)
+		return;
+	int count = status[STATUS_ACTIVE];
+	float length = step_length(TEX(uniforms), TEX(clock));
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
+	for (int i = get_global_id(0); i < count; i += domain.x) {
+		int s = active[i], owner = members[MEMBER(s, MEMBER_OWNER)];
+		if (members[MEMBER(s, MEMBER_EVENTS)] == 0 || int_load(members, MEMBER(owner, MEMBER_ROUND)) > domain.z)
+			continue;
+		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
+			int other = neighbours[k], theirs = members[MEMBER(other, MEMBER_OWNER)];
+			if (theirs < 0 || theirs == owner || members[MEMBER(other, MEMBER_EVENTS)] == 0
+				|| int_load(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
+				continue;
+			if (ways_meet(TEX(vertices), slots, members, work, rules, s, other, length))
+				conflict(status, members, owner, theirs, domain.z);
+		}
+	}
+}
+
+__kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), TEX_OUT(now), int4 domain)
+{
+	if (get_global_id(0) > 0)
+		return;
+	float4 hit = TEX_LOAD(clock, CLOCK_HIT, 0), step = TEX_LOAD(clock, CLOCK_STEP, 0), time = TEX_LOAD(clock, CLOCK_TIME, 0);
+	float4 counts = TEX_LOAD(clock, CLOCK_COUNTS, 0);
+	float length = step_length(TEX(uniforms), TEX(clock));
+	bool good = lists_are_good(status) && length > 0.0f, left = good && status[STATUS_LEFT], again = status[STATUS_ROUND] > domain.z;
+	bool done = good && !left && !again;
+	status[STATUS_COMMIT] = done;
+	status[STATUS_UNDER_WAY] = good && !left && again;
+	step = (float4)(0.0f, 0.0f, CHANNEL(step, STEP_STALLED), CHANNEL(step, STEP_ENDED));
+	if (done) {
+		float2 elapsed = add_exactly((float2)(CHANNEL(time, TIME_ELAPSED), CHANNEL(time, TIME_ELAPSED_LOW)), length);
+		float2 remaining = add_exactly((float2)(CHANNEL(time, TIME_REMAINING), CHANNEL(time, TIME_REMAINING_LOW)), -length);
+		float2 hits = add_exactly((float2)(CHANNEL(counts, COUNTS_HITS), CHANNEL(counts, COUNTS_HITS_LOW)), (float)status[STATUS_HITS]);
+		hit = (float4)(NO_HIT, 0.0f, 0.0f, 1.0f);
+		step = (float4)(length, length, 0.0f, 0.0f);
+		time = (float4)(elapsed.x, elapsed.y, remaining.x, remaining.y);
+		counts = (float4)(CHANNEL(counts, COUNTS_STEPS) + 1.0f, hits.x, CHANNEL(counts, COUNTS_HELD) + (float)status[STATUS_HELD], hits.y);
+		status[STATUS_STEPS]++;
+	}
+	if (done || left)
+		status[STATUS_ACTIVE] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
+	if (left) {
+		status[STATUS_STALE] = 1;
+		status[STATUS_RETRIES]++;
+	}
+	TEX_STORE(now, CLOCK_HIT, 0, hit);
+	TEX_STORE(now, CLOCK_STEP, 0, step);
+	TEX_STORE(now, CLOCK_TIME, 0, time);
+	TEX_STORE(now, CLOCK_COUNTS, 0, counts);
+}

@@ -1,0 +1,139 @@
+/* Lists of the neighbours that a body could reach for a while, by a grid of cells that has a level for every size. */
+
+__kernel void slots_load(STATE_IN, RECORD_OUT(slots), LIST_OUT(need), int4 domain)
+{
+	int i = get_global_id(0);
+	if (i >= domain.x)
+		return;
+	float4 r = ROW_LOAD(rotational, i), g = ROW_LOAD(geometry, i), f = ROW_LOAD(forces, i), world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
+	float inverse_mass = 1.0f / CHANNEL(g, GEOMETRY_MASS), inverse_inertia = 1.0f / CHANNEL(g, GEOMETRY_INERTIA);
+	float4 push = (float4)(0.0f, 0.0f, 0.0f, (float)i);
+	if (inverse_mass > 0.0f)
+		push = (float4)(CHANNEL(world, WORLD_GRAVITY_X) + CHANNEL(f, FORCES_X) * inverse_mass,
+			CHANNEL(world, WORLD_GRAVITY_Y) + CHANNEL(f, FORCES_Y) * inverse_mass, CHANNEL(f, FORCES_TORQUE) * inverse_inertia, (float)i);
+	slots[SLOT_WIDTH * i + SLOT_PLACE] = ROW_LOAD(linear, i);
+	slots[SLOT_WIDTH * i + SLOT_TURN] = (float4)(CHANNEL(r, ROTATIONAL_ANGLE), CHANNEL(r, ROTATIONAL_VELOCITY), CHANNEL(r, ROTATIONAL_RADIUS),
+		CHANNEL(f, FORCES_RESTITUTION));
+	slots[SLOT_WIDTH * i + SLOT_MASS] = (float4)(inverse_mass, inverse_inertia, CHANNEL(g, GEOMETRY_FIRST), CHANNEL(g, GEOMETRY_COUNT));
+	slots[SLOT_WIDTH * i + SLOT_PUSH] = push;
+	need[i] = 0;
+}
+
+__kernel void slots_unload(RECORD_IN(slots), TEX_OUT(linear), TEX_OUT(rotational), int4 domain)
+{
+	int s = get_global_id(0);
+	if (s >= domain.x)
+		return;
+	int i = slot_body(slots, s);
+	float4 r = SLOT_LOAD(slots, s, SLOT_TURN);
+	ROW_STORE(linear, i, SLOT_LOAD(slots, s, SLOT_PLACE));
+	ROW_STORE(rotational, i, (float4)(CHANNEL(r, TURN_ANGLE), CHANNEL(r, TURN_VELOCITY), CHANNEL(r, TURN_RADIUS), 0.0f));
+}
+
+__kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(status), int4 domain)
+{
+	if (get_global_id(0) > 0)
+		return;
+	float window = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP) * ((float)domain.w / 256.0f);
+	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = 0;
+	status[STATUS_ACTIVE] = status[STATUS_NEIGHBOURS] = status[STATUS_NODES] = status[STATUS_LEVELS] = status[STATUS_PLACED] = 0;
+	status[STATUS_HITS] = status[STATUS_HELD] = 0;
+	status[STATUS_BUILDS]++;
+	pace_choose(slots, domain.z, window, status);
+}
+
+__kernel void neighbours_reach(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need), LIST_OUT(status), LIST_OUT(spans), LIST_OUT(cells), int4 domain)
+{
+	int s = get_global_id(0);
+	if (s >= domain.x)
+		return;
+	float4 box = reach_box(TEX(vertices), slots, s, as_float(need[s]), status), at = SLOT_LOAD(slots, s, SLOT_PLACE);
+	int level = reach_level(box, at, as_float(status[STATUS_CELL]));
+	int cell = cell_index(cell_of((float2)(at.x, at.y), level_side(status, level)), level, domain.z, domain.w);
+	spans[SPAN(s, SPAN_CELL)] = cell;
+	atomic_inc(&cells[CELL_WIDTH * cell + CELL_COUNT]);
+	if (!(status[STATUS_LEVELS] & (1 << level)))
+		atomic_or(&status[STATUS_LEVELS], 1 << level);
+}
+
+/* A row of cells gets its places together, so that cells beside each other are so in memory. */
+__kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
+{
+	int row = get_global_id(0), sum = 0;
+	if (row >= domain.x)
+		return;
+	__global int *first = cells + (size_t)CELL_WIDTH * (size_t)(row * domain.z);
+	for (int i = 0; i < domain.z; i++)
+		sum += first[CELL_WIDTH * i + CELL_COUNT];
+	int next = atomic_add(&status[STATUS_PLACED], sum);
+	for (int i = 0; i < domain.z; i++) {
+		first[CELL_WIDTH * i + CELL_START] = first[CELL_WIDTH * i + CELL_END] = next;
+		next += first[CELL_WIDTH * i + CELL_COUNT];
+		first[CELL_WIDTH * i + CELL_COUNT] = 0;
+	}
+}
+
+__kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells),
+	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), int4 domain)
+{
+	int s = get_global_id(0);
+	if (s >= domain.x)
+		return;
+	int to = atomic_inc(&cells[CELL_WIDTH * spans[SPAN(s, SPAN_CELL)] + CELL_END]);
+	for (int k = 0; k < SLOT_WIDTH; k++)
+		new_slots[SLOT_WIDTH * to + k] = SLOT_LOAD(slots, s, k);
+	reach[to] = reach_box(TEX(vertices), slots, s, as_float(need[s]), status);
+	new_need[to] = status[STATUS_COMMIT] ? 0 : need[s];
+	member_reset(members, to);
+}
+
+__kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans), LIST_OUT(neighbours),
+	LIST_OUT(nodes), LIST_OUT(members), int4 domain)
+{
+	int s = get_global_id(0);
+	if (s >= domain.x)
+		return;
+	near_list list;
+	list.ahead = list.behind = 0;
+	near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &list, neighbours, -1);
+	int all = list.ahead + list.behind, start = all > 0 ? neighbours_take(status, all) : 0;
+	if (start < 0)
+		all = start = list.ahead = list.behind = 0;
+	spans[SPAN(s, SPAN_START)] = start;
+	spans[SPAN(s, SPAN_HALF)] = start + list.ahead;
+	spans[SPAN(s, SPAN_END)] = start + all;
+	if (all > NEAR_MOST) {
+		near_list again;
+		again.ahead = 0;
+		again.behind = 0;
+		near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &again, neighbours + start, list.ahead);
+		return;
+	}
+	for (int k = 0; k < list.ahead; k++)
+		neighbours[start + k] = list.found[k];
+	for (int k = 0; k < list.behind; k++)
+		neighbours[start + list.ahead + k] = list.found[NEAR_MOST - 1 - k];
+}
+
+/* What smaller bodies found beside this one joins its span. */
+__kernel void neighbours_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neighbours), LIST_IN(nodes), LIST_OUT(members), int4 domain)
+{
+	int s = get_global_id(0), extra = 0;
+	if (s >= domain.x || members[MEMBER(s, MEMBER_HEAD)] < 0)
+		return;
+	int start = spans[SPAN(s, SPAN_START)], middle = spans[SPAN(s, SPAN_HALF)], end = spans[SPAN(s, SPAN_END)];
+	for (int k = members[MEMBER(s, MEMBER_HEAD)]; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
+		extra++;
+	int to = neighbours_take(status, (end - start) + extra);
+	if (to >= 0) {
+		for (int k = start; k < end; k++)
+			neighbours[to + (k - start)] = neighbours[k];
+		spans[SPAN(s, SPAN_START)] = to;
+		spans[SPAN(s, SPAN_HALF)] = to + (middle - start);
+		to += end - start;
+		for (int k = members[MEMBER(s, MEMBER_HEAD)]; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
+			neighbours[to++] = nodes[NODE_WIDTH * k + NODE_SLOT];
+		spans[SPAN(s, SPAN_END)] = to;
+	}
+	members[MEMBER(s, MEMBER_HEAD)] = -1;
+}

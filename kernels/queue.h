@@ -1,0 +1,124 @@
+/* The queue of events of one cluster, run by one work-item. */
+
+/* The trajectory of a neighbour, as a cluster sees it: of its own members as it is now, of all others as the step began. */
+trajectory trajectory_seen(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int other, int leader)
+{
+	if (int_load(members, MEMBER(other, MEMBER_OWNER)) == leader)
+		return work_load(work, other);
+	return trajectory_start(slots, other);
+}
+
+/* The first event of member s, by what is known now. */
+void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), float4 rules, int s, int leader, float length)
+{
+	trajectory k = work_load(work, s);
+	int wall, body_index = slot_body(slots, s);
+	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
+	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall);
+	if (t <= 1.0f)
+		first = (float4)(t, (float)body_index, -1.0f - (float)wall, -1.0f - (float)wall);
+	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_END)]; i++) {
+		int other = neighbours[i];
+		t = pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_seen(slots, members, work, other, leader), length);
+		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
+			continue;
+		int partner = slot_body(slots, other);
+		float4 next = (float4)(t, (float)max(body_index, partner), (float)min(body_index, partner), (float)other);
+		if (event_before(next, first))
+			first = next;
+	}
+	work[WORK_WIDTH * s + WORK_NEXT] = first;
+	int other = (int)CHANNEL(first, NEXT_PARTNER);
+	members[MEMBER(s, MEMBER_SEEN)] = CHANNEL(first, NEXT_TIME) <= 1.0f && other >= 0 && int_load(members, MEMBER(other, MEMBER_OWNER)) == leader
+		? members[MEMBER(other, MEMBER_EVENTS)] : 0;
+}
+
+/* The member whose event is first. */
+int first_member(LIST_OUT(members), RECORD_OUT(work), int head)
+{
+	int who = head;
+	for (int m = members[MEMBER(head, MEMBER_LINK)]; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
+		if (event_before(work[WORK_WIDTH * m + WORK_NEXT], work[WORK_WIDTH * who + WORK_NEXT]))
+			who = m;
+	return who;
+}
+
+/* The cluster owns the body from now on, if nobody else does. It comes second in the list, so that the head stays. */
+bool claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), int s, int leader, int head)
+{
+	if (atomic_cmpxchg(&members[MEMBER(s, MEMBER_OWNER)], -1, leader) != -1)
+		return false;
+	atomic_xchg(&members[MEMBER(s, MEMBER_PARENT)], leader);
+	work_begin(slots, members, work, s);
+	members[MEMBER(s, MEMBER_LINK)] = members[MEMBER(head, MEMBER_LINK)];
+	members[MEMBER(head, MEMBER_LINK)] = s;
+	active[atomic_inc(&status[STATUS_ACTIVE])] = s;
+	return true;
+}
+
+/* Adds up what a finished cluster did; of one that is given up nothing counts. */
+void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int head, bool finished)
+{
+	int hits = 0, held = 0;
+	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
+		hits += members[MEMBER(m, MEMBER_HITS)];
+		held += CHANNEL(work[WORK_WIDTH * m + WORK_TURN], WORK_HELD) > 0.0f ? 1 : 0;
+		if (!finished)
+			members[MEMBER(m, MEMBER_HITS)] = members[MEMBER(m, MEMBER_EVENTS)] = 0;
+	}
+	if (finished && hits > 0)
+		atomic_add(&status[STATUS_HITS], hits);
+	if (finished && held > 0)
+		atomic_add(&status[STATUS_HELD], held);
+}
+
+void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), int leader, int round,
+	float length)
+{
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
+	int head = int_load(members, MEMBER(leader, MEMBER_HEAD));
+	bool finished = false;
+	if (head < 0)
+		return; /* another cluster got into the way just now */
+	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
+		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, m, leader, length);
+	for (;;) {
+		int s = first_member(members, work, head);
+		float4 next = work[WORK_WIDTH * s + WORK_NEXT];
+		int other = (int)CHANNEL(next, NEXT_PARTNER);
+		finished = !(CHANNEL(next, NEXT_TIME) <= 1.0f);
+		if (finished)
+			break;
+		if (other >= 0 && !slot_is_static(slots, other)) {
+			int owner = int_load(members, MEMBER(other, MEMBER_OWNER));
+			if (owner == leader && members[MEMBER(other, MEMBER_EVENTS)] != members[MEMBER(s, MEMBER_SEEN)]) {
+				look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, s, leader, length);
+				continue;
+			}
+			if (owner != leader && !claim(slots, status, members, active, work, other, leader, head)) {
+				conflict(status, members, leader, int_load(members, MEMBER(other, MEMBER_OWNER)), round);
+				break;
+			}
+		}
+		if (!answer(TEX(vertices), TEX(uniforms), slots, reach, members, work, need, rules, s, next, length)) {
+			atomic_or(&status[STATUS_LEFT], 1);
+			break;
+		}
+		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, s, leader, length);
+		if (other >= 0 && !slot_is_static(slots, other))
+			look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, other, leader, length);
+	}
+	cluster_count(status, members, work, head, finished);
+}
+
+/* Do two changed bodies of different clusters get in each other's way? */
+bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int other, float length)
+{
+	trajectory k = work_load(work, s), o = work_load(work, other);
+	if (members[MEMBER(s, MEMBER_EVENTS)] > 1 || members[MEMBER(other, MEMBER_EVENTS)] > 1) {
+		float4 a = work[WORK_WIDTH * s + WORK_BOX], b = work[WORK_WIDTH * other + WORK_BOX];
+		float reach = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
+		return !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y);
+	}
+	return pair_time(TEX(vertices), slots, rules, s, k, other, o, length) <= 1.0f;
+}

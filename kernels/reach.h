@@ -1,0 +1,182 @@
+/* Where a body may get while the lists of neighbours are good, and the cells in which it is looked for. */
+
+#define PACE_FACTOR 1.5f  /* of the mean speed: bodies that are slower may get that fast by a hit */
+#define REACH_FACTOR 1.25f /* of the own speed */
+#define DRIFT_FACTOR 1.34f /* of the pace, a part of it that bodies can go in a step by a hit */
+
+/* How far bodies go, from a sample of them. None of this changes a result: it only decides how long lists last. */
+void pace_choose(RECORD_IN(slots), int count, float window, LIST_OUT(status))
+{
+	int step = count / 256 + 1, n = 0;
+	float square = 0.0f, push = 0.0f, radius = 0.0f;
+	for (int s = 0; s < count; s += step) {
+		float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), acceleration = SLOT_LOAD(slots, s, SLOT_PUSH);
+		if (slot_is_static(slots, s))
+			continue;
+		square += at.z * at.z + at.w * at.w;
+		push += norm((float2)(acceleration.x, acceleration.y));
+		radius += CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
+		n++;
+	}
+	float many = n > 0 ? (float)n : 1.0f, speed = sqrt(square / many) + (push / many) * window;
+	float pace = larger(PACE_FACTOR * speed * window, 0.1f * (radius / many));
+	float side = 2.02f * ((radius / many) + larger(pace, REACH_FACTOR * speed * window));
+	status[STATUS_PACE] = as_int(pace);
+	status[STATUS_CELL] = as_int(side > 0.0f && side < 1e30f ? side : 1.0f);
+	status[STATUS_WINDOW] = as_int(window);
+}
+
+/* A static body's box is tight. */
+float4 static_box(TEX_IN(vertices), RECORD_IN(slots), int s)
+{
+	body k = body_of(slots, s, trajectory_start(slots, s), 1.0f);
+	float2 rotation = rotation_of(k.r), low = k.x, high = k.x;
+	float pad = ((magnitude(k.x.x) + magnitude(k.x.y)) + k.radius) * (4.0f * SLOP);
+	for (int j = 0; j < k.count && k.count > 1; j++) {
+		float2 v = turn(rotation, vertex_load(TEX(vertices), k.first, j));
+		low = (float2)(smaller(low.x, k.x.x + v.x), smaller(low.y, k.x.y + v.y));
+		high = (float2)(larger(high.x, k.x.x + v.x), larger(high.y, k.x.y + v.y));
+	}
+	float grow = k.count > 1 ? pad : pad + k.radius;
+	return (float4)(low.x - grow, low.y - grow, high.x + grow, high.y + grow);
+}
+
+float4 reach_box(TEX_IN(vertices), RECORD_IN(slots), int s, float need, LIST_IN(status))
+{
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	float window = as_float(status[STATUS_WINDOW]), radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
+	if (slot_is_static(slots, s))
+		return static_box(TEX(vertices), slots, s);
+	float speed = norm((float2)(at.z, at.w)) + norm((float2)(push.x, push.y)) * window;
+	float way = larger(larger(as_float(status[STATUS_PACE]), REACH_FACTOR * speed * window), REACH_FACTOR * need);
+	way += radius + ((magnitude(at.x) + magnitude(at.y)) + radius) * (8.0f * SLOP);
+	return (float4)(at.x - way, at.y - way, at.x + way, at.y + way);
+}
+
+float level_side(LIST_IN(status), int level)
+{
+	return as_float(status[STATUS_CELL]) * (float)(1 << level);
+}
+
+/* The level whose cells are at least as large as twice what the box extends from its place. */
+int reach_level(float4 box, float4 at, float side)
+{
+	float half_size = larger(larger(at.x - box.x, box.z - at.x), larger(at.y - box.y, box.w - at.y));
+	int level = 0;
+	while (level < CELL_LEVELS - 1 && side < 2.0f * half_size) {
+		side *= 2.0f;
+		level++;
+	}
+	return level;
+}
+
+int cell_floor(float x)
+{
+	return (int)floor(x < -1e9f ? -1e9f : x > 1e9f ? 1e9f : x);
+}
+
+int2 cell_of(float2 x, float side)
+{
+	return (int2)(cell_floor(x.x / side), cell_floor(x.y / side));
+}
+
+/* The grid is a torus, and its levels lie upon one another, shifted. */
+int cell_index(int2 cell, int level, int columns, int rows)
+{
+	return ((cell.y + 7 * level) & (rows - 1)) * columns + ((cell.x + 11 * level) & (columns - 1));
+}
+
+void member_reset(LIST_OUT(members), int s)
+{
+	__global int *m = members + MEMBER(s, 0);
+	m[MEMBER_PARENT] = s;
+	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
+	m[MEMBER_EVENTS] = m[MEMBER_WEIGHT] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
+}
+
+/* Room for `count` ints in Neighbours; -1 if there is not enough. */
+int neighbours_take(LIST_OUT(status), int count)
+{
+	int start = atomic_add(&status[STATUS_NEIGHBOURS], count);
+	if (start + count <= status[STATUS_ROOM])
+		return start;
+	atomic_or(&status[STATUS_SMALL], 1);
+	return -1;
+}
+
+#define NEAR_MOST 48 /* more neighbours are searched twice */
+
+typedef struct near_list {
+	int ahead, behind; /* pairs that this slot tests, and those that the other does */
+	int found[NEAR_MOST];
+} near_list;
+
+/* A small body tells a larger one that it is near. */
+void node_push(LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int large, int small)
+{
+	int node = atomic_inc(&status[STATUS_NODES]);
+	if (node >= status[STATUS_NODE_ROOM]) {
+		atomic_or(&status[STATUS_SMALL], 1);
+		return;
+	}
+	nodes[NODE_WIDTH * node + NODE_SLOT] = small;
+	nodes[NODE_WIDTH * node + NODE_LINK] = atomic_xchg(&members[MEMBER(large, MEMBER_HEAD)], node);
+}
+
+/* With half < 0 the slots are counted, and kept while there is room in the list; else they are written to Neighbours, those
+ * behind from `half` on. */
+void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slot, bool ahead)
+{
+	if (half_at >= 0)
+		neighbours[ahead ? list->ahead : half_at + list->behind] = slot;
+	else if (list->ahead + list->behind < NEAR_MOST)
+		list->found[ahead ? list->ahead : NEAR_MOST - 1 - list->behind] = slot;
+	if (ahead)
+		list->ahead++;
+	else
+		list->behind++;
+}
+
+/* The slots of one level in places [from, to) whose reach touches this one's. */
+void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, int level,
+	bool same_level, bool one_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
+{
+	float side = as_float(status[STATUS_CELL]);
+	for (int other = from; other < to; other++) {
+		float4 b = reach[other];
+		if (other == s || b.x > box.z || b.z < box.x || b.y > box.w || b.w < box.y)
+			continue;
+		if (!one_level && reach_level(b, SLOT_LOAD(slots, other, SLOT_PLACE), side) != level)
+			continue;
+		if (slot_is_static(slots, other) && slot_is_static(slots, s))
+			continue;
+		near_add(list, neighbours, half_at, other, !same_level || other > s);
+		if (!same_level && half_at < 0)
+			node_push(status, nodes, members, other, s);
+	}
+}
+
+void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s, int columns,
+	int rows, near_list *list, LIST_OUT(neighbours), int half_at)
+{
+	float4 box = reach[s];
+	int own = reach_level(box, SLOT_LOAD(slots, s, SLOT_PLACE), as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
+	for (int level = own; level < CELL_LEVELS; level++) {
+		if (!(levels & (1 << level)))
+			continue;
+		float side = level_side(status, level);
+		int2 low = cell_of((float2)(box.x - 0.5f * side, box.y - 0.5f * side), side);
+		int2 high = cell_of((float2)(box.z + 0.5f * side, box.w + 0.5f * side), side);
+		for (int y = low.y; y <= high.y; y++) {
+			int first = cell_index((int2)(low.x, y), level, columns, rows), last = cell_index((int2)(high.x, y), level, columns, rows);
+			int row = first - (first & (columns - 1));
+			int from = cells[CELL_WIDTH * first + CELL_START], to = cells[CELL_WIDTH * last + CELL_END];
+			if (last < first) {
+				near_range(slots, reach, status, nodes, members, s, box, level, level == own, levels == (1 << level), cells[CELL_WIDTH * row + CELL_START], to,
+					list, neighbours, half_at);
+				to = cells[CELL_WIDTH * (row + columns - 1) + CELL_END];
+			}
+			near_range(slots, reach, status, nodes, members, s, box, level, level == own, levels == (1 << level), from, to, list, neighbours, half_at);
+		}
+	}
+}

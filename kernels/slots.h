@@ -1,0 +1,114 @@
+/* Bodies in slots, and their trajectories: CONTRACT.md, "The step events". */
+
+#define SLOT_LOAD(slots, s, record) ((slots)[SLOT_WIDTH * (s) + (record)])
+#define MEMBER(s, field) (MEMBER_WIDTH * (s) + (field))
+#define SPAN(s, field) (SPAN_WIDTH * (s) + (field))
+
+/* How a body moves from `time` on. */
+typedef struct trajectory {
+	float4 place; /* as in Linear */
+	float angle, velocity;
+	float time;   /* part of the step */
+	float held;   /* 1: it does not move until the step ends */
+} trajectory;
+
+trajectory trajectory_start(RECORD_IN(slots), int s)
+{
+	float4 turn_record = SLOT_LOAD(slots, s, SLOT_TURN);
+	trajectory k;
+	k.place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	k.angle = CHANNEL(turn_record, TURN_ANGLE);
+	k.velocity = CHANNEL(turn_record, TURN_VELOCITY);
+	k.time = k.held = 0.0f;
+	return k;
+}
+
+trajectory work_load(__global const float4 *work, int s)
+{
+	float4 turn_record = work[WORK_WIDTH * s + WORK_TURN];
+	trajectory k;
+	k.place = work[WORK_WIDTH * s + WORK_PLACE];
+	k.angle = CHANNEL(turn_record, WORK_ANGLE);
+	k.velocity = CHANNEL(turn_record, WORK_VELOCITY);
+	k.time = CHANNEL(turn_record, WORK_TIME);
+	k.held = CHANNEL(turn_record, WORK_HELD);
+	return k;
+}
+
+void work_store(__global float4 *work, int s, trajectory k)
+{
+	work[WORK_WIDTH * s + WORK_PLACE] = k.place;
+	work[WORK_WIDTH * s + WORK_TURN] = (float4)(k.angle, k.velocity, k.time, k.held);
+}
+
+bool slot_is_static(RECORD_IN(slots), int s)
+{
+	return !(CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE) > 0.0f);
+}
+
+int slot_body(RECORD_IN(slots), int s)
+{
+	return (int)CHANNEL(SLOT_LOAD(slots, s, SLOT_PUSH), PUSH_BODY);
+}
+
+/* The body in step units, as if the step began at the trajectory's time. */
+body body_of(RECORD_IN(slots), int s, trajectory k, float length)
+{
+	float4 constants = SLOT_LOAD(slots, s, SLOT_TURN), mass = SLOT_LOAD(slots, s, SLOT_MASS), push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	body b;
+	b.index = s;
+	b.first = (int)CHANNEL(mass, MASS_FIRST);
+	b.count = (int)CHANNEL(mass, MASS_COUNT);
+	b.radius = CHANNEL(constants, TURN_RADIUS);
+	b.restitution = CHANNEL(constants, TURN_RESTITUTION);
+	b.inverse_mass = CHANNEL(mass, MASS_INVERSE);
+	b.inverse_inertia = CHANNEL(mass, MASS_INVERSE_INERTIA);
+	b.x = (float2)(CHANNEL(k.place, LINEAR_X), CHANNEL(k.place, LINEAR_Y));
+	b.r = k.angle;
+	b.v = b.a = (float2)(0.0f, 0.0f);
+	b.w = b.b = 0.0f;
+	if (k.held > 0.0f) {
+		b.inverse_mass = b.inverse_inertia = 0.0f;
+		return b;
+	}
+	b.v = (float2)(CHANNEL(k.place, LINEAR_VX) * length, CHANNEL(k.place, LINEAR_VY) * length);
+	b.w = k.velocity * length;
+	if (b.inverse_mass > 0.0f) {
+		b.a = (float2)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length);
+		b.b = (CHANNEL(push, PUSH_TORQUE) * length) * length;
+	}
+	return b;
+}
+
+/* The trajectory, told from time u on. */
+trajectory moved(RECORD_IN(slots), int s, trajectory k, float u, float length)
+{
+	if (u == k.time || k.held > 0.0f || slot_is_static(slots, s))
+		return k;
+	body b = body_of(slots, s, k, length);
+	float dt = u - k.time, scale = dt / length;
+	float2 x = place(b.x, b.v, b.a, dt);
+	k.place = (float4)(x.x, x.y, CHANNEL(k.place, LINEAR_VX) + scale * b.a.x, CHANNEL(k.place, LINEAR_VY) + scale * b.a.y);
+	k.angle = wrapped(place1(b.r, b.w, b.b, dt));
+	k.velocity = k.velocity + scale * b.b;
+	k.time = u;
+	return k;
+}
+
+/* Do two circles that hold the bodies surely stay apart until the step ends? The way of one seen from the other is a line
+ * but for what their pushes differ, which the distance allows for. */
+bool stay_apart(body a, body b, float rest)
+{
+	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
+	float differ = span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), reach = a.radius + b.radius;
+	float size = (span(a.x) + span(b.x)) + (reach + span(v));
+	float most = (reach + differ) + size * (4.0f * SLOP), distance = inner(d, d), approach = inner(d, v);
+	if (approach < 0.0f) {
+		float2 last = (float2)(d.x + rest * v.x, d.y + rest * v.y);
+		float x = cross2(d, v);
+		if (inner(last, v) > 0.0f)
+			return x * x > (most * most) * inner(v, v) * 1.00001f;
+		distance = inner(last, last);
+	}
+	return distance > (most * most) * 1.00001f;
+}
