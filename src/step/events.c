@@ -92,6 +92,7 @@ static carom_status send_status(carom_world *world, const int32_t *status, carom
 static carom_status begin(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
+	world->events.ahead = world->events.loaded; /* not yet, but a batch follows */
 	if (world->events.loaded)
 		return CAROM_OK;
 	status[STATUS_ROOM] = (int32_t)world->events.room;
@@ -101,7 +102,7 @@ static carom_status begin(carom_world *world, carom_error *error)
 	carom_swap(world, ROLE_SLOTS);
 	carom_swap(world, ROLE_NEED);
 	world->events.loaded = true;
-	world->events.ahead = true; /* not yet, but a batch follows */
+	world->events.ahead = true;
 	world->events.since = UINT32_MAX / 2;
 	world->events.round = 0;
 	return CAROM_OK;
