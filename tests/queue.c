@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: MIT */
+#include "queue.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout.h"
+
+enum { WALLS = 4 };
+
+/* ---- Bodies */
+
+static void take_place(queue_body *k, const carom_body_state *s)
+{
+	k->at.x = (double)s->position.x;
+	k->at.y = (double)s->position.y;
+	k->at.angle = (double)s->angle;
+	k->at.vx = (double)s->velocity.x;
+	k->at.vy = (double)s->velocity.y;
+	k->at.w = (double)s->angular_velocity;
+}
+
+void queue_follow(queue *q, carom_world *world)
+{
+	carom_error error;
+	for (uint32_t i = 0; i < q->count; i++) {
+		carom_body_state s;
+		scenery_check(carom_world_get_states(world, i, 1, &s, &error), &error);
+		take_place(&q->bodies[i], &s);
+	}
+}
+
+static void take_body(queue_body *k, carom_world *world, uint32_t index)
+{
+	const carom_world_def *def = carom_world_get_def(world);
+	carom_body_info info;
+	carom_error error;
+	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
+	k->at = exact_of(world, index);
+	k->inverse_mass = 1.0 / (double)info.mass;
+	k->inverse_inertia = 1.0 / (double)info.inertia;
+	k->restitution = (double)info.restitution;
+	if (!info.is_static) {
+		k->push[0] = (double)def->gravity.x + (double)info.force.x * k->inverse_mass;
+		k->push[1] = (double)def->gravity.y + (double)info.force.y * k->inverse_mass;
+		k->push[2] = (double)info.torque * k->inverse_inertia;
+	}
+}
+
+static void allocate(queue *q, size_t count)
+{
+	q->count = count;
+	q->bodies = calloc(count, sizeof *q->bodies);
+	q->next = calloc(count * (count + WALLS), sizeof *q->next);
+	q->hit_room = 1024;
+	q->hits = calloc(q->hit_room, sizeof *q->hits);
+	assert_true(q->bodies && q->next && q->hits);
+}
+
+queue *queue_of(carom_world *world)
+{
+	const carom_world_def *def = carom_world_get_def(world);
+	queue *q = calloc(1, sizeof *q);
+	assert_non_null(q);
+	allocate(q, carom_world_body_count(world));
+	for (uint32_t i = 0; i < q->count; i++)
+		take_body(&q->bodies[i], world, i);
+	q->room = (touch_room){def->has_room, {(double)def->room_min.x, (double)def->room_min.y},
+		{(double)def->room_max.x, (double)def->room_max.y}, (double)def->restitution};
+	queue_follow(q, world);
+	return q;
+}
+
+queue *queue_copy(const queue *other)
+{
+	queue *q = calloc(1, sizeof *q);
+	assert_non_null(q);
+	allocate(q, other->count);
+	memcpy(q->bodies, other->bodies, q->count * sizeof *q->bodies);
+	q->room = other->room;
+	return q;
+}
+
+void queue_destroy(queue *q)
+{
+	free(q->bodies);
+	free(q->next);
+	free(q->hits);
+	free(q);
+}
+
+static double shake(scenery_random *random, double size, double relative)
+{
+	return size * relative * (double)scenery_uniform(random, -1.0f, 1.0f);
+}
+
+void queue_shake(queue *q, scenery_random *random, double relative)
+{
+	for (queue_body *k = q->bodies; k < q->bodies + q->count; k++) {
+		const double size = fabs(k->at.x) + fabs(k->at.y) + k->at.bound, speed = fabs(k->at.vx) + fabs(k->at.vy) + fabs(k->at.w) * k->at.bound;
+		if (!(k->inverse_mass > 0.0))
+			continue;
+		k->at.x += shake(random, size, relative);
+		k->at.y += shake(random, size, relative);
+		k->at.angle += k->at.count > 1 ? shake(random, 1.0, relative) : 0.0;
+		k->at.vx += shake(random, speed, relative);
+		k->at.vy += shake(random, speed, relative);
+		k->at.w += k->at.count > 1 ? shake(random, speed / k->at.bound, relative) : 0.0;
+	}
+}
+
+double queue_kinetic_energy(const queue *q)
+{
+	double sum = 0.0;
+	for (const queue_body *k = q->bodies; k < q->bodies + q->count; k++) {
+		if (k->inverse_mass > 0.0)
+			sum += 0.5 * ((k->at.vx * k->at.vx + k->at.vy * k->at.vy) / k->inverse_mass + k->at.w * k->at.w / k->inverse_inertia);
+	}
+	return sum;
+}
+
+/* ---- A step's units */
+
+static void begin(queue_body *k, double length)
+{
+	k->at.vx *= length;
+	k->at.vy *= length;
+	k->at.w *= length;
+	k->at.ax = k->push[0] * length * length;
+	k->at.ay = k->push[1] * length * length;
+	k->at.b = k->push[2] * length * length;
+	k->time = 0.0;
+	k->weight = 0;
+	k->held = false;
+}
+
+static bool is_still(const queue_body *k)
+{
+	return k->held || !(k->inverse_mass > 0.0);
+}
+
+static void move(queue_body *k, double time)
+{
+	if (is_still(k))
+		return;
+	touch_move(&k->at, time - k->time);
+	k->time = time;
+}
+
+static void end(queue_body *k, double length)
+{
+	move(k, 1.0);
+	k->at.vx /= length;
+	k->at.vy /= length;
+	k->at.w /= length;
+}
+
+/* The body as a hit at `time` sees it: a held one stands still, whatever its velocity was. */
+static exact_body seen_at(const queue_body *k, double time)
+{
+	queue_body copy = *k;
+	move(&copy, time);
+	if (is_still(k))
+		copy.at.vx = copy.at.vy = copy.at.w = copy.at.ax = copy.at.ay = copy.at.b = 0.0;
+	return copy.at;
+}
+
+/* ---- What comes next */
+
+static double *next_of(queue *q, int row, int column)
+{
+	return &q->next[(size_t)row * (q->count + WALLS) + (size_t)(column + WALLS)];
+}
+
+/* No part of either comes farther, so that most pairs need no more than this. */
+static bool can_meet(const queue_body *a, const queue_body *b)
+{
+	const double x = b->at.x - a->at.x, y = b->at.y - a->at.y, apart = a->at.bound + b->at.bound;
+	const double far = hypot(a->at.vx, a->at.vy) + hypot(a->at.ax, a->at.ay) + hypot(b->at.vx, b->at.vy) + hypot(b->at.ax, b->at.ay);
+	return x * x + y * y <= (apart + 2.0 * far + 1e-3) * (apart + 2.0 * far + 1e-3);
+}
+
+static double find(const queue *q, int row, int column)
+{
+	const queue_body *a = &q->bodies[row], *b = column < 0 ? NULL : &q->bodies[column];
+	const double from = b ? fmax(a->time, b->time) : a->time;
+	if (is_still(a) && (!b || is_still(b)))
+		return INFINITY;
+	if (b && !can_meet(a, b))
+		return INFINITY;
+	if (!b && !q->room.is_there)
+		return INFINITY;
+	const exact_body first = seen_at(a, from);
+	if (!b)
+		return from + touch_wall_time(&first, &q->room, -1 - column, 1.0 - from);
+	const exact_body second = seen_at(b, from);
+	return from + touch_pair_time(&first, &second, 1.0 - from);
+}
+
+static void look(queue *q, int body)
+{
+	if (!(q->bodies[body].inverse_mass > 0.0))
+		return;
+	for (int column = -WALLS; column < body; column++)
+		*next_of(q, body, column) = find(q, body, column);
+	for (int row = body + 1; row < (int)q->count; row++)
+		*next_of(q, row, body) = find(q, row, body);
+}
+
+static queue_hit first_hit(queue *q)
+{
+	queue_hit first = {INFINITY, 0, 0};
+	for (int row = 0; row < (int)q->count; row++) {
+		for (int column = -WALLS; column < row; column++) {
+			const double time = *next_of(q, row, column);
+			if (time < first.time)
+				first = (queue_hit){time, row, column};
+		}
+	}
+	return first;
+}
+
+/* ---- The answer */
+
+typedef struct party {
+	queue_body *body; /* NULL: a wall */
+	double inverse_mass, inverse_inertia;
+} party;
+
+static party party_of(queue_body *k)
+{
+	if (!k || is_still(k))
+		return (party){k, 0.0, 0.0};
+	return (party){k, k->inverse_mass, k->inverse_inertia};
+}
+
+static double arm(const touch *t, const double *lever)
+{
+	return lever[0] * t->normal[1] - lever[1] * t->normal[0];
+}
+
+static double coupling(const touch *t, const party *r, const party *k, int i, int j)
+{
+	return r->inverse_mass + k->inverse_mass + r->inverse_inertia * arm(t, t->reference[i]) * arm(t, t->reference[j]) +
+		k->inverse_inertia * arm(t, t->incident[i]) * arm(t, t->incident[j]);
+}
+
+/* Both points of a face contact together where both are pushed apart; else the one that approaches faster alone. */
+static void solve(const touch *t, const party *r, const party *k, double restitution, double stillness, double *j)
+{
+	const double k00 = coupling(t, r, k, 0, 0), k01 = coupling(t, r, k, 0, 1), k11 = coupling(t, r, k, 1, 1), det = k00 * k11 - k01 * k01;
+	const double gain0 = -(1.0 + restitution) * t->rate[0], gain1 = -(1.0 + restitution) * t->rate[1];
+	const bool first = t->rate[0] < -stillness, second = t->count > 1 && t->rate[1] < -stillness;
+	j[0] = j[1] = 0.0;
+	if (first && second && det > (double)SINGULAR * k00 * k11) {
+		j[0] = (gain0 * k11 - gain1 * k01) / det;
+		j[1] = (gain1 * k00 - gain0 * k01) / det;
+		if (j[0] >= 0.0 && j[1] >= 0.0)
+			return;
+		j[0] = j[1] = 0.0;
+	}
+	if (first && !(second && t->rate[1] < t->rate[0]))
+		j[0] = gain0 / k00;
+	else if (second)
+		j[1] = gain1 / k11;
+}
+
+static void push(const touch *t, const party *p, const double (*levers)[2], const double *j, double sign)
+{
+	if (!p->body || is_still(p->body))
+		return;
+	p->body->at.vx += sign * (j[0] + j[1]) * t->normal[0] * p->inverse_mass;
+	p->body->at.vy += sign * (j[0] + j[1]) * t->normal[1] * p->inverse_mass;
+	p->body->at.w += sign * (j[0] * arm(t, levers[0]) + j[1] * arm(t, levers[1])) * p->inverse_inertia;
+}
+
+static void weigh(queue *q, queue_body *k, double since, double restitution)
+{
+	if (!k || is_still(k))
+		return;
+	k->weight += restitution < 1.0 && since < (double)HOLD_GAP ? HOLD_RAPID : 1;
+	if (k->weight > HOLD_LIMIT) {
+		k->held = true;
+		q->held++;
+	}
+}
+
+static void record(queue *q, queue_hit hit)
+{
+	if (q->hit_count == q->hit_room) {
+		q->hit_room *= 2;
+		q->hits = realloc(q->hits, q->hit_room * sizeof *q->hits);
+		assert_non_null(q->hits);
+	}
+	q->hits[q->hit_count++] = hit;
+}
+
+static void answer(queue *q, queue_hit hit)
+{
+	queue_body *a = &q->bodies[hit.row], *b = hit.column < 0 ? NULL : &q->bodies[hit.column];
+	const double since[2] = {hit.time - a->time, b ? hit.time - b->time : 0.0};
+	const double restitution = fmax(a->restitution, b ? b->restitution : q->room.restitution);
+	double j[2];
+	move(a, hit.time);
+	if (b)
+		move(b, hit.time);
+	const exact_body first = seen_at(a, hit.time), second = b ? seen_at(b, hit.time) : first;
+	const touch t = b ? touch_pair(&first, &second) : touch_wall(&first, &q->room, -1 - hit.column);
+	const party pa = party_of(a), pb = party_of(b), *reference = b && !t.swapped ? &pa : &pb, *incident = reference == &pa ? &pb : &pa;
+	solve(&t, reference, incident, restitution, touch_stillness(&first, b ? &second : NULL), j);
+	push(&t, incident, t.incident, j, 1.0);
+	push(&t, reference, t.reference, j, -1.0);
+	if (j[0] + j[1] > 0.0)
+		record(q, hit);
+	weigh(q, a, since[0], restitution);
+	weigh(q, b, since[1], restitution);
+}
+
+void queue_step(queue *q, double length, size_t most)
+{
+	size_t events = 0;
+	q->hit_count = q->held = 0;
+	for (size_t i = 0; i < q->count; i++)
+		begin(&q->bodies[i], length);
+	for (int i = 0; i < (int)q->count; i++) {
+		for (int column = -WALLS; column < i; column++)
+			*next_of(q, i, column) = find(q, i, column);
+	}
+	for (queue_hit hit = first_hit(q); hit.time <= 1.0; hit = first_hit(q)) {
+		if (events++ >= most)
+			fail_msg("the queue has more than %zu events in a step: at %.9g of it bodies %d and %d", most, hit.time, hit.row, hit.column);
+		answer(q, hit);
+		look(q, hit.row);
+		if (hit.column >= 0)
+			look(q, hit.column);
+	}
+	for (size_t i = 0; i < q->count; i++)
+		end(&q->bodies[i], length);
+}
