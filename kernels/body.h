@@ -42,7 +42,7 @@ body body_load(STATE_IN, int index, float length)
 }
 
 /* x + t (v + t a / 2), with x the start, v the velocity and a the acceleration */
-float2 place(float2 x, float2 v, float2 a, float t)
+INLINE float2 place(float2 x, float2 v, float2 a, float t)
 {
 	return (float2)(x.x + t * (v.x + (0.5f * t) * a.x), x.y + t * (v.y + (0.5f * t) * a.y));
 }

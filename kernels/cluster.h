@@ -3,15 +3,14 @@
 #define LISTS_IN LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active)
 #define LISTS spans, neighbours, status, members, active
 
-/* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. */
+/* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. Those whose discs stay apart
+ * need not be asked. */
 float pair_time(TEX_IN(vertices), RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length)
 {
 	float t0 = larger(k.time, o.time), rest = 1.0f - t0;
 	k = moved(slots, s, k, t0, length);
 	o = moved(slots, other, o, t0, length);
 	body a = body_of(slots, s, k, length), b = body_of(slots, other, o, length);
-	if (stay_apart(a, b, rest))
-		return NO_HIT;
 	bool in_order = slot_body(slots, s) > slot_body(slots, other);
 	float hit = CHANNEL(in_order ? pair_first(TEX(vertices), a, b, rules) : pair_first(TEX(vertices), b, a, rules), HITTIMES_HIT);
 	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;
@@ -60,6 +59,7 @@ bool event_before(float4 a, float4 b)
 	return CHANNEL(a, NEXT_COLUMN) < CHANNEL(b, NEXT_COLUMN);
 }
 
+/* What others may be changing. It costs as much as changing it. */
 int int_load(LIST_OUT(list), int index)
 {
 	return atomic_or(&list[index], 0);
@@ -96,7 +96,8 @@ void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), int s, int 
 		return;
 	atomic_xchg(&members[MEMBER(s, MEMBER_ROUND)], round);
 	active[atomic_inc(&status[STATUS_ACTIVE])] = s;
-	atomic_max(&status[STATUS_ROUND], round);
+	if (int_load(status, STATUS_ROUND) < round)
+		atomic_max(&status[STATUS_ROUND], round);
 }
 
 /* Two clusters get into each other's way: they are one in the next round. */
@@ -113,5 +114,5 @@ void conflict(LIST_OUT(status), LIST_OUT(members), int a, int b, int round)
 /* Is a step to be done, with lists that are good? */
 bool lists_are_good(LIST_OUT(status))
 {
-	return !int_load(status, STATUS_STALE) && !int_load(status, STATUS_SMALL);
+	return !status[STATUS_STALE] && !status[STATUS_SMALL];
 }

@@ -214,9 +214,11 @@
 #define STATUS_PACE 16      /* float bits, m: what the slower bodies may go before the lists are stale */
 #define STATUS_CELL 17      /* float bits, m: the side of a cell of level 0 */
 #define STATUS_WINDOW 21    /* float bits, s: how long the lists are to last */
-#define STATUS_BUILDS 18    /* how often neighbours were found, steps done, steps begun again: since the host asked */
-#define STATUS_STEPS 19
-#define STATUS_RETRIES 20
+#define STATUS_BUILDS 18    /* since the host asked: how often lists were made, */
+#define STATUS_STEPS 19     /* steps done, */
+#define STATUS_RETRIES 20   /* begun again with other lists, */
+#define STATUS_IDLE 22      /* not begun for want of lists, */
+#define STATUS_AGAIN 23     /* and not done since they needed more rounds */
 
 /* Rules of events: a body that weighs more than HOLD_LIMIT in one step is held. An event weighs 1, or HOLD_RAPID where the
  * restitution is below 1 and the body's event before was less than HOLD_GAP of a step ago. */

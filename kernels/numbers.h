@@ -2,6 +2,13 @@
  * whose result may differ (dot, length, sin, mad, ...). The order of the operations is that of CONTRACT.md. */
 #pragma OPENCL FP_CONTRACT OFF
 
+/* For what inner loops call: compilers for CPUs do not inline it all by themselves. */
+#ifdef __clang__
+#define INLINE __attribute__((always_inline))
+#else
+#define INLINE
+#endif
+
 float2 turn(float2 rotation, float2 v) /* rotation = (cosine, sine) */
 {
 	return (float2)(rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y);
@@ -12,12 +19,12 @@ float2 turn_back(float2 rotation, float2 v)
 	return (float2)(rotation.x * v.x + rotation.y * v.y, rotation.x * v.y - rotation.y * v.x);
 }
 
-float inner(float2 a, float2 b)
+INLINE float inner(float2 a, float2 b)
 {
 	return a.x * b.x + a.y * b.y;
 }
 
-float cross2(float2 a, float2 b)
+INLINE float cross2(float2 a, float2 b)
 {
 	return a.x * b.y - a.y * b.x;
 }
@@ -27,23 +34,23 @@ float norm(float2 v)
 	return sqrt(v.x * v.x + v.y * v.y);
 }
 
-float magnitude(float x)
+INLINE float magnitude(float x)
 {
 	return x < 0.0f ? -x : x;
 }
 
 /* |x| + |y|: a cheap bound of a vector's length */
-float span(float2 v)
+INLINE float span(float2 v)
 {
 	return magnitude(v.x) + magnitude(v.y);
 }
 
-float smaller(float a, float b)
+INLINE float smaller(float a, float b)
 {
 	return b < a ? b : a;
 }
 
-float larger(float a, float b)
+INLINE float larger(float a, float b)
 {
 	return b > a ? b : a;
 }

@@ -8,10 +8,16 @@ trajectory trajectory_seen(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work)
 	return trajectory_start(slots, other);
 }
 
+disc disc_of_trajectory(RECORD_IN(slots), int s, trajectory k, float length)
+{
+	return disc_of(slots, s, k.place, k.time, k.held > 0.0f, length);
+}
+
 /* The first event of member s, by what is known now. */
 void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), float4 rules, int s, int leader, float length)
 {
 	trajectory k = work_load(work, s);
+	disc disc_k = disc_of_trajectory(slots, s, k, length);
 	int wall, body_index = slot_body(slots, s);
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall);
@@ -19,7 +25,10 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 		first = (float4)(t, (float)body_index, -1.0f - (float)wall, -1.0f - (float)wall);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_END)]; i++) {
 		int other = neighbours[i];
-		t = pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_seen(slots, members, work, other, leader), length);
+		trajectory o = trajectory_seen(slots, members, work, other, leader);
+		if (stay_apart(disc_k, disc_of_trajectory(slots, other, o, length)))
+			continue;
+		t = pair_time(TEX(vertices), slots, rules, s, k, other, o, length);
 		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
 			continue;
 		int partner = slot_body(slots, other);
@@ -120,5 +129,6 @@ bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global c
 		float reach = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
 		return !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y);
 	}
-	return pair_time(TEX(vertices), slots, rules, s, k, other, o, length) <= 1.0f;
+	return !stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length))
+		&& pair_time(TEX(vertices), slots, rules, s, k, other, o, length) <= 1.0f;
 }

@@ -1,7 +1,9 @@
 /* Where a body may get while the lists of neighbours are good, and the cells in which it is looked for. */
 
-#define PACE_FACTOR 1.5f  /* of the mean speed: bodies that are slower may get that fast by a hit */
-#define REACH_FACTOR 1.25f /* of the own speed */
+#define REACH_FACTOR 1.25f /* of a body's speed: hits may make it faster */
+#define PACE_FACTOR 1.6f   /* of the mean speed, which counts for bodies that are slower */
+#define CELL_FACTOR 2.5f   /* of the mean speed: few bodies are too fast for the cells of their size */
+#define NEAR_LEVELS 2      /* a body looks for smaller ones so many levels below; those farther below look for it */
 #define DRIFT_FACTOR 1.34f /* of the pace, a part of it that bodies can go in a step by a hit */
 
 /* How far bodies go, from a sample of them. None of this changes a result: it only decides how long lists last. */
@@ -19,8 +21,8 @@ void pace_choose(RECORD_IN(slots), int count, float window, LIST_OUT(status))
 		n++;
 	}
 	float many = n > 0 ? (float)n : 1.0f, speed = sqrt(square / many) + (push / many) * window;
-	float pace = larger(PACE_FACTOR * speed * window, 0.1f * (radius / many));
-	float side = 2.02f * ((radius / many) + larger(pace, REACH_FACTOR * speed * window));
+	float pace = larger(REACH_FACTOR * PACE_FACTOR * speed * window, 0.1f * (radius / many));
+	float side = 2.02f * ((radius / many) + larger(pace, REACH_FACTOR * CELL_FACTOR * speed * window));
 	status[STATUS_PACE] = as_int(pace);
 	status[STATUS_CELL] = as_int(side > 0.0f && side < 1e30f ? side : 1.0f);
 	status[STATUS_WINDOW] = as_int(window);
@@ -111,21 +113,21 @@ typedef struct near_list {
 	int found[NEAR_MOST];
 } near_list;
 
-/* A small body tells a larger one that it is near. */
-void node_push(LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int large, int small)
+/* Of two bodies of different levels one looks for the other, and tells it. */
+void node_push(LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int other, int s)
 {
 	int node = atomic_inc(&status[STATUS_NODES]);
 	if (node >= status[STATUS_NODE_ROOM]) {
 		atomic_or(&status[STATUS_SMALL], 1);
 		return;
 	}
-	nodes[NODE_WIDTH * node + NODE_SLOT] = small;
-	nodes[NODE_WIDTH * node + NODE_LINK] = atomic_xchg(&members[MEMBER(large, MEMBER_HEAD)], node);
+	nodes[NODE_WIDTH * node + NODE_SLOT] = s;
+	nodes[NODE_WIDTH * node + NODE_LINK] = atomic_xchg(&members[MEMBER(other, MEMBER_HEAD)], node);
 }
 
 /* With half < 0 the slots are counted, and kept while there is room in the list; else they are written to Neighbours, those
  * behind from `half` on. */
-void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slot, bool ahead)
+INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slot, bool ahead)
 {
 	if (half_at >= 0)
 		neighbours[ahead ? list->ahead : half_at + list->behind] = slot;
@@ -138,13 +140,13 @@ void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slot, bool
 }
 
 /* The slots of one level in places [from, to) whose reach touches this one's. */
-void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, int level,
+INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, int level,
 	bool same_level, bool one_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	float side = as_float(status[STATUS_CELL]);
 	for (int other = from; other < to; other++) {
 		float4 b = reach[other];
-		if (other == s || b.x > box.z || b.z < box.x || b.y > box.w || b.w < box.y)
+		if ((other == s) | (b.x > box.z) | (b.z < box.x) | (b.y > box.w) | (b.w < box.y))
 			continue;
 		if (!one_level && reach_level(b, SLOT_LOAD(slots, other, SLOT_PLACE), side) != level)
 			continue;
@@ -161,8 +163,8 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 {
 	float4 box = reach[s];
 	int own = reach_level(box, SLOT_LOAD(slots, s, SLOT_PLACE), as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
-	for (int level = own; level < CELL_LEVELS; level++) {
-		if (!(levels & (1 << level)))
+	for (int level = max(own - NEAR_LEVELS, 0); level < CELL_LEVELS; level++) {
+		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
 			continue;
 		float side = level_side(status, level);
 		int2 low = cell_of((float2)(box.x - 0.5f * side, box.y - 0.5f * side), side);

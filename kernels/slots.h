@@ -12,7 +12,7 @@ typedef struct trajectory {
 	float held;   /* 1: it does not move until the step ends */
 } trajectory;
 
-trajectory trajectory_start(RECORD_IN(slots), int s)
+INLINE trajectory trajectory_start(RECORD_IN(slots), int s)
 {
 	float4 turn_record = SLOT_LOAD(slots, s, SLOT_TURN);
 	trajectory k;
@@ -41,7 +41,7 @@ void work_store(__global float4 *work, int s, trajectory k)
 	work[WORK_WIDTH * s + WORK_TURN] = (float4)(k.angle, k.velocity, k.time, k.held);
 }
 
-bool slot_is_static(RECORD_IN(slots), int s)
+INLINE bool slot_is_static(RECORD_IN(slots), int s)
 {
 	return !(CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE) > 0.0f);
 }
@@ -95,20 +95,42 @@ trajectory moved(RECORD_IN(slots), int s, trajectory k, float u, float length)
 	return k;
 }
 
-/* Do two circles that hold the bodies surely stay apart until the step ends? The way of one seen from the other is a line
- * but for what their pushes differ, which the distance allows for. */
-bool stay_apart(body a, body b, float rest)
+/* The centre of a body, and the circle about it that holds the body: enough to see that most pairs stay apart. */
+typedef struct disc {
+	float2 x, v, a; /* step units */
+	float radius, time;
+} disc;
+
+INLINE disc disc_of(RECORD_IN(slots), int s, float4 place_record, float time, bool held, float length)
 {
-	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	disc d;
+	float unit = held ? 0.0f : length;
+	d.x = (float2)(CHANNEL(place_record, LINEAR_X), CHANNEL(place_record, LINEAR_Y));
+	d.v = (float2)(CHANNEL(place_record, LINEAR_VX) * unit, CHANNEL(place_record, LINEAR_VY) * unit);
+	d.a = (float2)((CHANNEL(push, PUSH_X) * unit) * unit, (CHANNEL(push, PUSH_Y) * unit) * unit);
+	d.radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
+	d.time = time;
+	return d;
+}
+
+/* Do two discs surely stay apart until the step ends? The way of one seen from the other is a line but for what their
+ * pushes differ, which the distance allows for. */
+INLINE bool stay_apart(disc a, disc b)
+{
+	float t0 = larger(a.time, b.time), rest = 1.0f - t0, da = t0 - a.time, db = t0 - b.time;
+	float2 from = place(a.x, a.v, a.a, da), to = place(b.x, b.v, b.a, db);
+	float2 d = (float2)(to.x - from.x, to.y - from.y);
+	float2 v = (float2)((b.v.x + db * b.a.x) - (a.v.x + da * a.a.x), (b.v.y + db * b.a.y) - (a.v.y + da * a.a.y));
 	float differ = span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), reach = a.radius + b.radius;
-	float size = (span(a.x) + span(b.x)) + (reach + span(v));
-	float most = (reach + differ) + size * (4.0f * SLOP), distance = inner(d, d), approach = inner(d, v);
+	float size = (span(from) + span(to)) + (reach + span(v));
+	float most = (reach + differ) + size * (4.0f * SLOP), distance = inner(d, d), approach = inner(d, v), square = (most * most) * 1.00001f;
 	if (approach < 0.0f) {
 		float2 last = (float2)(d.x + rest * v.x, d.y + rest * v.y);
 		float x = cross2(d, v);
 		if (inner(last, v) > 0.0f)
-			return x * x > (most * most) * inner(v, v) * 1.00001f;
+			return x * x > square * inner(v, v);
 		distance = inner(last, last);
 	}
-	return distance > (most * most) * 1.00001f;
+	return distance > square;
 }

@@ -45,6 +45,7 @@ typedef struct carom_events {
 	uint32_t steps_a_list; /* steps handed over between two makings of the lists */
 	uint32_t rounds;       /* handed over a step */
 	uint32_t since;        /* steps handed over since the last making */
+	uint32_t good;         /* makings since one died before its time */
 	int32_t round;         /* its number */
 	uint32_t idle;         /* batches in a row that ended no step */
 } carom_events;

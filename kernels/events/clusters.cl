@@ -8,10 +8,13 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 		return;
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
+	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
 	if (wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall) <= 1.0f)
 		activate(status, members, active, s, domain.z);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
 		int other = neighbours[i];
+		if (stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
+			continue;
 		if (!(pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length) <= 1.0f))
 			continue;
 		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
@@ -106,6 +109,8 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 		counts = (float4)(CHANNEL(counts, COUNTS_STEPS) + 1.0f, hits.x, CHANNEL(counts, COUNTS_HELD) + (float)status[STATUS_HELD], hits.y);
 		status[STATUS_STEPS]++;
 	}
+	status[STATUS_IDLE] += !good && length > 0.0f;
+	status[STATUS_AGAIN] += good && !left && again;
 	if (done || left)
 		status[STATUS_ACTIVE] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
 	if (left) {

@@ -20,10 +20,10 @@
 			return status_;            \
 	} while (0)
 
-#define FIRST_WINDOW 1024 /* 1/256 of a time step */
-#define MOST_WINDOW 4096
+#define WINDOW 1536       /* 1/256 of a time step: longer lists are longer, too */
 #define MOST_ROUNDS 64
 #define MOST_IDLE 256     /* batches that end no step: something is wrong */
+#define GOOD_LISTS 8      /* made in a row that were good to the end: the next may be used a step longer */
 #define SHARE 16          /* slots for one work-item of those that share what is active */
 
 static int32_t share_of(int32_t count)
@@ -147,14 +147,17 @@ static carom_status adapt(carom_world *world, const int32_t *status, carom_error
 	events->idle = steps > 0 ? 0 : events->idle + 1;
 	if (events->idle > MOST_IDLE)
 		return carom_fail(error, CAROM_DEVICE, "'%s' ends no step of events any more", world->device->info.name);
-	if (steps == 0 && events->rounds < MOST_ROUNDS)
-		events->rounds *= 2;
-	else if (steps > 0 && events->rounds > 2)
-		events->rounds--;
-	if (builds > 0 && steps >= builds * (int32_t)events->steps_a_list && events->steps_a_list < 64)
+	if (status[STATUS_AGAIN] > steps / 8 && events->rounds < MOST_ROUNDS)
+		events->rounds++;
+	events->good += (uint32_t)builds;
+	if (status[STATUS_IDLE] > 0) {
+		/* being idle cost little, but the lists had died before their time */
+		events->steps_a_list -= events->steps_a_list > 1;
+		events->good = 0;
+	} else if (events->good > GOOD_LISTS) {
 		events->steps_a_list++;
-	else if (builds > 0)
-		events->steps_a_list = steps / builds > 1 ? (uint32_t)(steps / builds) : 1;
+		events->good = 0;
+	}
 	return CAROM_OK;
 }
 
@@ -168,14 +171,14 @@ static carom_status finish(carom_world *world, carom_error *error)
 		TRY(adapt(world, status, error));
 	if (status[STATUS_STALE])
 		world->events.since = UINT32_MAX / 2;
-	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_RETRIES] = 0;
+	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_RETRIES] = status[STATUS_IDLE] = status[STATUS_AGAIN] = 0;
 	return send_status(world, status, error);
 }
 
 /* Twice as many cells as bodies, in rows of a power of two. */
 static void choose_cells(carom_events *events, uint32_t capacity)
 {
-	events->rows = events->columns = 4;
+	events->rows = events->columns = 8; /* more than a body looks at in a row */
 	while (events->rows * events->columns < 2 * capacity) {
 		if (events->columns <= events->rows)
 			events->columns *= 2;
@@ -196,7 +199,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
-	*events = (carom_events){.room = 16 * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = FIRST_WINDOW, .steps_a_list = 2, .rounds = 2};
+	*events = (carom_events){.room = 16 * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = WINDOW, .steps_a_list = 2, .rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));
