@@ -22,4 +22,11 @@ bool scene_find_bodies(const char *text, const char *end, const char **bodies, c
 /* The end of the array element that starts at `text`: the next comma of its level, or `end`. */
 const char *scene_element_end(const char *text, const char *end);
 
+/* Writes a finite number as printf's %.9g does, but -0 as -0.0 and always with a point; answers the length, no NUL follows. */
+#define SCENE_NUMBER_SIZE 32
+size_t scene_format_number(float number, char *text);
+/* The double nearest to the JSON number at `at`. Answers its end, or NULL where there is no number, or none that is quickly
+ * read: strtod's work. */
+const char *scene_scan_number(const char *at, const char *end, double *number);
+
 #endif

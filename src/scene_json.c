@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "scene_json.h"
 
+#include <float.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdarg.h>
@@ -13,6 +14,10 @@
 
 /* What lies below rounds to a float: FLT_MAX with nine digits is already above FLT_MAX. */
 #define MAX_ROUNDED 0x1.ffffffp127
+
+const struct scene_range scene_any = {-FLT_MAX, FLT_MAX, false, "a number within +-3.4e38"};
+const struct scene_range scene_positive = {0, FLT_MAX, true, "a number above 0, at most 3.4e38"};
+const struct scene_range scene_part = {0, 1, false, "a number from 0 to 1"};
 
 /* ---- Errors ---- */
 
@@ -140,28 +145,58 @@ static carom_status fail_key(const struct scene_reader *reader, const struct sce
 
 /* ---- Values ---- */
 
+bool scene_fit_number(double number, const struct scene_range *range, float *rounded)
+{
+	double near = fabs(number) < MAX_ROUNDED ? (double)(float)number : number;
+	if (!(near >= range->min) || !(near <= range->max) || (range->above_min && near == range->min))
+		return false;
+	*rounded = (float)near;
+	return true;
+}
+
+bool scene_fit_whole(double number, const struct scene_range *range, uint32_t *whole)
+{
+	if (!(number >= range->min) || !(number <= range->max) || floor(number) < number)
+		return false;
+	*whole = (uint32_t)number;
+	return true;
+}
+
+bool scene_fit_color(const char *text, uint32_t *color)
+{
+	static const char digits[] = "0123456789abcdefABCDEF";
+	size_t length = strlen(text);
+	if ((length != 4 && length != 7) || *text != '#' || strspn(text + 1, digits) != length - 1)
+		return false;
+	*color = (uint32_t)strtoul(text + 1, NULL, 16);
+	if (length == 4)
+		*color = ((*color & 0xF00) << 8 | (*color & 0xF0) << 4 | (*color & 0xF)) * 0x11;
+	return true;
+}
+
+const char *scene_missing_key(const struct scene_field *fields, unsigned seen)
+{
+	for (unsigned row = 0; fields[row].key; row++) {
+		if (fields[row].required && !(seen >> row & 1))
+			return fields[row].key;
+	}
+	return NULL;
+}
+
 carom_status scene_read_number(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
 	const struct scene_range *range)
 {
-	double number = json_number_value(value);
-	double rounded = fabs(number) < MAX_ROUNDED ? (double)(float)number : number;
-	if (!json_is_number(value) || !(rounded >= range->min) || !(rounded <= range->max) ||
-		(range->above_min && rounded == range->min)) {
-		return scene_fail_value(reader, place, value, range->text);
-	}
-	*(float *)target = (float)rounded;
-	return CAROM_OK;
+	if (json_is_number(value) && scene_fit_number(json_number_value(value), range, target))
+		return CAROM_OK;
+	return scene_fail_value(reader, place, value, range->text);
 }
 
 carom_status scene_read_whole(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
 	const struct scene_range *range)
 {
-	double number = json_number_value(value);
-	if (!json_is_number(value) || !(number >= range->min) || !(number <= range->max) || floor(number) < number) {
-		return scene_fail_value(reader, place, value, range->text);
-	}
-	*(uint32_t *)target = (uint32_t)number;
-	return CAROM_OK;
+	if (json_is_number(value) && scene_fit_whole(json_number_value(value), range, target))
+		return CAROM_OK;
+	return scene_fail_value(reader, place, value, range->text);
 }
 
 carom_status scene_read_pair(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
@@ -204,18 +239,10 @@ carom_status scene_read_string(struct scene_reader *reader, const struct scene_p
 carom_status scene_read_color(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
 	const struct scene_range *range)
 {
-	static const char digits[] = "0123456789abcdefABCDEF";
-	const char *text = json_is_string(value) ? json_string_value(value) : "";
-	size_t length = strlen(text);
 	(void)range;
-	if ((length != 4 && length != 7) || *text != '#' || strspn(text + 1, digits) != length - 1) {
-		return scene_fail_value(reader, place, value, "a colour, \"#rgb\" or \"#rrggbb\"");
-	}
-	uint32_t color = (uint32_t)strtoul(text + 1, NULL, 16);
-	if (length == 4)
-		color = ((color & 0xF00) << 8 | (color & 0xF0) << 4 | (color & 0xF)) * 0x11;
-	*(uint32_t *)target = color;
-	return CAROM_OK;
+	if (json_is_string(value) && scene_fit_color(json_string_value(value), target))
+		return CAROM_OK;
+	return scene_fail_value(reader, place, value, "a colour, \"#rgb\" or \"#rrggbb\"");
 }
 
 static const struct scene_field *find_field(const struct scene_field *fields, const char *key)
@@ -244,11 +271,8 @@ carom_status scene_read_object(struct scene_reader *reader, const struct scene_p
 			return status;
 		seen |= 1u << (field - fields);
 	}
-	for (unsigned row = 0; fields[row].key; row++) {
-		if (fields[row].required && !(seen >> row & 1))
-			return scene_fail(reader, place, "\"%s\" is missing", fields[row].key);
-	}
-	return CAROM_OK;
+	const char *missing = scene_missing_key(fields, seen);
+	return missing ? scene_fail(reader, place, "\"%s\" is missing", missing) : CAROM_OK;
 }
 
 carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,

@@ -37,14 +37,29 @@ struct scene_range {
 typedef carom_status scene_read_function(struct scene_reader *reader, const struct scene_place *place, const json_t *value,
 	void *target, const struct scene_range *range);
 
+/* Text that is read without a tree. */
+struct scene_text {
+	const char *at, *end;
+	carom_scene *scene;
+};
+
+/* The same from the text itself, for what the library writes; false for all else, which is for a tree to read or to refuse.
+ * What is accepted here is what a tree would give, to the bit. */
+typedef bool scene_quick_function(struct scene_text *text, void *target, const struct scene_range *range);
+
 /* A row of a table of keys; the last has no key. */
 struct scene_field {
 	const char *key; /* "*": every key that no row before has */
 	scene_read_function *read;
+	scene_quick_function *quick; /* NULL: always from a tree */
 	size_t offset; /* in what the object is read into */
 	const struct scene_range *range;
 	bool required;
 };
+
+#define SCENE_LAST_FIELD {NULL, NULL, NULL, 0, NULL, false}
+
+extern const struct scene_range scene_any, scene_positive, scene_part;
 
 scene_read_function scene_read_number; /* into a float */
 scene_read_function scene_read_whole;  /* into a uint32_t */
@@ -58,6 +73,21 @@ carom_status scene_read_object(struct scene_reader *reader, const struct scene_p
 /* Element k goes through `read` into `target` + k * stride. */
 carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
 	size_t stride, scene_read_function *read, const struct scene_range *range);
+
+scene_quick_function scene_quick_number, scene_quick_whole, scene_quick_pair, scene_quick_flag, scene_quick_string,
+	scene_quick_color;
+
+bool scene_quick_object(struct scene_text *text, void *target, const struct scene_field *fields);
+/* The character after spaces, or nothing. */
+bool scene_quick_take(struct scene_text *text, char character);
+
+/* What both ways of reading check. */
+bool scene_fit_number(double number, const struct scene_range *range, float *rounded);
+bool scene_fit_whole(double number, const struct scene_range *range, uint32_t *whole);
+bool scene_fit_color(const char *text, uint32_t *color);
+/* The first required key whose bit, by row, is not set; NULL if none is missing. */
+const char *scene_missing_key(const struct scene_field *fields, unsigned seen);
+
 /* 0 for what is no array. */
 size_t scene_array_size(const json_t *value);
 bool scene_is_array(const json_t *value);
@@ -67,6 +97,10 @@ carom_status scene_parse_head(struct scene_reader *reader, json_t **head);
 /* One element of the bodies. */
 carom_status scene_parse_element(struct scene_reader *reader, const char *begin, const char *end, json_t **element);
 void scene_json_destroy(json_t *value);
+
+scene_read_function scene_read_body; /* adds it to the scene */
+/* The bodies that were cut out of the text, one by one. */
+carom_status scene_read_bodies(struct scene_reader *reader);
 
 carom_status scene_fail(const struct scene_reader *reader, const struct scene_place *place, const char *format, ...)
 	CAROM_PRINTF(3, 4);

@@ -1,6 +1,6 @@
 /* A world's present state as a scene file: one body a line, in their order, what has its default left out.
  * SPDX-License-Identifier: MIT */
-#include "status.h"
+#include "scene.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,16 +11,10 @@ struct writer {
 	carom_body_def body_defaults;
 };
 
-/* Nine digits tell every float from its neighbours. */
 static void put_number(FILE *stream, float number)
 {
-	char text[32];
-	int length = snprintf(text, sizeof text, "%.9g", (double)number);
-	for (int k = 0; k < length; k++) {
-		if (text[k] == ',')
-			text[k] = '.'; /* the program's locale may write it so */
-	}
-	fputs(strcmp(text, "-0") == 0 ? "-0.0" : text, stream); /* -0 would be read as an integer by many a reader, its sign lost */
+	char text[SCENE_NUMBER_SIZE];
+	fwrite(text, 1, scene_format_number(number, text), stream);
 }
 
 static void put_pair(FILE *stream, carom_vec2 pair)
