@@ -90,9 +90,9 @@ void unite(LIST_OUT(members), int a, int b)
 }
 
 /* The body is one of those that events change in this step. */
-void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), int s, int round)
+void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int s, int round)
 {
-	if (atomic_cmpxchg(&members[MEMBER(s, MEMBER_OWNER)], -1, s) != -1)
+	if (atomic_cmpxchg(&owners[s], -1, s) != -1)
 		return;
 	atomic_xchg(&members[MEMBER(s, MEMBER_ROUND)], round);
 	active[atomic_inc(&status[STATUS_ACTIVE])] = s;

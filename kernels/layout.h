@@ -165,7 +165,6 @@
 /* Members: twelve ints a slot */
 #define MEMBER_WIDTH 12
 #define MEMBER_PARENT 0 /* union-find over slots: clusters that meet are one */
-#define MEMBER_OWNER 1  /* cluster (slot of its leader) that may change the body, -1 for none */
 #define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
 #define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
 #define MEMBER_EVENTS 4 /* of the body in this step */
@@ -173,6 +172,8 @@
 #define MEMBER_SEEN 6   /* events of the partner when NEXT was found */
 #define MEMBER_HITS 8   /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
+
+/* Owners: one int a slot: the cluster (slot of its leader) that may change the body, -1 for none. By itself, since neighbours are asked for it. */
 
 /* Spans: four ints a slot */
 #define SPAN_WIDTH 4

@@ -1,9 +1,9 @@
 /* The queue of events of one cluster, run by one work-item. */
 
 /* The trajectory of a neighbour, as a cluster sees it: of its own members as it is now, of all others as the step began. */
-trajectory trajectory_seen(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int other, int leader)
+trajectory trajectory_seen(RECORD_IN(slots), LIST_IN(owners), RECORD_OUT(work), int other, int leader)
 {
-	if (int_load(members, MEMBER(other, MEMBER_OWNER)) == leader)
+	if (owners[other] == leader) /* nobody else writes or takes away that */
 		return work_load(work, other);
 	return trajectory_start(slots, other);
 }
@@ -14,7 +14,8 @@ disc disc_of_trajectory(RECORD_IN(slots), int s, trajectory k, float length)
 }
 
 /* The first event of member s, by what is known now. */
-void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), float4 rules, int s, int leader, float length)
+void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int s,
+	int leader, float length)
 {
 	trajectory k = work_load(work, s);
 	disc disc_k = disc_of_trajectory(slots, s, k, length);
@@ -25,7 +26,7 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 		first = (float4)(t, (float)body_index, -1.0f - (float)wall, -1.0f - (float)wall);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_END)]; i++) {
 		int other = neighbours[i];
-		trajectory o = trajectory_seen(slots, members, work, other, leader);
+		trajectory o = trajectory_seen(slots, owners, work, other, leader);
 		if (stay_apart(disc_k, disc_of_trajectory(slots, other, o, length)))
 			continue;
 		t = pair_time(TEX(vertices), slots, rules, s, k, other, o, length);
@@ -38,7 +39,7 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 	}
 	work[WORK_WIDTH * s + WORK_NEXT] = first;
 	int other = (int)CHANNEL(first, NEXT_PARTNER);
-	members[MEMBER(s, MEMBER_SEEN)] = CHANNEL(first, NEXT_TIME) <= 1.0f && other >= 0 && int_load(members, MEMBER(other, MEMBER_OWNER)) == leader
+	members[MEMBER(s, MEMBER_SEEN)] = CHANNEL(first, NEXT_TIME) <= 1.0f && other >= 0 && owners[other] == leader
 		? members[MEMBER(other, MEMBER_EVENTS)] : 0;
 }
 
@@ -53,9 +54,9 @@ int first_member(LIST_OUT(members), RECORD_OUT(work), int head)
 }
 
 /* The cluster owns the body from now on, if nobody else does. It comes second in the list, so that the head stays. */
-bool claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), int s, int leader, int head)
+bool claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), int s, int leader, int head)
 {
-	if (atomic_cmpxchg(&members[MEMBER(s, MEMBER_OWNER)], -1, leader) != -1)
+	if (atomic_cmpxchg(&owners[s], -1, leader) != -1)
 		return false;
 	atomic_xchg(&members[MEMBER(s, MEMBER_PARENT)], leader);
 	work_begin(slots, members, work, s);
@@ -81,7 +82,8 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 		atomic_add(&status[STATUS_HELD], held);
 }
 
-void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), int leader, int round,
+void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need),
+	LIST_OUT(owners), int leader, int round,
 	float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
@@ -90,7 +92,7 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 	if (head < 0)
 		return; /* another cluster got into the way just now */
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
-		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, m, leader, length);
+		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length);
 	for (;;) {
 		int s = first_member(members, work, head);
 		float4 next = work[WORK_WIDTH * s + WORK_NEXT];
@@ -99,13 +101,13 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 		if (finished)
 			break;
 		if (other >= 0 && !slot_is_static(slots, other)) {
-			int owner = int_load(members, MEMBER(other, MEMBER_OWNER));
+			int owner = int_load(owners, other);
 			if (owner == leader && members[MEMBER(other, MEMBER_EVENTS)] != members[MEMBER(s, MEMBER_SEEN)]) {
-				look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, s, leader, length);
+				look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, s, leader, length);
 				continue;
 			}
-			if (owner != leader && !claim(slots, status, members, active, work, other, leader, head)) {
-				conflict(status, members, leader, int_load(members, MEMBER(other, MEMBER_OWNER)), round);
+			if (owner != leader && !claim(slots, status, members, active, work, owners, other, leader, head)) {
+				conflict(status, members, leader, int_load(owners, other), round);
 				break;
 			}
 		}
@@ -113,9 +115,9 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 			atomic_or(&status[STATUS_LEFT], 1);
 			break;
 		}
-		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, s, leader, length);
+		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, s, leader, length);
 		if (other >= 0 && !slot_is_static(slots, other))
-			look(TEX(vertices), TEX(uniforms), slots, LISTS, work, rules, other, leader, length);
+			look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, other, leader, length);
 	}
 	cluster_count(status, members, work, head, finished);
 }

@@ -92,7 +92,7 @@ void member_reset(LIST_OUT(members), int s)
 {
 	__global int *m = members + MEMBER(s, 0);
 	m[MEMBER_PARENT] = s;
-	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
+	m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
 	m[MEMBER_EVENTS] = m[MEMBER_WEIGHT] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
 }
 

@@ -95,18 +95,24 @@ static double shake(scenery_random *random, double size, double relative)
 	return size * relative * (double)scenery_uniform(random, -1.0f, 1.0f);
 }
 
+static void shake_body(exact_body *k, scenery_random *random, double relative)
+{
+	const double size = fabs(k->x) + fabs(k->y) + k->bound, speed = fabs(k->vx) + fabs(k->vy) + fabs(k->w) * k->bound;
+	k->x += shake(random, size, relative);
+	k->y += shake(random, size, relative);
+	k->vx += shake(random, speed, relative);
+	k->vy += shake(random, speed, relative);
+	if (k->count == 1)
+		return;
+	k->angle += shake(random, 1.0, relative);
+	k->w += shake(random, speed / k->bound, relative);
+}
+
 void queue_shake(queue *q, scenery_random *random, double relative)
 {
 	for (queue_body *k = q->bodies; k < q->bodies + q->count; k++) {
-		const double size = fabs(k->at.x) + fabs(k->at.y) + k->at.bound, speed = fabs(k->at.vx) + fabs(k->at.vy) + fabs(k->at.w) * k->at.bound;
-		if (!(k->inverse_mass > 0.0))
-			continue;
-		k->at.x += shake(random, size, relative);
-		k->at.y += shake(random, size, relative);
-		k->at.angle += k->at.count > 1 ? shake(random, 1.0, relative) : 0.0;
-		k->at.vx += shake(random, speed, relative);
-		k->at.vy += shake(random, speed, relative);
-		k->at.w += k->at.count > 1 ? shake(random, speed / k->at.bound, relative) : 0.0;
+		if (k->inverse_mass > 0.0)
+			shake_body(&k->at, random, relative);
 	}
 }
 
@@ -313,6 +319,12 @@ static void answer(queue *q, queue_hit hit)
 	push(&t, reference, t.reference, j, -1.0);
 	if (j[0] + j[1] > 0.0)
 		record(q, hit);
+	if (q->shaken_by) {
+		if (!is_still(a))
+			shake_body(&a->at, q->shaken_by, q->rounding);
+		if (b && !is_still(b))
+			shake_body(&b->at, q->shaken_by, q->rounding);
+	}
 	weigh(q, a, since[0], restitution);
 	weigh(q, b, since[1], restitution);
 }

@@ -30,6 +30,8 @@ typedef struct queue {
 	queue_hit *hits;  /* of the last step */
 	size_t hit_count, hit_room;
 	size_t held;      /* bodies that were, in the last step */
+	scenery_random *shaken_by; /* NULL: nobody; else each event shakes its bodies by `rounding` */
+	double rounding;
 } queue;
 
 /* The world's bodies as they are now. */

@@ -1,6 +1,7 @@
 /* All the hits of a step: bodies that hit form clusters, and each cluster is a queue of events that one work-item runs. */
 
-__kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, int4 domain)
+__kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN,
+	LIST_OUT(owners), int4 domain)
 {
 	int s = get_global_id(0), wall;
 	float length = step_length(TEX(uniforms), TEX(clock));
@@ -10,7 +11,7 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 	trajectory k = trajectory_start(slots, s);
 	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
 	if (wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall) <= 1.0f)
-		activate(status, members, active, s, domain.z);
+		activate(status, members, active, owners, s, domain.z);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
 		int other = neighbours[i];
 		if (stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
@@ -19,15 +20,16 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 			continue;
 		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
 		if (changes)
-			activate(status, members, active, s, domain.z);
+			activate(status, members, active, owners, s, domain.z);
 		if (other_changes)
-			activate(status, members, active, other, domain.z);
+			activate(status, members, active, owners, other, domain.z);
 		if (changes && other_changes)
 			unite(members, s, other);
 	}
 }
 
-__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), int4 domain)
+__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_OUT(owners),
+	int4 domain)
 {
 	if (status[STATUS_ROUND] != domain.z)
 		return;
@@ -35,7 +37,7 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 	if (get_global_id(0) == 0)
 		status[STATUS_SEEDS] = count;
 	for (int i = get_global_id(0); i < count; i += domain.x) {
-		int s = active[i], owner = members[MEMBER(s, MEMBER_OWNER)];
+		int s = active[i], owner = owners[s];
 		if (int_load(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
 			continue;
 		int root = find_root(members, s);
@@ -44,13 +46,13 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 		if (members[MEMBER(s, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * s + WORK_TURN], WORK_HELD) > 0.0f)
 			atomic_dec(&status[STATUS_HELD]);
 		work_begin(slots, members, work, s);
-		members[MEMBER(s, MEMBER_OWNER)] = root;
+		owners[s] = root;
 		members[MEMBER(s, MEMBER_LINK)] = atomic_xchg(&members[MEMBER(root, MEMBER_HEAD)], s);
 	}
 }
 
 __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
-	LIST_OUT(need), int4 domain)
+	LIST_OUT(need), LIST_OUT(owners), int4 domain)
 {
 	if (int_load(status, STATUS_ROUND) < domain.z)
 		return;
@@ -60,12 +62,13 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 		int s = active[i];
 		if (int_load(members, MEMBER(s, MEMBER_HEAD)) < 0 || int_load(members, MEMBER(s, MEMBER_ROUND)) != domain.z)
 			continue;
-		cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, s, domain.z, length);
+		cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, s, domain.z, length);
 	}
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
-__kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work), int4 domain)
+__kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work),
+	LIST_IN(owners), int4 domain)
 {
 	if (int_load(status, STATUS_ROUND) < domain.z)
 		return;
@@ -73,11 +76,11 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 	float length = step_length(TEX(uniforms), TEX(clock));
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	for (int i = get_global_id(0); i < count; i += domain.x) {
-		int s = active[i], owner = members[MEMBER(s, MEMBER_OWNER)];
+		int s = active[i], owner = owners[s];
 		if (members[MEMBER(s, MEMBER_EVENTS)] == 0 || int_load(members, MEMBER(owner, MEMBER_ROUND)) > domain.z)
 			continue;
 		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
-			int other = neighbours[k], theirs = members[MEMBER(other, MEMBER_OWNER)];
+			int other = neighbours[k], theirs = owners[other];
 			if (theirs < 0 || theirs == owner || members[MEMBER(other, MEMBER_EVENTS)] == 0
 				|| int_load(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
 				continue;

@@ -12,12 +12,13 @@ bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_IN(status), float4 bo
 	return x - way < CHANNEL(box, AABB_MIN_X) || y - way < CHANNEL(box, AABB_MIN_Y) || x + way > CHANNEL(box, AABB_MAX_X) || y + way > CHANNEL(box, AABB_MAX_Y);
 }
 
-__kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), RECORD_IN(work), int4 domain)
+__kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), RECORD_IN(work),
+	LIST_OUT(owners), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))
 		return;
-	bool changed = members[MEMBER(s, MEMBER_OWNER)] >= 0;
+	bool changed = owners[s] >= 0;
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	if (status[STATUS_COMMIT] && !slot_is_static(slots, s)) {
 		float4 constants = SLOT_LOAD(slots, s, SLOT_TURN);
@@ -27,6 +28,8 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 		if (leaves_reach(TEX(uniforms), slots, status, reach[s], s, k.place))
 			atomic_or(&status[STATUS_STALE], 1);
 	}
-	if (changed)
+	if (changed) {
 		member_reset(members, s);
+		owners[s] = -1;
+	}
 }

@@ -74,7 +74,7 @@ __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 }
 
 __kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells),
-	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), int4 domain)
+	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x)
@@ -85,6 +85,7 @@ __kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need),
 	reach[to] = reach_box(TEX(vertices), slots, s, as_float(need[s]), status);
 	new_need[to] = status[STATUS_COMMIT] ? 0 : need[s];
 	member_reset(members, to);
+	owners[to] = -1;
 }
 
 __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans), LIST_OUT(neighbours),

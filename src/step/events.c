@@ -192,7 +192,7 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 	const uint64_t n = carom_capacity(body_count);
 	(void)pipeline;
 	(void)def;
-	return n * (16 * (2 * SLOT_WIDTH + 1 + WORK_WIDTH) + 4 * (2 + MEMBER_WIDTH + 1 + SPAN_WIDTH + 2 * CELL_WIDTH + 16 + 1)) + 4 * STATUS_WIDTH;
+	return n * (16 * (2 * SLOT_WIDTH + 1 + WORK_WIDTH) + 4 * (2 + MEMBER_WIDTH + 2 + SPAN_WIDTH + 2 * CELL_WIDTH + 16 + 1)) + 4 * STATUS_WIDTH;
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -206,6 +206,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(create_list(world, ROLE_REACH, false, n, error));
 	TRY(create_list(world, ROLE_WORK, false, WORK_WIDTH * n, error));
 	TRY(create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * n, error));
+	TRY(create_list(world, ROLE_OWNERS, false, n, error));
 	TRY(create_list(world, ROLE_ACTIVE, false, n, error));
 	TRY(create_list(world, ROLE_SPANS, false, SPAN_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
