@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+#include "runs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+carom_world_def runs_def(void)
+{
+	carom_world_def def = carom_default_world_def();
+	carom_error error;
+	scenery_check(carom_pipeline_set(&def.pipeline, "step", "events", &error), &error);
+	return def;
+}
+
+carom_world_def runs_room(float half_width, float half_height)
+{
+	carom_world_def def = runs_def();
+	def.has_room = true;
+	def.room_min = (carom_vec2){-half_width, -half_height};
+	def.room_max = (carom_vec2){half_width, half_height};
+	return def;
+}
+
+carom_world *runs_world(const carom_world_def *def, const scenery_device *device, const carom_body_def *bodies, size_t count)
+{
+	carom_world *world = scenery_world(def, device);
+	carom_error error;
+	if (world && count > 0)
+		scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);
+	return world;
+}
+
+queue *runs_queue(const carom_world_def *def, const carom_body_def *bodies, size_t count)
+{
+	carom_world_def numbers = *def;
+	numbers.pipeline.step = NULL; /* it is only asked for its bodies */
+	carom_world *world = runs_world(&numbers, &scenery_devices[0], bodies, count);
+	queue *q = queue_of(world);
+	carom_world_destroy(world);
+	return q;
+}
+
+carom_report runs_step(carom_world *world, uint64_t steps)
+{
+	carom_report report;
+	carom_error error;
+	scenery_check(carom_world_step(world, steps, &report, &error), &error);
+	return report;
+}
+
+carom_report runs_advance(carom_world *world, double seconds)
+{
+	carom_report report;
+	carom_error error;
+	scenery_check(carom_world_advance(world, seconds, &report, &error), &error);
+	return report;
+}
+
+carom_body_state runs_state(carom_world *world, uint32_t index)
+{
+	carom_body_state state;
+	carom_error error;
+	scenery_check(carom_world_get_states(world, index, 1, &state, &error), &error);
+	return state;
+}
+
+carom_measure runs_measure(carom_world *world)
+{
+	carom_measure measure;
+	carom_error error;
+	scenery_check(carom_world_measure(world, &measure, &error), &error);
+	return measure;
+}
+
+uint64_t runs_hash(carom_world *world)
+{
+	uint64_t hash;
+	carom_error error;
+	scenery_check(carom_world_hash(world, &hash, &error), &error);
+	return hash;
+}
+
+void runs_near(double found, double expected, double tolerance)
+{
+	if (!(fabs(found - expected) <= tolerance))
+		fail_msg("found %.9g, expected %.9g within %.2g", found, expected, tolerance);
+}
+
+void runs_same_hash(uint64_t *first, uint64_t hash, const scenery_device *device)
+{
+	if (*first && hash != *first)
+		fail_msg("%s%s: %016llx, before it was %016llx", device->name, device->storage == CAROM_STORAGE_IMAGE ? " images" : "",
+			(unsigned long long)hash, (unsigned long long)*first);
+	*first = hash;
+}
+
+uint64_t runs_affordable(uint64_t steps)
+{
+	const char *build = getenv("CAROM_BUILD");
+	return build && strstr(build, "sanitize") ? (steps + 9) / 10 : steps;
+}
+
+double runs_seconds(void)
+{
+	struct timespec now;
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}

@@ -1,0 +1,34 @@
+/* Worlds that run the step events, and what their tests ask of them.
+ * SPDX-License-Identifier: MIT */
+#ifndef CAROM_TESTS_RUNS_H
+#define CAROM_TESTS_RUNS_H
+
+#include "queue.h"
+#include "scenery.h"
+
+/* The default world with the step events. */
+carom_world_def runs_def(void);
+/* With a room about the origin. */
+carom_world_def runs_room(float half_width, float half_height);
+/* With these bodies; NULL where there is no such device. */
+carom_world *runs_world(const carom_world_def *def, const scenery_device *device, const carom_body_def *bodies, size_t count);
+/* The queue over the same world. */
+queue *runs_queue(const carom_world_def *def, const carom_body_def *bodies, size_t count);
+
+carom_report runs_step(carom_world *world, uint64_t steps);
+carom_report runs_advance(carom_world *world, double seconds);
+carom_body_state runs_state(carom_world *world, uint32_t index);
+carom_measure runs_measure(carom_world *world);
+uint64_t runs_hash(carom_world *world);
+
+void runs_near(double found, double expected, double tolerance);
+/* The same hash on every device: `first` is 0 before the first. */
+void runs_same_hash(uint64_t *first, uint64_t hash, const scenery_device *device);
+
+/* So many steps, or a tenth under the sanitizers, which are ten times slower. */
+uint64_t runs_affordable(uint64_t steps);
+
+/* Seconds on a clock on the wall. */
+double runs_seconds(void);
+
+#endif
