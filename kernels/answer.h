@@ -1,25 +1,25 @@
 /* The answer to one event: CONTRACT.md, "Answer". */
 
 /* Work of a body that no event has changed yet. */
-void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s)
+void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, int id)
 {
 	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE);
-	work_store(work, s, trajectory_start(slots, s));
-	work[WORK_WIDTH * s + WORK_NEXT] = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
-	work[WORK_WIDTH * s + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
-	members[MEMBER(s, MEMBER_EVENTS)] = members[MEMBER(s, MEMBER_WEIGHT)] = members[MEMBER(s, MEMBER_HITS)] = 0;
+	work_store(work, id, trajectory_start(slots, s));
+	work[WORK_WIDTH * id + WORK_NEXT] = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
+	work[WORK_WIDTH * id + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
+	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_WEIGHT)] = members[MEMBER(id, MEMBER_HITS)] = 0;
 }
 
 /* The box of the way grows by that to where the body would be at the step's end; false if it leaves its reach. */
-bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(need), int s, trajectory k, float length)
+bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(need), int s, int id, trajectory k, float length)
 {
 	body b = body_of(slots, s, k, length);
 	float rest = 1.0f - k.time, pad = ((0.125f * rest) * rest) * span(b.a) + (span(b.x) + b.radius) * (4.0f * SLOP);
 	float2 end = place(b.x, b.v, b.a, rest), at = (float2)(CHANNEL(SLOT_LOAD(slots, s, SLOT_PLACE), LINEAR_X), CHANNEL(SLOT_LOAD(slots, s, SLOT_PLACE), LINEAR_Y));
 	float2 low = (float2)(smaller(b.x.x, end.x) - pad, smaller(b.x.y, end.y) - pad), high = (float2)(larger(b.x.x, end.x) + pad, larger(b.x.y, end.y) + pad);
-	float4 box = work[WORK_WIDTH * s + WORK_BOX], most = reach[s];
+	float4 box = work[WORK_WIDTH * id + WORK_BOX], most = reach[s];
 	box = (float4)(smaller(box.x, low.x), smaller(box.y, low.y), larger(box.z, high.x), larger(box.w, high.y));
-	work[WORK_WIDTH * s + WORK_BOX] = box;
+	work[WORK_WIDTH * id + WORK_BOX] = box;
 	if (low.x - b.radius >= most.x && low.y - b.radius >= most.y && high.x + b.radius <= most.z && high.y + b.radius <= most.w)
 		return true;
 	need[s] = as_int(larger(larger(at.x - low.x, high.x - at.x), larger(at.y - low.y, high.y - at.y)));
@@ -27,16 +27,16 @@ bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(nee
 }
 
 /* A party's new trajectory. `t` is the torque and (sign j) the impulse on it; both were told for a step of `length`. */
-trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, trajectory k, float4 j, float sign, float torque, float before, float restitution)
+trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque, float before, float restitution)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	int rapid = restitution < 1.0f && k.time - before < HOLD_GAP;
 	CHANNEL(k.place, LINEAR_VX) += (sign * CHANNEL(j, IMPULSE_X)) * CHANNEL(mass, MASS_INVERSE);
 	CHANNEL(k.place, LINEAR_VY) += (sign * CHANNEL(j, IMPULSE_Y)) * CHANNEL(mass, MASS_INVERSE);
 	k.velocity += torque * CHANNEL(mass, MASS_INVERSE_INERTIA);
-	members[MEMBER(s, MEMBER_EVENTS)]++;
-	members[MEMBER(s, MEMBER_WEIGHT)] += rapid ? HOLD_RAPID : 1;
-	if (members[MEMBER(s, MEMBER_WEIGHT)] > HOLD_LIMIT)
+	members[MEMBER(id, MEMBER_EVENTS)]++;
+	members[MEMBER(id, MEMBER_WEIGHT)] += rapid ? HOLD_RAPID : 1;
+	if (members[MEMBER(id, MEMBER_WEIGHT)] > HOLD_LIMIT)
 		k.held = 1.0f;
 	return k;
 }
@@ -47,14 +47,14 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 	return !(k.held > 0.0f) && !slot_is_static(slots, s);
 }
 
-/* Answers the event `next` of member s; false if a body leaves its reach. */
+/* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. False if a body leaves its reach. */
 bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need), float4 rules,
-	int s, float4 next, float length)
+	int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER);
 	float u = CHANNEL(next, NEXT_TIME), total, restitution;
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
-	trajectory k = work_load(work, s), o = k, was = k, other_was = k;
+	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
 	float4 j;
 	k = moved(slots, s, k, u, length);
 	body b = body_of(slots, s, k, length);
@@ -62,23 +62,23 @@ bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reac
 		restitution = larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION));
 		j = wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, restitution, length, &total);
 	} else {
-		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other);
+		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
 		o = moved(slots, other, o, u, length);
 		body c = body_of(slots, other, o, length);
 		restitution = larger(b.restitution, c.restitution);
 		j = first ? pair_push(TEX(vertices), b, c, 0.0f, length, &total) : pair_push(TEX(vertices), c, b, 0.0f, length, &total);
 	}
 	if (total > 0.0f)
-		members[MEMBER(s, MEMBER_HITS)]++;
+		members[MEMBER(id, MEMBER_HITS)]++;
 	if (can_change(slots, s, was)) {
-		k = pushed(slots, members, s, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), was.time, restitution);
-		work_store(work, s, k);
-		stays = way_grow(slots, reach, work, need, s, k, length);
+		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), was.time, restitution);
+		work_store(work, id, k);
+		stays = way_grow(slots, reach, work, need, s, id, k, length);
 	}
 	if (!wall && can_change(slots, other, other_was)) {
-		o = pushed(slots, members, other, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A), other_was.time, restitution);
-		work_store(work, other, o);
-		stays = way_grow(slots, reach, work, need, other, o, length) && stays;
+		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A), other_was.time, restitution);
+		work_store(work, other_id, o);
+		stays = way_grow(slots, reach, work, need, other, other_id, o, length) && stays;
 	}
 	return stays;
 }

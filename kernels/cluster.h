@@ -89,14 +89,17 @@ void unite(LIST_OUT(members), int a, int b)
 	}
 }
 
-/* The body is one of those that events change in this step. */
+/* A number for a body of which events change something. Whoever comes second loses the number, and nobody knows of it. */
 void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int s, int round)
 {
-	if (atomic_cmpxchg(&owners[s], -1, s) != -1)
+	if (int_load(owners, s) >= 0)
 		return;
-	atomic_xchg(&members[MEMBER(s, MEMBER_ROUND)], round);
-	active[atomic_inc(&status[STATUS_ACTIVE])] = s;
-	if (int_load(status, STATUS_ROUND) < round)
+	int id = atomic_inc(&status[STATUS_ACTIVE]);
+	bool first = atomic_cmpxchg(&owners[s], -1, id) == -1;
+	active[id] = first ? s : -1;
+	members[MEMBER(id, MEMBER_OWNER)] = id;
+	members[MEMBER(id, MEMBER_ROUND)] = first ? round : 0;
+	if (first && int_load(status, STATUS_ROUND) < round)
 		atomic_max(&status[STATUS_ROUND], round);
 }
 

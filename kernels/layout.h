@@ -147,7 +147,10 @@
 
 /* Reach: a record a slot, the box (AABB's channels) that the body does not leave while the lists of neighbours are good */
 
-/* Work: four records a slot, of bodies that an event changed in this step */
+/* Bodies that events change in a step get numbers, one after the other, by which Active has their slots, Owners their slots' numbers, and Work and
+ * Members what is known of them: few lines of memory, used again and again. */
+
+/* Work: four records a number */
 #define WORK_WIDTH 4
 #define WORK_PLACE 0 /* record: as SLOT_PLACE, at WORK_TIME */
 #define WORK_TURN 1 /* record */
@@ -162,9 +165,10 @@
 #define NEXT_PARTNER 3 /* its slot, or -1 - wall */
 #define WORK_BOX 3 /* record: AABB's channels, of all the way in this step */
 
-/* Members: twelve ints a slot */
+/* Members: twelve ints a number */
 #define MEMBER_WIDTH 12
-#define MEMBER_PARENT 0 /* union-find over slots: clusters that meet are one */
+#define MEMBER_PARENT 0 /* union-find: clusters that meet are one */
+#define MEMBER_OWNER 1  /* number of the cluster's leader */
 #define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
 #define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
 #define MEMBER_EVENTS 4 /* of the body in this step */
@@ -173,7 +177,7 @@
 #define MEMBER_HITS 8   /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
 
-/* Owners: one int a slot: the cluster (slot of its leader) that may change the body, -1 for none. By itself, since neighbours are asked for it. */
+/* Owners: the number of the body in the slot, -1 for none; Active: the slot of the number, -1 for none */
 
 /* Spans: four ints a slot */
 #define SPAN_WIDTH 4
@@ -202,7 +206,7 @@
 #define STATUS_COMMIT 3     /* 1: the step is done */
 #define STATUS_LEFT 4       /* 1: a body would leave its reach: the step begins again, with other lists */
 #define STATUS_ROUND 5      /* the last round that has clusters to do; rounds are numbered on and on */
-#define STATUS_ACTIVE 6     /* slots in Active */
+#define STATUS_ACTIVE 6     /* numbers given */
 #define STATUS_SEEDS 7      /* of these when the round began */
 #define STATUS_HITS 8       /* of the step */
 #define STATUS_HELD 9       /* bodies, of the step */

@@ -1,10 +1,13 @@
 /* The queue of events of one cluster, run by one work-item. */
 
-/* The trajectory of a neighbour, as a cluster sees it: of its own members as it is now, of all others as the step began. */
-trajectory trajectory_seen(RECORD_IN(slots), LIST_IN(owners), RECORD_OUT(work), int other, int leader)
+/* The trajectory of a neighbour, as a cluster sees it: of its own members as it is now, of all others as the step began. *id: its number, -1
+ * where it is no member. */
+trajectory trajectory_seen(RECORD_IN(slots), LIST_OUT(members), LIST_IN(owners), RECORD_OUT(work), int other, int leader, int *id)
 {
-	if (owners[other] == leader) /* nobody else writes or takes away that */
-		return work_load(work, other);
+	*id = owners[other];
+	if (*id >= 0 && members[MEMBER(*id, MEMBER_OWNER)] == leader) /* nobody else writes or takes away that */
+		return work_load(work, *id);
+	*id = -1;
 	return trajectory_start(slots, other);
 }
 
@@ -13,20 +16,19 @@ disc disc_of_trajectory(RECORD_IN(slots), int s, trajectory k, float length)
 	return disc_of(slots, s, k.place, k.time, k.held > 0.0f, length);
 }
 
-/* The first event of member s, by what is known now. */
-void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int s,
-	int leader, float length)
+/* The first event of a member, by what is known now. */
+void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader, float length)
 {
-	trajectory k = work_load(work, s);
+	int s = active[id], wall, body_index = slot_body(slots, s), seen = 0;
+	trajectory k = work_load(work, id);
 	disc disc_k = disc_of_trajectory(slots, s, k, length);
-	int wall, body_index = slot_body(slots, s);
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall);
 	if (t <= 1.0f)
 		first = (float4)(t, (float)body_index, -1.0f - (float)wall, -1.0f - (float)wall);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_END)]; i++) {
-		int other = neighbours[i];
-		trajectory o = trajectory_seen(slots, owners, work, other, leader);
+		int other = neighbours[i], other_id;
+		trajectory o = trajectory_seen(slots, members, owners, work, other, leader, &other_id);
 		if (stay_apart(disc_k, disc_of_trajectory(slots, other, o, length)))
 			continue;
 		t = pair_time(TEX(vertices), slots, rules, s, k, other, o, length);
@@ -34,13 +36,13 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 			continue;
 		int partner = slot_body(slots, other);
 		float4 next = (float4)(t, (float)max(body_index, partner), (float)min(body_index, partner), (float)other);
-		if (event_before(next, first))
+		if (event_before(next, first)) {
 			first = next;
+			seen = other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
+		}
 	}
-	work[WORK_WIDTH * s + WORK_NEXT] = first;
-	int other = (int)CHANNEL(first, NEXT_PARTNER);
-	members[MEMBER(s, MEMBER_SEEN)] = CHANNEL(first, NEXT_TIME) <= 1.0f && other >= 0 && owners[other] == leader
-		? members[MEMBER(other, MEMBER_EVENTS)] : 0;
+	work[WORK_WIDTH * id + WORK_NEXT] = first;
+	members[MEMBER(id, MEMBER_SEEN)] = seen;
 }
 
 /* The member whose event is first. */
@@ -53,17 +55,23 @@ int first_member(LIST_OUT(members), RECORD_OUT(work), int head)
 	return who;
 }
 
-/* The cluster owns the body from now on, if nobody else does. It comes second in the list, so that the head stays. */
-bool claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), int s, int leader, int head)
+/* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
+int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), int s, int leader, int head)
 {
-	if (atomic_cmpxchg(&owners[s], -1, leader) != -1)
-		return false;
-	atomic_xchg(&members[MEMBER(s, MEMBER_PARENT)], leader);
-	work_begin(slots, members, work, s);
-	members[MEMBER(s, MEMBER_LINK)] = members[MEMBER(head, MEMBER_LINK)];
-	members[MEMBER(head, MEMBER_LINK)] = s;
-	active[atomic_inc(&status[STATUS_ACTIVE])] = s;
-	return true;
+	int id = atomic_inc(&status[STATUS_ACTIVE]);
+	active[id] = s;
+	members[MEMBER(id, MEMBER_OWNER)] = leader;
+	members[MEMBER(id, MEMBER_PARENT)] = leader;
+	work_begin(slots, members, work, s, id);
+	mem_fence(CLK_GLOBAL_MEM_FENCE);
+	if (atomic_cmpxchg(&owners[s], -1, id) != -1) {
+		active[id] = -1;
+		member_reset(members, id);
+		return -1;
+	}
+	members[MEMBER(id, MEMBER_LINK)] = members[MEMBER(head, MEMBER_LINK)];
+	members[MEMBER(head, MEMBER_LINK)] = id;
+	return id;
 }
 
 /* Adds up what a finished cluster did; of one that is given up nothing counts. */
@@ -94,40 +102,44 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
 		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length);
 	for (;;) {
-		int s = first_member(members, work, head);
-		float4 next = work[WORK_WIDTH * s + WORK_NEXT];
+		int id = first_member(members, work, head), other_id = -1;
+		float4 next = work[WORK_WIDTH * id + WORK_NEXT];
 		int other = (int)CHANNEL(next, NEXT_PARTNER);
 		finished = !(CHANNEL(next, NEXT_TIME) <= 1.0f);
 		if (finished)
 			break;
 		if (other >= 0 && !slot_is_static(slots, other)) {
-			int owner = int_load(owners, other);
-			if (owner == leader && members[MEMBER(other, MEMBER_EVENTS)] != members[MEMBER(s, MEMBER_SEEN)]) {
-				look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, s, leader, length);
-				continue;
-			}
-			if (owner != leader && !claim(slots, status, members, active, work, owners, other, leader, head)) {
-				conflict(status, members, leader, int_load(owners, other), round);
+			other_id = int_load(owners, other);
+			if (other_id < 0)
+				other_id = claim(slots, status, members, active, work, owners, other, leader, head);
+			if (other_id < 0 || int_load(members, MEMBER(other_id, MEMBER_OWNER)) != leader) {
+				other_id = int_load(owners, other);
+				conflict(status, members, leader, int_load(members, MEMBER(other_id, MEMBER_OWNER)), round);
 				break;
 			}
+			if (members[MEMBER(other_id, MEMBER_EVENTS)] != members[MEMBER(id, MEMBER_SEEN)]) {
+				look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+				continue;
+			}
 		}
-		if (!answer(TEX(vertices), TEX(uniforms), slots, reach, members, work, need, rules, s, next, length)) {
+		if (!answer(TEX(vertices), TEX(uniforms), slots, reach, members, work, need, rules, active[id], id, other_id, next, length)) {
 			atomic_or(&status[STATUS_LEFT], 1);
 			break;
 		}
-		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, s, leader, length);
-		if (other >= 0 && !slot_is_static(slots, other))
-			look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, other, leader, length);
+		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+		if (other_id >= 0)
+			look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, other_id, leader, length);
 	}
 	cluster_count(status, members, work, head, finished);
 }
 
 /* Do two changed bodies of different clusters get in each other's way? */
-bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int other, float length)
+bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id, int other, int other_id,
+	float length)
 {
-	trajectory k = work_load(work, s), o = work_load(work, other);
-	if (members[MEMBER(s, MEMBER_EVENTS)] > 1 || members[MEMBER(other, MEMBER_EVENTS)] > 1) {
-		float4 a = work[WORK_WIDTH * s + WORK_BOX], b = work[WORK_WIDTH * other + WORK_BOX];
+	trajectory k = work_load(work, id), o = work_load(work, other_id);
+	if (members[MEMBER(id, MEMBER_EVENTS)] > 1 || members[MEMBER(other_id, MEMBER_EVENTS)] > 1) {
+		float4 a = work[WORK_WIDTH * id + WORK_BOX], b = work[WORK_WIDTH * other_id + WORK_BOX];
 		float reach = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
 		return !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y);
 	}

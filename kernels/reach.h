@@ -88,11 +88,11 @@ int cell_index(int2 cell, int level, int columns, int rows)
 	return ((cell.y + 7 * level) & (rows - 1)) * columns + ((cell.x + 11 * level) & (columns - 1));
 }
 
-void member_reset(LIST_OUT(members), int s)
+void member_reset(LIST_OUT(members), int id)
 {
-	__global int *m = members + MEMBER(s, 0);
-	m[MEMBER_PARENT] = s;
-	m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
+	__global int *m = members + MEMBER(id, 0);
+	m[MEMBER_PARENT] = id;
+	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
 	m[MEMBER_EVENTS] = m[MEMBER_WEIGHT] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
 }
 

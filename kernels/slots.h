@@ -1,7 +1,7 @@
 /* Bodies in slots, and their trajectories: CONTRACT.md, "The step events". */
 
 #define SLOT_LOAD(slots, s, record) ((slots)[SLOT_WIDTH * (s) + (record)])
-#define MEMBER(s, field) (MEMBER_WIDTH * (s) + (field))
+#define MEMBER(id, field) (MEMBER_WIDTH * (id) + (field))
 #define SPAN(s, field) (SPAN_WIDTH * (s) + (field))
 
 /* How a body moves from `time` on. */
@@ -23,11 +23,11 @@ INLINE trajectory trajectory_start(RECORD_IN(slots), int s)
 	return k;
 }
 
-trajectory work_load(__global const float4 *work, int s)
+trajectory work_load(__global const float4 *work, int id)
 {
-	float4 turn_record = work[WORK_WIDTH * s + WORK_TURN];
+	float4 turn_record = work[WORK_WIDTH * id + WORK_TURN];
 	trajectory k;
-	k.place = work[WORK_WIDTH * s + WORK_PLACE];
+	k.place = work[WORK_WIDTH * id + WORK_PLACE];
 	k.angle = CHANNEL(turn_record, WORK_ANGLE);
 	k.velocity = CHANNEL(turn_record, WORK_VELOCITY);
 	k.time = CHANNEL(turn_record, WORK_TIME);
@@ -35,10 +35,10 @@ trajectory work_load(__global const float4 *work, int s)
 	return k;
 }
 
-void work_store(__global float4 *work, int s, trajectory k)
+void work_store(__global float4 *work, int id, trajectory k)
 {
-	work[WORK_WIDTH * s + WORK_PLACE] = k.place;
-	work[WORK_WIDTH * s + WORK_TURN] = (float4)(k.angle, k.velocity, k.time, k.held);
+	work[WORK_WIDTH * id + WORK_PLACE] = k.place;
+	work[WORK_WIDTH * id + WORK_TURN] = (float4)(k.angle, k.velocity, k.time, k.held);
 }
 
 INLINE bool slot_is_static(RECORD_IN(slots), int s)

@@ -24,30 +24,28 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 		if (other_changes)
 			activate(status, members, active, owners, other, domain.z);
 		if (changes && other_changes)
-			unite(members, s, other);
+			unite(members, int_load(owners, s), int_load(owners, other));
 	}
 }
 
-__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_OUT(owners),
-	int4 domain)
+__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), int4 domain)
 {
 	if (status[STATUS_ROUND] != domain.z)
 		return;
 	int count = status[STATUS_ACTIVE];
 	if (get_global_id(0) == 0)
 		status[STATUS_SEEDS] = count;
-	for (int i = get_global_id(0); i < count; i += domain.x) {
-		int s = active[i], owner = owners[s];
-		if (int_load(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
+	for (int id = get_global_id(0); id < count; id += domain.x) {
+		if (active[id] < 0 || members[MEMBER(members[MEMBER(id, MEMBER_OWNER)], MEMBER_ROUND)] != domain.z)
 			continue;
-		int root = find_root(members, s);
-		if (members[MEMBER(s, MEMBER_HITS)] > 0)
-			atomic_sub(&status[STATUS_HITS], members[MEMBER(s, MEMBER_HITS)]);
-		if (members[MEMBER(s, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * s + WORK_TURN], WORK_HELD) > 0.0f)
+		int root = find_root(members, id);
+		if (members[MEMBER(id, MEMBER_HITS)] > 0)
+			atomic_sub(&status[STATUS_HITS], members[MEMBER(id, MEMBER_HITS)]);
+		if (members[MEMBER(id, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * id + WORK_TURN], WORK_HELD) > 0.0f)
 			atomic_dec(&status[STATUS_HELD]);
-		work_begin(slots, members, work, s);
-		owners[s] = root;
-		members[MEMBER(s, MEMBER_LINK)] = atomic_xchg(&members[MEMBER(root, MEMBER_HEAD)], s);
+		work_begin(slots, members, work, active[id], id);
+		members[MEMBER(id, MEMBER_OWNER)] = root;
+		members[MEMBER(id, MEMBER_LINK)] = atomic_xchg(&members[MEMBER(root, MEMBER_HEAD)], id);
 	}
 }
 
@@ -58,12 +56,9 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 		return;
 	int seeds = status[STATUS_SEEDS];
 	float length = step_length(TEX(uniforms), TEX(clock));
-	for (int i = get_global_id(0); i < seeds; i += domain.x) {
-		int s = active[i];
-		if (int_load(members, MEMBER(s, MEMBER_HEAD)) < 0 || int_load(members, MEMBER(s, MEMBER_ROUND)) != domain.z)
-			continue;
-		cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, s, domain.z, length);
-	}
+	for (int id = get_global_id(0); id < seeds; id += domain.x)
+		if (int_load(members, MEMBER(id, MEMBER_HEAD)) >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
+			cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, id, domain.z, length);
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
@@ -75,16 +70,18 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 	int count = status[STATUS_ACTIVE];
 	float length = step_length(TEX(uniforms), TEX(clock));
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
-	for (int i = get_global_id(0); i < count; i += domain.x) {
-		int s = active[i], owner = owners[s];
-		if (members[MEMBER(s, MEMBER_EVENTS)] == 0 || int_load(members, MEMBER(owner, MEMBER_ROUND)) > domain.z)
+	for (int id = get_global_id(0); id < count; id += domain.x) {
+		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
+		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || int_load(members, MEMBER(owner, MEMBER_ROUND)) > domain.z)
 			continue;
 		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
-			int other = neighbours[k], theirs = owners[other];
-			if (theirs < 0 || theirs == owner || members[MEMBER(other, MEMBER_EVENTS)] == 0
-				|| int_load(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
+			int other = neighbours[k], other_id = owners[other];
+			if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
 				continue;
-			if (ways_meet(TEX(vertices), slots, members, work, rules, s, other, length))
+			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
+			if (theirs == owner || int_load(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
+				continue;
+			if (ways_meet(TEX(vertices), slots, members, work, rules, s, id, other, other_id, length))
 				conflict(status, members, owner, theirs, domain.z);
 		}
 	}

@@ -18,18 +18,18 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))
 		return;
-	bool changed = owners[s] >= 0;
+	int id = owners[s];
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	if (status[STATUS_COMMIT] && !slot_is_static(slots, s)) {
 		float4 constants = SLOT_LOAD(slots, s, SLOT_TURN);
-		trajectory k = moved(slots, s, changed ? work_load(work, s) : trajectory_start(slots, s), 1.0f, length);
+		trajectory k = moved(slots, s, id >= 0 ? work_load(work, id) : trajectory_start(slots, s), 1.0f, length);
 		slots[SLOT_WIDTH * s + SLOT_PLACE] = k.place;
 		slots[SLOT_WIDTH * s + SLOT_TURN] = (float4)(k.angle, k.velocity, CHANNEL(constants, TURN_RADIUS), CHANNEL(constants, TURN_RESTITUTION));
 		if (leaves_reach(TEX(uniforms), slots, status, reach[s], s, k.place))
 			atomic_or(&status[STATUS_STALE], 1);
 	}
-	if (changed) {
-		member_reset(members, s);
+	if (id >= 0) {
+		member_reset(members, id);
 		owners[s] = -1;
 	}
 }
