@@ -92,14 +92,14 @@ void unite(LIST_OUT(members), int a, int b)
 /* A number for a body of which events change something. Whoever comes second loses the number, and nobody knows of it. */
 void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int s, int round)
 {
-	if (int_load(owners, s) >= 0)
+	if (owners[s] >= 0)
 		return;
 	int id = atomic_inc(&status[STATUS_ACTIVE]);
 	bool first = atomic_cmpxchg(&owners[s], -1, id) == -1;
 	active[id] = first ? s : -1;
 	members[MEMBER(id, MEMBER_OWNER)] = id;
 	members[MEMBER(id, MEMBER_ROUND)] = first ? round : 0;
-	if (first && int_load(status, STATUS_ROUND) < round)
+	if (first && status[STATUS_ROUND] < round)
 		atomic_max(&status[STATUS_ROUND], round);
 }
 

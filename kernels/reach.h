@@ -22,7 +22,7 @@ void pace_choose(RECORD_IN(slots), int count, float window, LIST_OUT(status))
 	}
 	float many = n > 0 ? (float)n : 1.0f, speed = sqrt(square / many) + (push / many) * window;
 	float pace = larger(REACH_FACTOR * PACE_FACTOR * speed * window, 0.1f * (radius / many));
-	float side = 2.02f * ((radius / many) + larger(pace, REACH_FACTOR * CELL_FACTOR * speed * window));
+	float side = 1.01f * ((radius / many) + larger(pace, REACH_FACTOR * CELL_FACTOR * speed * window));
 	status[STATUS_PACE] = as_int(pace);
 	status[STATUS_CELL] = as_int(side > 0.0f && side < 1e30f ? side : 1.0f);
 	status[STATUS_WINDOW] = as_int(window);
@@ -60,12 +60,12 @@ float level_side(LIST_IN(status), int level)
 	return as_float(status[STATUS_CELL]) * (float)(1 << level);
 }
 
-/* The level whose cells are at least as large as twice what the box extends from its place. */
+/* The level whose cells are at least as large as what the box extends from its place. */
 int reach_level(float4 box, float4 at, float side)
 {
 	float half_size = larger(larger(at.x - box.x, box.z - at.x), larger(at.y - box.y, box.w - at.y));
 	int level = 0;
-	while (level < CELL_LEVELS - 1 && side < 2.0f * half_size) {
+	while (level < CELL_LEVELS - 1 && side < half_size) {
 		side *= 2.0f;
 		level++;
 	}
@@ -167,8 +167,8 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
 			continue;
 		float side = level_side(status, level);
-		int2 low = cell_of((float2)(box.x - 0.5f * side, box.y - 0.5f * side), side);
-		int2 high = cell_of((float2)(box.z + 0.5f * side, box.w + 0.5f * side), side);
+		int2 low = cell_of((float2)(box.x - side, box.y - side), side);
+		int2 high = cell_of((float2)(box.z + side, box.w + side), side);
 		for (int y = low.y; y <= high.y; y++) {
 			int first = cell_index((int2)(low.x, y), level, columns, rows), last = cell_index((int2)(high.x, y), level, columns, rows);
 			int row = first - (first & (columns - 1));

@@ -137,7 +137,7 @@ static void begin(queue_body *k, double length)
 	k->at.ay = k->push[1] * length * length;
 	k->at.b = k->push[2] * length * length;
 	k->time = 0.0;
-	k->weight = 0;
+	k->events = k->weight = 0;
 	k->held = false;
 }
 
@@ -285,6 +285,7 @@ static void weigh(queue *q, queue_body *k, double since, double restitution)
 {
 	if (!k || is_still(k))
 		return;
+	k->events++;
 	k->weight += restitution < 1.0 && since < (double)HOLD_GAP ? HOLD_RAPID : 1;
 	if (k->weight > HOLD_LIMIT) {
 		k->held = true;

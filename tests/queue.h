@@ -12,7 +12,8 @@ typedef struct queue_body {
 	double push[3];    /* m/s^2, m/s^2, rad/s^2 */
 	double inverse_mass, inverse_inertia, restitution;
 	double time;       /* part of the step */
-	uint32_t weight;   /* of its events, against HOLD_LIMIT */
+	uint32_t events;   /* of this step */
+	uint32_t weight;   /* of these, against HOLD_LIMIT */
 	bool held;
 } queue_body;
 

@@ -6,8 +6,6 @@
 
 #include "layout.h"
 
-#define LEAST_WAY 1e-7 /* m: a search goes on by this at least, so that what is grazed less deep may be overlooked */
-
 typedef double corners[CAROM_MAX_VERTICES][2];
 
 typedef struct face {
@@ -208,10 +206,15 @@ static double wall_gap(const exact_body *k, const touch_room *room, int wall, do
 	return n * (wall % 2 ? moved.y : moved.x) + low - offset - k->radius;
 }
 
+static double wall_slop(const exact_body *k)
+{
+	return (fmax(fabs(k->x), fabs(k->y)) + k->bound) * (double)SLOP;
+}
+
 touch touch_wall(const exact_body *k, const touch_room *room, int wall)
 {
 	static const exact_body still;
-	const double slop = (fmax(fabs(k->x), fabs(k->y)) + k->bound) * (double)SLOP, gap = wall_gap(k, room, wall, 0.0);
+	const double slop = wall_slop(k), gap = wall_gap(k, room, wall, 0.0);
 	touch t = {.count = k->count == 1 ? 1 : 0};
 	int ends[2] = {-1, -1};
 	corners at;
@@ -238,6 +241,7 @@ typedef struct search {
 	const touch_room *room; /* NULL: a and b; else a and the wall */
 	int wall;
 	double fastest, stillness;
+	double slop, creep; /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less */
 } search;
 
 double touch_stillness(const exact_body *a, const exact_body *b)
@@ -250,6 +254,14 @@ double touch_stillness(const exact_body *a, const exact_body *b)
 		sum += fabs(k->vx) + fabs(k->vy) + fabs(k->ax) + fabs(k->ay) + (fabs(k->w) + fabs(k->b)) * k->bound;
 	}
 	return sum * (double)APPROACH;
+}
+
+static search search_of(const exact_body *a, const exact_body *b, const touch_room *room, int wall)
+{
+	static const exact_body still = {.count = 1};
+	search s = {a, b, room, wall, exact_fastest(a, b ? b : &still), touch_stillness(a, b), b ? slop_of(a, b) : wall_slop(a), 0.0};
+	s.creep = fmin((double)CREEP_MOST, fmax(s.slop * (double)APPROACH / s.stillness, (double)CREEP_LEAST));
+	return s;
 }
 
 static double gap_of(const search *s, double t)
@@ -292,7 +304,8 @@ static double bisect(const search *s, double low, double high)
 	return high;
 }
 
-/* Nobody moves faster than `fastest`, so that no sample can be beyond a contact by more than LEAST_WAY. */
+/* Nobody moves faster than `fastest`, so that no sample can be beyond a contact by more than a creep: what is grazed less deep than
+ * the slop may be overlooked. */
 static double walk(const search *s, double end)
 {
 	double before = 0.0, t = 0.0;
@@ -305,7 +318,7 @@ static double walk(const search *s, double end)
 			return INFINITY;
 		apart = gap > 0.0;
 		before = t;
-		t = fmin(end, t + fmax(gap, LEAST_WAY) / s->fastest);
+		t = fmin(end, t + fmax(gap / s->fastest, gap > 0.25 * s->slop ? 0.0 : s->creep));
 	}
 }
 
@@ -325,7 +338,7 @@ static double circles_time(const search *s, double end)
 
 double touch_pair_time(const exact_body *a, const exact_body *b, double end)
 {
-	const search s = {a, b, NULL, 0, exact_fastest(a, b), touch_stillness(a, b)};
+	const search s = search_of(a, b, NULL, 0);
 	const double apart = hypot(b->x - a->x, b->y - a->y) - a->bound - b->bound;
 	if (apart > end * s.fastest)
 		return INFINITY;
@@ -344,10 +357,9 @@ static double fall_time(double gap, double rate, double push)
 
 double touch_wall_time(const exact_body *k, const touch_room *room, int wall, double end)
 {
-	static const exact_body still = {.count = 1};
 	const double n = wall < 2 ? 1.0 : -1.0, rate = n * (wall % 2 ? k->vy : k->vx), push = n * (wall % 2 ? k->ay : k->ax);
 	const double centre = n * ((wall % 2 ? k->y : k->x) - (wall < 2 ? room->min[wall] : room->max[wall - 2]));
-	const search s = {k, NULL, room, wall, exact_fastest(k, &still), touch_stillness(k, NULL)};
+	const search s = search_of(k, NULL, room, wall);
 	if (centre - k->bound > s.fastest * end)
 		return INFINITY;
 	if (k->count > 1)

@@ -14,7 +14,7 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 		activate(status, members, active, owners, s, domain.z);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
 		int other = neighbours[i];
-		if (stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
+		if (boxes_apart(disc_k, slots, other, length) || stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
 			continue;
 		if (!(pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length) <= 1.0f))
 			continue;
@@ -52,12 +52,12 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
 	LIST_OUT(need), LIST_OUT(owners), int4 domain)
 {
-	if (int_load(status, STATUS_ROUND) < domain.z)
+	if (status[STATUS_ROUND] < domain.z)
 		return;
 	int seeds = status[STATUS_SEEDS];
 	float length = step_length(TEX(uniforms), TEX(clock));
 	for (int id = get_global_id(0); id < seeds; id += domain.x)
-		if (int_load(members, MEMBER(id, MEMBER_HEAD)) >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
+		if (members[MEMBER(id, MEMBER_HEAD)] >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
 			cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, id, domain.z, length);
 }
 
@@ -65,21 +65,21 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work),
 	LIST_IN(owners), int4 domain)
 {
-	if (int_load(status, STATUS_ROUND) < domain.z)
+	if (status[STATUS_ROUND] < domain.z)
 		return;
 	int count = status[STATUS_ACTIVE];
 	float length = step_length(TEX(uniforms), TEX(clock));
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	for (int id = get_global_id(0); id < count; id += domain.x) {
 		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
-		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || int_load(members, MEMBER(owner, MEMBER_ROUND)) > domain.z)
+		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || members[MEMBER(owner, MEMBER_ROUND)] > domain.z)
 			continue;
 		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
 			int other = neighbours[k], other_id = owners[other];
 			if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
 				continue;
 			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
-			if (theirs == owner || int_load(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
+			if (theirs == owner || members[MEMBER(theirs, MEMBER_ROUND)] > domain.z)
 				continue;
 			if (ways_meet(TEX(vertices), slots, members, work, rules, s, id, other, other_id, length))
 				conflict(status, members, owner, theirs, domain.z);
