@@ -12,6 +12,9 @@
 /* Pixels: the sides of what is drawn at once. A whole number of tiles, and images as large are to be had everywhere. */
 #define BLOCK 4096
 
+/* Of all layers: their indices are floats. There are fewer vertices and shapes. */
+#define MOST_EDGES (1ul << 24)
+
 #define TRY(call)                      \
 	do {                               \
 		carom_status status_ = (call); \
@@ -47,6 +50,9 @@ static carom_status draw_layers(carom_world *world, const carom_picture *picture
 		most_shapes += picture->layers[i].mark_count + world->canvas.shapes;
 		most_edges += LINE_EDGES * picture->layers[i].mark_count + world->canvas.edges;
 	}
+	if (most_edges > MOST_EDGES)
+		return carom_fail(error, CAROM_LIMIT, "a picture of %zu bodies has %llu edges%s: there can be %lu at most", world->body_count,
+			(unsigned long long)most_edges, picture->layer_count > 1 ? ", with its inset" : "", MOST_EDGES);
 	TRY(carom_canvas_hold(world, ROLE_SHAPES, SHAPES_WIDTH * most_shapes, error));
 	TRY(carom_canvas_hold(world, ROLE_EDGES, most_edges, error));
 	for (size_t i = 0; i < picture->layer_count; i++)

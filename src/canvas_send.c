@@ -22,6 +22,13 @@ int32_t carom_parts_of(uint32_t whole, uint32_t part)
 	return (int32_t)((whole + part - 1) / part);
 }
 
+/* Whole rows, and an eighth more than what is asked for at most: of a million bodies the shapes alone take 100 MiB. */
+static uint32_t room_for(uint64_t items)
+{
+	const uint32_t capacity = carom_capacity((size_t)items), part = capacity / 16;
+	return part < ROW_SIZE ? capacity : ((uint32_t)items + part - 1) / part * part;
+}
+
 carom_status carom_canvas_hold(carom_world *world, carom_role role, uint64_t items, carom_error *error)
 {
 	static const float zero[4] = {0};
@@ -31,7 +38,7 @@ carom_status carom_canvas_hold(carom_world *world, carom_role role, uint64_t ite
 	if (items > 1u << 30)
 		return carom_fail(
 			error, CAROM_LIMIT, "the picture needs a texture of %llu texels: draw a smaller one", (unsigned long long)items);
-	room = carom_capacity((size_t)items);
+	room = room_for(items);
 	carom_textures_drop(world, role);
 	world->canvas.room[role] = 0;
 	TRY(carom_textures_create(world, role, false, carom_row_width(room), carom_row_count(room), zero, error));

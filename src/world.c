@@ -8,6 +8,7 @@
 #include "status.h"
 
 #define MAX_BODIES (1u << 22) /* body indices and counts are exact as floats, and to spare */
+#define MAX_VERTICES (6u << 22) /* of polygons: with those of circles they take 2^24 texels at most, and so do the indices of these */
 
 void *carom_array_grow(carom_array *array, size_t size)
 {
@@ -65,6 +66,14 @@ static const carom_step *step_named(const char *name)
 	return NULL;
 }
 
+/* The names given may be gone tomorrow; those of the pipeline as resolved stay. */
+static void keep_names(carom_pipeline *given, const carom_pipeline *resolved)
+{
+	const char **names = (const char **)(void *)given, *const *known = (const char *const *)(const void *)resolved;
+	for (size_t i = 0; i < sizeof *given / sizeof *names; i++)
+		names[i] = names[i] ? known[i] : NULL;
+}
+
 carom_status carom_world_create(const carom_world_def *def, carom_world **world, carom_error *error)
 {
 	carom_device_def device_def = {.name = def->device, .storage = def->storage, .threads = def->threads, .profile = def->profile};
@@ -80,6 +89,7 @@ carom_status carom_world_create(const carom_world_def *def, carom_world **world,
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a world");
 	w->def = *def;
 	w->pipeline = device_def.pipeline;
+	keep_names(&w->def.pipeline, &w->pipeline);
 	w->step = step_named(w->pipeline.step);
 	w->host_current = true;
 	w->target = -1.0;
@@ -169,6 +179,8 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	if (outside_room(&world->def, def->position))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].position: (%g, %g) is outside the room", index, (double)def->position.x,
 			(double)def->position.y);
+	if (body.vertex_count > 1 && world->vertices.used / sizeof *vertices + body.vertex_count > MAX_VERTICES)
+		return carom_fail(error, CAROM_LIMIT, "bodies[%zu]: a world holds at most %u vertices of polygons", index, MAX_VERTICES);
 	if (!append_body(world, def, &body, vertices))
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for body %zu", index);
 	return CAROM_OK;

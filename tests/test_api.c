@@ -132,9 +132,10 @@ static void definitions_in_range(void **unused)
 {
 	(void)unused;
 	carom_world_def def = carom_default_world_def();
-	char device[] = "cpu";
+	char device[] = "cpu", aabb[] = "loose";
 	carom_error error;
 	def.device = device;
+	def.pipeline.aabb = aabb;
 	def.epsilon = 2.0f * FLT_EPSILON;
 	def.restitution = 0.0f;
 	def.room_min = (carom_vec2){NAN, 1.0f}; /* no room: not looked at */
@@ -142,9 +143,12 @@ static void definitions_in_range(void **unused)
 	for (int i = 0; i < 2; i++) {
 		carom_world *world = NULL;
 		device[0] = 'c';
+		aabb[0] = 'l';
 		scenery_check(carom_world_create(&def, &world, &error), &error);
-		device[0] = 'x';
+		device[0] = aabb[0] = 'x';
 		assert_string_equal(carom_world_get_def(world)->device, "cpu");
+		assert_string_equal(carom_world_get_def(world)->pipeline.aabb, "loose");
+		assert_null(carom_world_get_def(world)->pipeline.toi);
 		assert_true(carom_world_get_def(world)->time_step == 0.25f && carom_world_get_def(world)->epsilon == def.epsilon);
 		assert_true(carom_world_time(world) == 0.0 && carom_world_body_count(world) == 0);
 		carom_world_destroy(world);

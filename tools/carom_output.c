@@ -51,8 +51,8 @@ static carom_status prepare_pictures(struct run *run, carom_error *error)
 	run->render = carom_default_render_def();
 	if (options->size[0])
 		run->render.width = options->size[0], run->render.height = options->size[1];
-	run->render.has_camera = run->scene->has_camera;
-	run->render.camera = run->scene->camera;
+	run->render.has_camera = run->has_camera;
+	run->render.camera = run->camera;
 	run->render.has_inset = options->has_inset;
 	run->render.inset = options->inset;
 	run->pixels = malloc((size_t)run->render.width * run->render.height * 4);
@@ -146,7 +146,7 @@ int write_outputs(struct run *run)
 	if (options->png)
 		code = worse(code, tell(run, write_picture(run, options->png, &error), options->png, &error));
 	if (options->out) {
-		const carom_camera *camera = run->scene->has_camera ? &run->scene->camera : NULL;
+		const carom_camera *camera = run->has_camera ? &run->camera : NULL;
 		code = worse(code, tell(run, carom_world_write_scene(run->world, camera, options->out, &error), options->out, &error));
 	}
 	return code;

@@ -169,9 +169,10 @@ static int run_world(struct run *run)
 	return code == EXIT_DONE && run->options->hash ? print_hash(run) : code;
 }
 
+/* Destroys the scene, and that before the run: the world has what it needs, and of a million bodies two copies are enough. */
 static int run_scene(const struct run_options *options, carom_scene *scene)
 {
-	struct run run = {.options = options, .scene = scene};
+	struct run run = {.options = options, .has_camera = scene->has_camera, .camera = scene->camera};
 	const struct common_options *common = &options->common;
 	carom_error error;
 	int code;
@@ -182,6 +183,7 @@ static int run_scene(const struct run_options *options, carom_scene *scene)
 		say_scene(common, scene);
 		status = carom_scene_create_world(scene, &run.world, &error);
 	}
+	carom_scene_destroy(scene);
 	if (status == CAROM_OK) {
 		say_device(common, run.world);
 		say_recentred(common, run.world);
@@ -209,9 +211,7 @@ static int run_main(int argc, char **argv)
 		options.common.arguments[0] = path = "/dev/stdin";
 	if (carom_scene_read(path, &scene, &error) != CAROM_OK)
 		return report_input(&error);
-	code = run_scene(&options, scene);
-	carom_scene_destroy(scene);
-	return code;
+	return run_scene(&options, scene);
 }
 
 const struct command run_command = {

@@ -28,7 +28,8 @@ struct progress {
 
 struct run {
 	const struct run_options *options;
-	const carom_scene *scene;
+	bool has_camera; /* of the scene */
+	carom_camera camera;
 	carom_world *world;
 	carom_render_def render;
 	uint8_t *pixels;        /* NULL if no picture is asked for */
