@@ -335,10 +335,19 @@ static void close_device(carom_device *device)
 static const carom_device_class cl_class = {
 	close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush, read_profile, count_reads};
 
-static carom_status choose_storage(cl_device *d, carom_storage wanted, carom_error *error)
+/* On a CPU a texel of an image is a call out of line: there the step events, which is not the paper's, takes buffers by itself. */
+static bool prefers_buffers(const cl_device *d, const carom_device_def *def, cl_device_id device)
 {
-	d->base.storage = wanted == CAROM_STORAGE_BUFFER || !d->base.info.has_images ? CAROM_STORAGE_BUFFER : CAROM_STORAGE_IMAGE;
-	if (wanted == CAROM_STORAGE_IMAGE && !d->base.info.has_images)
+	cl_device_type type = 0;
+	d->cl.clGetDeviceInfo(device, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+	return def->storage == CAROM_STORAGE_AUTO && (type & CL_DEVICE_TYPE_CPU) && !strcmp(def->pipeline.step, "events");
+}
+
+static carom_status choose_storage(cl_device *d, const carom_device_def *def, cl_device_id device, carom_error *error)
+{
+	const bool buffers = def->storage == CAROM_STORAGE_BUFFER || !d->base.info.has_images || prefers_buffers(d, def, device);
+	d->base.storage = buffers ? CAROM_STORAGE_BUFFER : CAROM_STORAGE_IMAGE;
+	if (def->storage == CAROM_STORAGE_IMAGE && !d->base.info.has_images)
 		return carom_fail(error, CAROM_DEVICE, "the device '%s' has no images; use buffer storage", d->base.info.name);
 	return CAROM_OK;
 }
@@ -347,7 +356,7 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 {
 	cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)found->platform, 0};
 	cl_int code;
-	carom_status status = choose_storage(d, def->storage, error);
+	carom_status status = choose_storage(d, def, found->device, error);
 	if (status)
 		return status;
 	d->context = d->cl.clCreateContext(properties, 1, &found->device, NULL, NULL, &code);
