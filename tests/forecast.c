@@ -8,17 +8,19 @@
 #define SHAKE 1e-6      /* at first, of the numbers' size: CONTRACT's slop, by which hits may come early, and some ulp */
 #define ROUNDING 2.5e-7 /* in each step and each event: two units in the last place */
 #define FAR 1e-2        /* m: what is off by that much may as well hit something else */
-#define MARGIN 4.0      /* six runs show the width of what may happen, but not its end */
+#define MARGIN 3.0      /* six runs show the width of what may happen, but not its end */
 #define MOST_EVENTS 100000
 
 forecast forecast_of(queue *middle)
 {
+	middle->skin = 0.75;
 	forecast f = {.middle = middle, .sure = true, .random = {42}};
 	f.apart = calloc(middle->count, sizeof *f.apart);
 	f.doubtful = calloc(middle->count, sizeof *f.doubtful);
 	assert_true(f.apart && f.doubtful);
 	for (int i = 0; i < FORECAST_SHAKEN; i++) {
 		f.shaken[i] = queue_copy(middle);
+		f.shaken[i]->skin = (double)i / (FORECAST_SHAKEN - 1); /* a search may end anywhere within the slop */
 		queue_shake(f.shaken[i], &f.random, SHAKE);
 	}
 	return f;

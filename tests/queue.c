@@ -199,9 +199,9 @@ static double find(const queue *q, int row, int column)
 		return INFINITY;
 	const exact_body first = seen_at(a, from);
 	if (!b)
-		return from + touch_wall_time(&first, &q->room, -1 - column, 1.0 - from);
+		return from + touch_wall_time(&first, &q->room, -1 - column, q->skin, 1.0 - from);
 	const exact_body second = seen_at(b, from);
-	return from + touch_pair_time(&first, &second, 1.0 - from);
+	return from + touch_pair_time(&first, &second, q->skin, 1.0 - from);
 }
 
 static void look(queue *q, int body)

@@ -33,6 +33,7 @@ typedef struct queue {
 	size_t held;      /* bodies that were, in the last step */
 	scenery_random *shaken_by; /* NULL: nobody; else each event shakes its bodies by `rounding` */
 	double rounding;
+	double skin; /* part of CONTRACT's slop: what is nearer touches; 0 unless it is changed */
 } queue;
 
 /* The world's bodies as they are now. */

@@ -124,13 +124,13 @@ static void each_step_is_as_foretold(void **unused)
 			if (!world)
 				continue;
 			forecast f = forecast_of(runs_queue(&def, bodies, s->count));
-			for (uint64_t i = 0; i < runs_affordable(100); i++) {
+			for (uint64_t i = 0; i < runs_affordable(50); i++) {
 				forecast_follow(&f, world);
 				forecast_step(&f, (double)def.time_step);
 				check_step(&sum, &f, world, s, device);
 			}
 			report(&sum, s, device);
-			assert_true(sum.steps >= runs_affordable(20));
+			assert_true(sum.hits > 20);
 			forecast_destroy(&f);
 			carom_world_destroy(world);
 		}

@@ -241,7 +241,8 @@ typedef struct search {
 	const touch_room *room; /* NULL: a and b; else a and the wall */
 	int wall;
 	double fastest, stillness;
-	double slop, creep; /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less */
+	double slop, skin; /* m */
+	double creep; /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less */
 } search;
 
 double touch_stillness(const exact_body *a, const exact_body *b)
@@ -256,10 +257,11 @@ double touch_stillness(const exact_body *a, const exact_body *b)
 	return sum * (double)APPROACH;
 }
 
-static search search_of(const exact_body *a, const exact_body *b, const touch_room *room, int wall)
+static search search_of(const exact_body *a, const exact_body *b, const touch_room *room, int wall, double skin)
 {
 	static const exact_body still = {.count = 1};
-	search s = {a, b, room, wall, exact_fastest(a, b ? b : &still), touch_stillness(a, b), b ? slop_of(a, b) : wall_slop(a), 0.0};
+	search s = {a, b, room, wall, exact_fastest(a, b ? b : &still), touch_stillness(a, b), b ? slop_of(a, b) : wall_slop(a), 0.0, 0.0};
+	s.skin = skin * s.slop;
 	s.creep = fmin((double)CREEP_MOST, fmax(s.slop * (double)APPROACH / s.stillness, (double)CREEP_LEAST));
 	return s;
 }
@@ -267,11 +269,11 @@ static search search_of(const exact_body *a, const exact_body *b, const touch_ro
 static double gap_of(const search *s, double t)
 {
 	if (s->room)
-		return wall_gap(s->a, s->room, s->wall, t);
+		return wall_gap(s->a, s->room, s->wall, t) - s->skin;
 	const double x = s->b->x - s->a->x + t * (s->b->vx - s->a->vx + 0.5 * t * (s->b->ax - s->a->ax));
 	const double y = s->b->y - s->a->y + t * (s->b->vy - s->a->vy + 0.5 * t * (s->b->ay - s->a->ay));
 	const double apart = hypot(x, y) - s->a->bound - s->b->bound;
-	return apart > 0.05 * (s->a->bound + s->b->bound) ? apart : exact_distance(s->a, s->b, t);
+	return (apart > 0.05 * (s->a->bound + s->b->bound) ? apart : exact_distance(s->a, s->b, t)) - s->skin;
 }
 
 static bool approach(const search *s, double at)
@@ -336,11 +338,11 @@ static double circles_time(const search *s, double end)
 	return t <= end ? t : INFINITY;
 }
 
-double touch_pair_time(const exact_body *a, const exact_body *b, double end)
+double touch_pair_time(const exact_body *a, const exact_body *b, double skin, double end)
 {
-	const search s = search_of(a, b, NULL, 0);
+	const search s = search_of(a, b, NULL, 0, skin);
 	const double apart = hypot(b->x - a->x, b->y - a->y) - a->bound - b->bound;
-	if (apart > end * s.fastest)
+	if (apart > end * s.fastest + s.skin)
 		return INFINITY;
 	const bool straight = a->ax == b->ax && a->ay == b->ay;
 	return straight && a->count == 1 && b->count == 1 ? circles_time(&s, end) : walk(&s, end);
@@ -355,12 +357,12 @@ static double fall_time(double gap, double rate, double push)
 	return push < 0.0 ? (rate + sqrt(under)) / -push : INFINITY;
 }
 
-double touch_wall_time(const exact_body *k, const touch_room *room, int wall, double end)
+double touch_wall_time(const exact_body *k, const touch_room *room, int wall, double skin, double end)
 {
 	const double n = wall < 2 ? 1.0 : -1.0, rate = n * (wall % 2 ? k->vy : k->vx), push = n * (wall % 2 ? k->ay : k->ax);
 	const double centre = n * ((wall % 2 ? k->y : k->x) - (wall < 2 ? room->min[wall] : room->max[wall - 2]));
-	const search s = search_of(k, NULL, room, wall);
-	if (centre - k->bound > s.fastest * end)
+	const search s = search_of(k, NULL, room, wall, skin);
+	if (centre - k->bound > s.fastest * end + s.skin)
 		return INFINITY;
 	if (k->count > 1)
 		return walk(&s, end);

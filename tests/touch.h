@@ -32,8 +32,9 @@ touch touch_wall(const exact_body *k, const touch_room *room, int wall);
 /* The slowest approach that counts as one: CONTRACT's stillness, a rule and no rounding. */
 double touch_stillness(const exact_body *a, const exact_body *b);
 
-/* When they first touch and approach, from now to `end`; infinite if they don't. */
-double touch_pair_time(const exact_body *a, const exact_body *b, double end);
-double touch_wall_time(const exact_body *k, const touch_room *room, int wall, double end);
+/* When they first touch and approach, from now to `end`; infinite if they don't. What is nearer than `skin`, a part of CONTRACT's
+ * slop, touches, but for two circles in straight lines and a circle and a wall. */
+double touch_pair_time(const exact_body *a, const exact_body *b, double skin, double end);
+double touch_wall_time(const exact_body *k, const touch_room *room, int wall, double skin, double end);
 
 #endif
