@@ -154,12 +154,12 @@ carom_status carom_canvas_send_bodies(carom_world *world, carom_error *error)
 /* toCPU [3]: the state is read back, whether or not the host had it already, and sent. */
 carom_status carom_canvas_send_transforms(carom_world *world, carom_error *error)
 {
-	const uint32_t count = (uint32_t)world->body_count;
+	const uint32_t count = strcmp(world->pipeline.transforms, "to_cpu") ? 0 : (uint32_t)world->body_count;
 	const float *linear, *rotational;
 	float *texels;
 	carom_status status;
-	TRY(carom_canvas_hold(world, ROLE_TRANSFORMS, world->body_count, error));
-	if (strcmp(world->pipeline.transforms, "to_cpu") || !count)
+	TRY(carom_canvas_hold(world, ROLE_TRANSFORMS, count, error)); /* kernels have it as an argument, read or not */
+	if (!count)
 		return CAROM_OK;
 	world->host_current = false;
 	TRY(carom_textures_fetch(world, error));

@@ -2,8 +2,9 @@
  * SPDX-License-Identifier: MIT */
 #include "scene.h"
 
-#include <stdlib.h>
 #include <string.h>
+
+#define STATES_AT_ONCE 1024
 
 struct writer {
 	FILE *stream;
@@ -214,17 +215,23 @@ static void put_world(const struct writer *writer, const carom_camera *camera)
 	}
 }
 
-static carom_status put_bodies(
-	const struct writer *writer, const carom_world *world, const carom_body_state *states, size_t count, carom_error *error)
+static carom_status put_bodies(const struct writer *writer, carom_world *world, carom_error *error)
 {
+	const size_t count = carom_world_body_count(world);
+	carom_body_state states[STATES_AT_ONCE];
+	carom_status status = CAROM_OK;
 	fputs(",\n  \"bodies\": [", writer->stream);
 	for (size_t k = 0; k < count; k++) {
+		size_t left = count - k;
 		carom_body_info info;
-		carom_status status = carom_world_get_body(world, (uint32_t)k, &info, error);
+		if (k % STATES_AT_ONCE == 0)
+			status = carom_world_get_states(world, (uint32_t)k, left < STATES_AT_ONCE ? left : STATES_AT_ONCE, states, error);
+		if (status == CAROM_OK)
+			status = carom_world_get_body(world, (uint32_t)k, &info, error);
 		if (status != CAROM_OK)
 			return status;
 		fputs(k > 0 ? ",\n    " : "\n    ", writer->stream);
-		put_body(writer, &info, &states[k]);
+		put_body(writer, &info, &states[k % STATES_AT_ONCE]);
 	}
 	fputs("\n  ]\n}\n", writer->stream);
 	return CAROM_OK;
@@ -232,34 +239,18 @@ static carom_status put_bodies(
 
 carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error)
 {
-	carom_status status = CAROM_OK;
 	const carom_world_def defaults = carom_default_world_def();
 	carom_file *file = NULL;
-	carom_body_state *states = NULL;
 	if (!world || !path)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_world_write_scene: no world or no path");
 	struct writer writer = {NULL, carom_world_get_def(world), &defaults, carom_default_body_def()};
-	size_t count = carom_world_body_count(world);
-	states = malloc((count ? count : 1) * sizeof *states);
-	if (!states) {
-		status =
-			carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory for the states of %zu bodies", path, count);
-		goto done;
-	}
-	if (count > 0)
-		status = carom_world_get_states(world, 0, count, states, error);
-	if (status == CAROM_OK)
-		status = carom_file_create(path, &file, &writer.stream, error);
+	carom_status status = carom_file_create(path, &file, &writer.stream, error);
 	if (status != CAROM_OK)
-		goto done;
+		return status;
 	put_world(&writer, camera);
-	status = put_bodies(&writer, world, states, count, error);
-	if (status != CAROM_OK)
-		goto done;
-	status = carom_file_commit(file, error);
-	file = NULL;
-done:
+	status = put_bodies(&writer, world, error);
+	if (status == CAROM_OK)
+		return carom_file_commit(file, error);
 	carom_file_destroy(file);
-	free(states);
 	return status;
 }
