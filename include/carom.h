@@ -230,7 +230,8 @@ CAROM_API carom_status carom_world_create(const carom_world_def *def, carom_worl
 CAROM_API void carom_world_destroy(carom_world *world);
 
 /* Adds `count` bodies, all or none; *first (may be NULL) becomes the index of the first, the others follow it.
- * CAROM_INVALID_ARGUMENT names the body (as `bodies[k]`, k from 0 in `defs`) and the field. */
+ * CAROM_INVALID_ARGUMENT names the body (as `bodies[k]`, k from 0 in `defs`) and the field. CAROM_LIMIT: a world holds
+ * 4,194,304 bodies and 25,165,824 vertices of polygons at most. */
 CAROM_API carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error);
 
 CAROM_API size_t carom_world_body_count(const carom_world *world);
@@ -275,7 +276,8 @@ CAROM_API double carom_world_time(const carom_world *world);
 CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 /* The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
-/* Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes on its device. */
+/* Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes on its device. Pictures come on top
+ * from the first one on: about 300 bytes a circle, or 100 a polygon and 50 a vertex of it. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
 
 /* What a kernel took since the world was created: by OpenCL's profiling events, or the wall clock on the CPU fallback. */
@@ -350,7 +352,8 @@ typedef struct carom_render_def {
 } carom_render_def;
 
 CAROM_API carom_render_def carom_default_render_def(void);
-/* Draws the present state into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. */
+/* Draws the present state into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. CAROM_LIMIT:
+ * there can be 2^24 edges in a picture, of which a circle has five; with an inset all count twice. */
 CAROM_API carom_status carom_world_render(carom_world *world, const carom_render_def *def, uint8_t *pixels, carom_error *error);
 /* Writes RGBA pixels, rows from the top, as a PNG file; whole or not at all. */
 CAROM_API carom_status carom_png_write(const char *path, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error);
