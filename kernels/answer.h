@@ -7,7 +7,7 @@ void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, in
 	work_store(work, id, trajectory_start(slots, s));
 	work[WORK_WIDTH * id + WORK_NEXT] = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	work[WORK_WIDTH * id + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
-	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_WEIGHT)] = members[MEMBER(id, MEMBER_HITS)] = 0;
+	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_HITS)] = 0;
 }
 
 /* The box of the way grows by that to where the body would be at the step's end; false if it leaves its reach. */
@@ -26,25 +26,34 @@ bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(nee
 	return false;
 }
 
-/* A party's new trajectory. `t` is the torque and (sign j) the impulse on it; both were told for a step of `length`. */
-trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque, float before, float restitution)
+/* A party's new trajectory, by the impulse `sign` j and the torque on it. */
+trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
-	int rapid = restitution < 1.0f && k.time - before < HOLD_GAP;
 	CHANNEL(k.place, LINEAR_VX) += (sign * CHANNEL(j, IMPULSE_X)) * CHANNEL(mass, MASS_INVERSE);
 	CHANNEL(k.place, LINEAR_VY) += (sign * CHANNEL(j, IMPULSE_Y)) * CHANNEL(mass, MASS_INVERSE);
 	k.velocity += torque * CHANNEL(mass, MASS_INVERSE_INERTIA);
 	members[MEMBER(id, MEMBER_EVENTS)]++;
-	members[MEMBER(id, MEMBER_WEIGHT)] += rapid ? HOLD_RAPID : 1;
-	if (members[MEMBER(id, MEMBER_WEIGHT)] > HOLD_LIMIT)
+	if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT)
 		k.held = 1.0f;
 	return k;
 }
 
-/* Is it one that events change? */
-bool can_change(RECORD_IN(slots), int s, trajectory k)
+/* Is this event, at time u, a rapid one of the body, after RAPID_MOST others? */
+bool is_rapid(LIST_OUT(members), int id, trajectory k, float u)
 {
-	return !(k.held > 0.0f) && !slot_is_static(slots, s);
+	if (id < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || !(u - k.time < RAPID))
+		return false;
+	return members[MEMBER(id, MEMBER_RAPID)]++ >= RAPID_MOST;
+}
+
+rules_of_hit event_rules(float restitution, bool rapid)
+{
+	rules_of_hit rules;
+	rules.restitution = rapid ? 1.0f : restitution;
+	rules.micro = restitution < 1.0f ? MICRO : 0.0f;
+	rules.stillness = 0.5f;
+	return rules;
 }
 
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. False if a body leaves its reach. */
@@ -52,31 +61,32 @@ bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reac
 	int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER);
-	float u = CHANNEL(next, NEXT_TIME), total, restitution;
+	float u = CHANNEL(next, NEXT_TIME), total;
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
 	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
 	float4 j;
 	k = moved(slots, s, k, u, length);
 	body b = body_of(slots, s, k, length);
 	if (wall) {
-		restitution = larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION));
-		j = wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, restitution, length, &total);
+		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), is_rapid(members, id, was, u));
+		j = wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &total);
 	} else {
 		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
 		o = moved(slots, other, o, u, length);
 		body c = body_of(slots, other, o, length);
-		restitution = larger(b.restitution, c.restitution);
-		j = first ? pair_push(TEX(vertices), b, c, 0.0f, length, &total) : pair_push(TEX(vertices), c, b, 0.0f, length, &total);
+		bool rapid = is_rapid(members, id, was, u), other_rapid = is_rapid(members, other_id, other_was, u);
+		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rapid || other_rapid);
+		j = first ? pair_push(TEX(vertices), b, c, 0.0f, how, length, &total) : pair_push(TEX(vertices), c, b, 0.0f, how, length, &total);
 	}
 	if (total > 0.0f)
 		members[MEMBER(id, MEMBER_HITS)]++;
 	if (can_change(slots, s, was)) {
-		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), was.time, restitution);
+		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B));
 		work_store(work, id, k);
 		stays = way_grow(slots, reach, work, need, s, id, k, length);
 	}
 	if (!wall && can_change(slots, other, other_was)) {
-		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A), other_was.time, restitution);
+		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A));
 		work_store(work, other_id, o);
 		stays = way_grow(slots, reach, work, need, other, other_id, o, length) && stays;
 	}

@@ -16,30 +16,51 @@ float torque_of(contact c, float2 lever0, float2 lever1, float2 j)
 	return cross2(lever0, c.n) * j.x + (c.count > 1 ? cross2(lever1, c.n) * j.y : 0.0f);
 }
 
+/* By how much the rate of a contact is to grow. Of bodies pushed together `micro` is the least speed at which they part. */
+float gain_of(float rate, float restitution, float micro)
+{
+	return -rate < micro ? micro - rate : -(1.0f + restitution) * rate;
+}
+
 /* The alternative's own: impulses (j0, j1) at the contact's points that part the reference a and the incident body b. */
-float2 contact_impulses(body a, body b, contact c, float restitution, float stillness);
+float2 contact_impulses(body a, body b, contact c, float restitution, float stillness, float micro);
+
+/* How a hit is answered: MICRO or 0, and which part of the stillness an approach needs (what was found as a hit is one, whatever rounding did). */
+typedef struct rules_of_hit {
+	float restitution, micro, stillness;
+} rules_of_hit;
+
+rules_of_hit first_impact_rules(float restitution)
+{
+	rules_of_hit rules;
+	rules.restitution = restitution;
+	rules.micro = 0.0f;
+	rules.stillness = 1.0f;
+	return rules;
+}
 
 /* Of body k's contact with a wall at time t of its step; *total: of the two points together. */
-float4 wall_push(TEX_IN(vertices), float4 room, body k, int wall, float t, float restitution, float length, float *total)
+float4 wall_push(TEX_IN(vertices), float4 room, body k, int wall, float t, rules_of_hit rules, float length, float *total)
 {
 	float offset;
 	body walls = k;
 	float2 n = wall_normal(room, wall, &offset);
 	contact c = wall_contact(TEX(vertices), k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
-	float2 j = contact_impulses(walls, k, c, restitution, wall_stillness(k));
+	float2 j = contact_impulses(walls, k, c, rules.restitution, wall_stillness(k) * rules.stillness, larger(-(rules.micro * inner(n, k.a)), 0.0f));
 	*total = j.x + j.y;
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
 	return (float4)((*total * n.x) / length, (*total * n.y) / length, torque / length, 0.0f);
 }
 
 /* Of the contact of bodies a and b, the row's and the column's, at time t of their step. */
-float4 pair_push(TEX_IN(vertices), body a, body b, float t, float length, float *total)
+float4 pair_push(TEX_IN(vertices), body a, body b, float t, rules_of_hit rules, float length, float *total)
 {
 	pose p = pose_at(a, b, t);
-	float slop = pair_slop(a, b), restitution = larger(a.restitution, b.restitution), stillness = pair_stillness(a, b);
+	float slop = pair_slop(a, b), stillness = pair_stillness(a, b) * rules.stillness;
 	contact c = contact_at(TEX(vertices), a, b, p, best_axis(TEX(vertices), a, b, p), slop);
-	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, stillness) : contact_impulses(a, b, c, restitution, stillness);
+	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
+	float2 j = c.swapped ? contact_impulses(b, a, c, rules.restitution, stillness, micro) : contact_impulses(a, b, c, rules.restitution, stillness, micro);
 	*total = j.x + j.y;
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;
@@ -52,10 +73,12 @@ float4 hit_push(STATE_IN, TEX_IN(vertices), float4 hit, float length)
 	int column = (int)CHANNEL(hit, HIT_COLUMN);
 	float t = CHANNEL(hit, HIT_TIME), total;
 	body a = body_load(STATE, (int)CHANNEL(hit, HIT_ROW), length);
-	if (column >= 0)
-		return pair_push(TEX(vertices), a, body_load(STATE, column, length), t, length, &total);
+	if (column >= 0) {
+		body b = body_load(STATE, column, length);
+		return pair_push(TEX(vertices), a, b, t, first_impact_rules(larger(a.restitution, b.restitution)), length, &total);
+	}
 	return wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), a, -1 - column, t,
-		larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION)), length, &total);
+		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION))), length, &total);
 }
 
 __kernel void impulse(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(impulse), int4 domain)

@@ -172,7 +172,7 @@
 #define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
 #define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
 #define MEMBER_EVENTS 4 /* of the body in this step */
-#define MEMBER_WEIGHT 5 /* of these against HOLD_LIMIT */
+#define MEMBER_RAPID 5   /* of these, rapid ones */
 #define MEMBER_SEEN 6   /* events of the partner when NEXT was found */
 #define MEMBER_HITS 8   /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
@@ -225,11 +225,14 @@
 #define STATUS_IDLE 22      /* not begun for want of lists, */
 #define STATUS_AGAIN 23     /* and not done since they needed more rounds */
 
-/* Rules of events: a body that weighs more than HOLD_LIMIT in one step is held. An event weighs 1, or HOLD_RAPID where the
- * restitution is below 1 and the body's event before was less than HOLD_GAP of a step ago. */
+/* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before, are elastic once the body had RAPID_MOST of
+ * them in the step (the TC model, late).
+ * Bodies that are pushed together, and meet more slowly than MICRO of what the push makes of their speed in a step, part with that speed
+ * (microcollisions). A body that is in more than HOLD_LIMIT events of one step is held until its end. */
+#define RAPID 0.0009765625f
+#define RAPID_MOST 8
+#define MICRO 0.03125f
 #define HOLD_LIMIT 4096
-#define HOLD_RAPID 512
-#define HOLD_GAP 0.0009765625f
 
 /* ---- Rendering [3] */
 

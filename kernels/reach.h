@@ -93,7 +93,7 @@ void member_reset(LIST_OUT(members), int id)
 	__global int *m = members + MEMBER(id, 0);
 	m[MEMBER_PARENT] = id;
 	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
-	m[MEMBER_EVENTS] = m[MEMBER_WEIGHT] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
+	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
 }
 
 /* Room for `count` ints in Neighbours; -1 if there is not enough. */

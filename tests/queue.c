@@ -137,7 +137,7 @@ static void begin(queue_body *k, double length)
 	k->at.ay = k->push[1] * length * length;
 	k->at.b = k->push[2] * length * length;
 	k->time = 0.0;
-	k->events = k->weight = 0;
+	k->events = 0;
 	k->held = false;
 }
 
@@ -252,12 +252,22 @@ static double coupling(const touch *t, const party *r, const party *k, int i, in
 		k->inverse_inertia * arm(t, t->incident[i]) * arm(t, t->incident[j]);
 }
 
+typedef struct rules {
+	double restitution, micro, stillness;
+} rules;
+
+/* By how much the rate of a point is to grow. */
+static double gain(double rate, const rules *how)
+{
+	return -rate < how->micro ? how->micro - rate : -(1.0 + how->restitution) * rate;
+}
+
 /* Both points of a face contact together where both are pushed apart; else the one that approaches faster alone. */
-static void solve(const touch *t, const party *r, const party *k, double restitution, double stillness, double *j)
+static void solve(const touch *t, const party *r, const party *k, const rules *how, double *j)
 {
 	const double k00 = coupling(t, r, k, 0, 0), k01 = coupling(t, r, k, 0, 1), k11 = coupling(t, r, k, 1, 1), det = k00 * k11 - k01 * k01;
-	const double gain0 = -(1.0 + restitution) * t->rate[0], gain1 = -(1.0 + restitution) * t->rate[1];
-	const bool first = t->rate[0] < -stillness, second = t->count > 1 && t->rate[1] < -stillness;
+	const double gain0 = gain(t->rate[0], how), gain1 = gain(t->rate[1], how);
+	const bool first = t->rate[0] < -how->stillness, second = t->count > 1 && t->rate[1] < -how->stillness;
 	j[0] = j[1] = 0.0;
 	if (first && second && det > (double)SINGULAR * k00 * k11) {
 		j[0] = (gain0 * k11 - gain1 * k01) / det;
@@ -281,16 +291,19 @@ static void push(const touch *t, const party *p, const double (*levers)[2], cons
 	p->body->at.w += sign * (j[0] * arm(t, levers[0]) + j[1] * arm(t, levers[1])) * p->inverse_inertia;
 }
 
-static void weigh(queue *q, queue_body *k, double since, double restitution)
+static void count_event(queue *q, queue_body *k)
 {
 	if (!k || is_still(k))
 		return;
-	k->events++;
-	k->weight += restitution < 1.0 && since < (double)HOLD_GAP ? HOLD_RAPID : 1;
-	if (k->weight > HOLD_LIMIT) {
+	if (++k->events > HOLD_LIMIT) {
 		k->held = true;
 		q->held++;
 	}
+}
+
+static bool is_rapid(const queue_body *k, double time)
+{
+	return k && !is_still(k) && k->events > 0 && time - k->time < (double)RAPID;
 }
 
 static void record(queue *q, queue_hit hit)
@@ -303,11 +316,31 @@ static void record(queue *q, queue_hit hit)
 	q->hits[q->hit_count++] = hit;
 }
 
+/* CONTRACT's 1 to 3: an approach needs half the stillness, what is rapid is elastic, and what is pushed together parts with a little speed. */
+static rules rules_of(const queue *q, const queue_body *a, const queue_body *b, double time)
+{
+	const double restitution = fmax(a->restitution, b ? b->restitution : q->room.restitution);
+	const bool rapid = is_rapid(a, time) || is_rapid(b, time);
+	return (rules){rapid ? 1.0 : restitution, restitution < 1.0 ? (double)MICRO : 0.0, 0.5};
+}
+
+/* How fast a push makes of them what it will, in a step; 0 where it parts them. */
+static double pull_of(const touch *t, const exact_body *a, const exact_body *b)
+{
+	const double sign = b && t->swapped ? -1.0 : 1.0, x = b ? b->ax - a->ax : a->ax, y = b ? b->ay - a->ay : a->ay;
+	return fmax(-sign * (t->normal[0] * x + t->normal[1] * y), 0.0);
+}
+
+static void shake_party(const queue *q, queue_body *k)
+{
+	if (q->shaken_by && k && !is_still(k))
+		shake_body(&k->at, q->shaken_by, q->rounding);
+}
+
 static void answer(queue *q, queue_hit hit)
 {
 	queue_body *a = &q->bodies[hit.row], *b = hit.column < 0 ? NULL : &q->bodies[hit.column];
-	const double since[2] = {hit.time - a->time, b ? hit.time - b->time : 0.0};
-	const double restitution = fmax(a->restitution, b ? b->restitution : q->room.restitution);
+	rules how = rules_of(q, a, b, hit.time);
 	double j[2];
 	move(a, hit.time);
 	if (b)
@@ -315,19 +348,17 @@ static void answer(queue *q, queue_hit hit)
 	const exact_body first = seen_at(a, hit.time), second = b ? seen_at(b, hit.time) : first;
 	const touch t = b ? touch_pair(&first, &second) : touch_wall(&first, &q->room, -1 - hit.column);
 	const party pa = party_of(a), pb = party_of(b), *reference = b && !t.swapped ? &pa : &pb, *incident = reference == &pa ? &pb : &pa;
-	solve(&t, reference, incident, restitution, touch_stillness(&first, b ? &second : NULL), j);
+	how.stillness *= touch_stillness(&first, b ? &second : NULL);
+	how.micro *= pull_of(&t, &first, b ? &second : NULL);
+	solve(&t, reference, incident, &how, j);
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);
 	if (j[0] + j[1] > 0.0)
 		record(q, hit);
-	if (q->shaken_by) {
-		if (!is_still(a))
-			shake_body(&a->at, q->shaken_by, q->rounding);
-		if (b && !is_still(b))
-			shake_body(&b->at, q->shaken_by, q->rounding);
-	}
-	weigh(q, a, since[0], restitution);
-	weigh(q, b, since[1], restitution);
+	shake_party(q, a);
+	shake_party(q, b);
+	count_event(q, a);
+	count_event(q, b);
 }
 
 void queue_step(queue *q, double length, size_t most)

@@ -13,7 +13,6 @@ typedef struct queue_body {
 	double inverse_mass, inverse_inertia, restitution;
 	double time;       /* part of the step */
 	uint32_t events;   /* of this step */
-	uint32_t weight;   /* of these, against HOLD_LIMIT */
 	bool held;
 } queue_body;
 

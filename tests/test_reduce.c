@@ -27,6 +27,7 @@ typedef struct run {
 static carom_world *world_of(const char *alternative, const scenery_device *device, bool counting)
 {
 	carom_world_def def = carom_default_world_def();
+	def.pipeline.step = "first_impact";
 	carom_device_def instrumented = {.name = device->name, .storage = device->storage, .count_reads = true};
 	carom_world *world;
 	carom_error error;

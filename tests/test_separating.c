@@ -109,6 +109,7 @@ static void judge(const truth *t, const pairs_hit *hit, const bands *within, tal
 static void follow(const truth *t, const carom_body_def *bodies)
 {
 	carom_world_def def = carom_default_world_def();
+	def.pipeline.step = "first_impact";
 	carom_world *world;
 	carom_report done;
 	carom_measure measure;

@@ -1,11 +1,11 @@
 /* Impulse [2.3], the paper's: each contact that approaches is given the whole impulse it would need alone. */
 
-float2 contact_impulses(body a, body b, contact c, float restitution, float stillness)
+float2 contact_impulses(body a, body b, contact c, float restitution, float stillness, float micro)
 {
 	float2 j = (float2)(0.0f, 0.0f);
 	if (c.rate[0] < -stillness)
-		j.x = (-(1.0f + restitution) * c.rate[0]) / coupling(a, b, c, 0, 0);
+		j.x = gain_of(c.rate[0], restitution, micro) / coupling(a, b, c, 0, 0);
 	if (c.count > 1 && c.rate[1] < -stillness)
-		j.y = (-(1.0f + restitution) * c.rate[1]) / coupling(a, b, c, 1, 1);
+		j.y = gain_of(c.rate[1], restitution, micro) / coupling(a, b, c, 1, 1);
 	return j;
 }
