@@ -42,9 +42,15 @@ trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory
 /* Is this event, at time u, a rapid one of the body, after RAPID_MOST others? */
 bool is_rapid(LIST_OUT(members), int id, trajectory k, float u)
 {
-	if (id < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || !(u - k.time < RAPID))
+	if (id < 0 || k.held > 0.0f || members[MEMBER(id, MEMBER_EVENTS)] == 0 || !(u - k.time < RAPID))
 		return false;
 	return members[MEMBER(id, MEMBER_RAPID)]++ >= RAPID_MOST;
+}
+
+/* Is it one that events change? */
+bool can_change(RECORD_IN(slots), int s, trajectory k)
+{
+	return !(k.held > 0.0f) && !slot_is_static(slots, s);
 }
 
 rules_of_hit event_rules(float restitution, bool rapid)
