@@ -1,158 +1,19 @@
 /* The OpenCL device: textures are images or buffers of the same rows, and arguments are bound by the stage's definition. */
-#include "device.h"
+#include "cl/texture.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "cl/api.h"
 #include "status.h"
 
-#define MAX_PENDING 1024
-
-/* The last argument set, to spare the calls that would change nothing. */
-typedef struct bound_kernel {
-	cl_kernel kernel; /* NULL where the alternative has none */
-	size_t local;     /* work-items of a group */
-	const carom_texture *textures[CAROM_MAX_TEXTURES];
-} bound_kernel;
-
-typedef struct cl_device {
-	carom_device base;
-	carom_cl_api cl;
-	cl_context context;
-	cl_command_queue queue;
-	cl_device_id device;
-	carom_device_def def;   /* as given; only its pipeline and flags are good for later */
-	cl_program programs[2]; /* of the step's stages, and of rendering's, which is NULL until the first is run */
-	cl_mem reads;           /* one uint; NULL where reads are not counted */
-	bound_kernel kernels[STAGE_COUNT];
-	bool profile;
-	size_t pending; /* launches whose times are not read yet */
-	cl_event events[MAX_PENDING];
-	carom_stage event_stages[MAX_PENDING];
-} cl_device;
-
-struct carom_texture {
-	cl_mem memory;
-	bool is_image;
-	carom_texel_format format;
-	uint32_t width, height;
-};
-
-static cl_device *of(const carom_device *device)
+cl_device *carom_cl_of(const carom_device *device)
 {
 	return (cl_device *)(uintptr_t)device;
 }
 
-static size_t texel_size(carom_texel_format format)
-{
-	return format == TEXELS_FLOAT || format == TEXELS_RECORD ? 4 * sizeof(float) : 4; /* bytes, or an int */
-}
-
-/* Is it a buffer whatever the storage, and bare to kernels? */
-static bool is_list(carom_texel_format format)
-{
-	return format == TEXELS_LIST || format == TEXELS_RECORD;
-}
-
-static carom_status device_fail(const cl_device *d, carom_error *error, cl_int code, const char *what)
-{
-	char text[512];
-	bool memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_OUT_OF_RESOURCES;
-	snprintf(text, sizeof text, "%s: %s", d->base.info.name, what);
-	return carom_cl_fail(error, memory ? CAROM_OUT_OF_MEMORY : CAROM_DEVICE, code, text);
-}
-
-static cl_int make_image(cl_device *d, carom_texture *t)
-{
-	cl_image_format format = {CL_RGBA, t->format == TEXELS_FLOAT ? CL_FLOAT : CL_UNSIGNED_INT8};
-	cl_image_desc desc = {.image_type = CL_MEM_OBJECT_IMAGE2D, .image_width = t->width, .image_height = t->height};
-	cl_int code;
-	t->memory = d->cl.clCreateImage(d->context, CL_MEM_READ_WRITE, &format, &desc, NULL, &code);
-	return code;
-}
-
-static cl_int make_buffer(cl_device *d, carom_texture *t)
-{
-	cl_int code;
-	t->memory = d->cl.clCreateBuffer(d->context, CL_MEM_READ_WRITE, (size_t)t->width * t->height * texel_size(t->format), NULL, &code);
-	return code;
-}
-
-/* Drivers allocate when a texture is first touched: filling it now makes it fail now. */
-static cl_int fill_texture(cl_device *d, carom_texture *t, const float fill[4])
-{
-	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, t->height, 1};
-	cl_uint color[4];
-	cl_uchar bytes[4];
-	for (int i = 0; i < 4; i++) {
-		bytes[i] = (cl_uchar)fill[i];
-		color[i] = bytes[i];
-	}
-	if (t->is_image)
-		return d->cl.clEnqueueFillImage(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : color, origin, region, 0, NULL, NULL);
-	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, texel_size(t->format) == sizeof(float[4]) ? (const void *)fill : bytes, texel_size(t->format), 0,
-		(size_t)t->width * t->height * texel_size(t->format), 0, NULL, NULL);
-}
-
-static void destroy_texture(carom_device *device, carom_texture *texture)
-{
-	if (!texture)
-		return;
-	/* an address may come again for another texture: forget what was bound */
-	for (int i = 0; i < STAGE_COUNT; i++)
-		memset(of(device)->kernels[i].textures, 0, sizeof of(device)->kernels[i].textures);
-	if (texture->memory)
-		of(device)->cl.clReleaseMemObject(texture->memory);
-	free(texture);
-}
-
-static carom_status create_texture(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
-	carom_texture **texture, carom_error *error)
-{
-	cl_device *d = of(device);
-	carom_texture *t = calloc(1, sizeof *t);
-	cl_int code;
-	if (!t)
-		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a texture");
-	t->width = width;
-	t->height = height;
-	t->format = format;
-	t->is_image = device->storage == CAROM_STORAGE_IMAGE && !is_list(format);
-	code = t->is_image ? make_image(d, t) : make_buffer(d, t);
-	if (!code)
-		code = fill_texture(d, t, fill);
-	if (!code)
-		code = d->cl.clFinish(d->queue);
-	if (code) {
-		destroy_texture(device, t);
-		return device_fail(d, error, code, "a texture can't be made");
-	}
-	*texture = t;
-	return CAROM_OK;
-}
-
-static carom_status upload(carom_device *device, carom_texture *t, uint32_t rows, const void *texels, carom_error *error)
-{
-	cl_device *d = of(device);
-	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
-	cl_int code = t->is_image ? d->cl.clEnqueueWriteImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
-	                          : d->cl.clEnqueueWriteBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
-	return code ? device_fail(d, error, code, "a texture can't be written") : CAROM_OK;
-}
-
-static carom_status download(carom_device *device, carom_texture *t, uint32_t rows, void *texels, carom_error *error)
-{
-	cl_device *d = of(device);
-	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
-	cl_int code = t->is_image ? d->cl.clEnqueueReadImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
-	                          : d->cl.clEnqueueReadBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
-	return code ? device_fail(d, error, code, "a texture can't be read") : CAROM_OK;
-}
-
 static bool has_kernel(const carom_device *device, carom_stage stage)
 {
-	return of(device)->kernels[stage].kernel != NULL;
+	return carom_cl_of(device)->kernels[stage].kernel != NULL;
 }
 
 /* Buffers travel with their width, images know it; and each with the counter of reads, where there is one. Lists are bare. */
@@ -166,12 +27,12 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 		if (!same)
 			code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &textures[i]->memory);
 		++*next;
-		if (!textures[i]->is_image && !is_list(textures[i]->format)) {
+		if (!textures[i]->is_image && !carom_cl_is_list(textures[i]->format)) {
 			if (!same && !code)
 				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof width, &width);
 			++*next;
 		}
-		if (d->reads && !is_list(textures[i]->format)) {
+		if (d->reads && !carom_cl_is_list(textures[i]->format)) {
 			if (!same && !code)
 				code = d->cl.clSetKernelArg(k->kernel, *next, sizeof(cl_mem), &d->reads);
 			++*next;
@@ -196,7 +57,7 @@ static size_t local_size(const cl_device *d, carom_stage stage, cl_kernel kernel
 /* Adds up what the launches so far took, and forgets them. */
 static void read_profile(carom_device *device)
 {
-	cl_device *d = of(device);
+	cl_device *d = carom_cl_of(device);
 	d->cl.clFinish(d->queue);
 	for (size_t i = 0; i < d->pending; i++) {
 		carom_kernel_time *time = &device->times[d->event_stages[i]];
@@ -215,12 +76,12 @@ static carom_status make_counter(cl_device *d, carom_error *error)
 	cl_uint zero = 0;
 	cl_int code;
 	d->reads = d->cl.clCreateBuffer(d->context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, sizeof zero, &zero, &code);
-	return code ? device_fail(d, error, code, "no counter of reads can be made") : CAROM_OK;
+	return code ? carom_cl_device_fail(d, error, code, "no counter of reads can be made") : CAROM_OK;
 }
 
 static carom_status count_reads(carom_device *device, uint64_t *texels, carom_error *error)
 {
-	cl_device *d = of(device);
+	cl_device *d = carom_cl_of(device);
 	cl_uint count = 0, zero = 0;
 	cl_int code = CL_SUCCESS;
 	if (d->reads)
@@ -228,7 +89,7 @@ static carom_status count_reads(carom_device *device, uint64_t *texels, carom_er
 	if (d->reads && !code)
 		code = d->cl.clEnqueueWriteBuffer(d->queue, d->reads, CL_TRUE, 0, sizeof zero, &zero, 0, NULL, NULL);
 	if (code)
-		return device_fail(d, error, code, "the counter of reads can't be read");
+		return carom_cl_device_fail(d, error, code, "the counter of reads can't be read");
 	*texels = count;
 	return CAROM_OK;
 }
@@ -266,7 +127,7 @@ static carom_status create_kernels(cl_device *d, cl_program program, carom_error
 	cl_uint count = 0;
 	cl_int code = d->cl.clCreateKernelsInProgram(program, 2 * STAGE_COUNT, kernels, &count);
 	if (code)
-		return device_fail(d, error, code, "no kernels can be made");
+		return carom_cl_device_fail(d, error, code, "no kernels can be made");
 	for (cl_uint i = 0; i < count; i++)
 		keep_kernel(d, kernels[i]);
 	return CAROM_OK;
@@ -282,7 +143,7 @@ static carom_status build_program(cl_device *d, bool draws, carom_error *error)
 
 static carom_status run_stage(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
 {
-	cl_device *d = of(device);
+	cl_device *d = carom_cl_of(device);
 	size_t local[2] = {1, 1}, global[2] = {0, domain[1] > 1 ? (size_t)domain[1] : 1};
 	cl_int4 size = {{domain[0], domain[1], domain[2], domain[3]}};
 	cl_uint next = 0;
@@ -303,18 +164,18 @@ static carom_status run_stage(carom_device *device, carom_stage stage, carom_tex
 		code = d->cl.clEnqueueNDRangeKernel(d->queue, d->kernels[stage].kernel, 2, NULL, global, local, 0, NULL, event);
 	if (!code && event)
 		d->pending++;
-	return code ? device_fail(d, error, code, carom_stages[stage].kernel) : CAROM_OK;
+	return code ? carom_cl_device_fail(d, error, code, carom_stages[stage].kernel) : CAROM_OK;
 }
 
 static carom_status flush(carom_device *device, carom_error *error)
 {
-	cl_int code = of(device)->cl.clFlush(of(device)->queue);
-	return code ? device_fail(of(device), error, code, "the queue can't be flushed") : CAROM_OK;
+	cl_int code = carom_cl_of(device)->cl.clFlush(carom_cl_of(device)->queue);
+	return code ? carom_cl_device_fail(carom_cl_of(device), error, code, "the queue can't be flushed") : CAROM_OK;
 }
 
 static void close_device(carom_device *device)
 {
-	cl_device *d = of(device);
+	cl_device *d = carom_cl_of(device);
 	for (size_t i = 0; i < d->pending; i++)
 		d->cl.clReleaseEvent(d->events[i]);
 	for (int i = 0; i < STAGE_COUNT; i++)
@@ -333,7 +194,7 @@ static void close_device(carom_device *device)
 }
 
 static const carom_device_class cl_class = {
-	close_device, create_texture, destroy_texture, upload, download, has_kernel, run_stage, flush, read_profile, count_reads};
+	close_device, carom_cl_create_texture, carom_cl_destroy_texture, carom_cl_upload, carom_cl_download, has_kernel, run_stage, flush, read_profile, count_reads};
 
 /* On a CPU a texel of an image is a call out of line: there the step events, which is not the paper's, takes buffers by itself. */
 static bool prefers_buffers(const cl_device *d, const carom_device_def *def, cl_device_id device)
@@ -361,10 +222,10 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 		return status;
 	d->context = d->cl.clCreateContext(properties, 1, &found->device, NULL, NULL, &code);
 	if (code)
-		return device_fail(d, error, code, "no context can be made");
+		return carom_cl_device_fail(d, error, code, "no context can be made");
 	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, def->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
 	if (code)
-		return device_fail(d, error, code, "no queue can be made");
+		return carom_cl_device_fail(d, error, code, "no queue can be made");
 	if (def->count_reads && (status = make_counter(d, error)))
 		return status;
 	d->device = found->device;

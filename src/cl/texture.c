@@ -1,0 +1,111 @@
+/* Textures of the OpenCL device: images, or buffers of the same rows. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl/texture.h"
+#include "status.h"
+
+static size_t texel_size(carom_texel_format format)
+{
+	return format == TEXELS_FLOAT || format == TEXELS_RECORD ? 4 * sizeof(float) : 4; /* bytes, or an int */
+}
+
+bool carom_cl_is_list(carom_texel_format format)
+{
+	return format == TEXELS_LIST || format == TEXELS_RECORD;
+}
+
+carom_status carom_cl_device_fail(const cl_device *d, carom_error *error, cl_int code, const char *what)
+{
+	char text[512];
+	bool memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_OUT_OF_RESOURCES;
+	snprintf(text, sizeof text, "%s: %s", d->base.info.name, what);
+	return carom_cl_fail(error, memory ? CAROM_OUT_OF_MEMORY : CAROM_DEVICE, code, text);
+}
+
+static cl_int make_image(cl_device *d, carom_texture *t)
+{
+	cl_image_format format = {CL_RGBA, t->format == TEXELS_FLOAT ? CL_FLOAT : CL_UNSIGNED_INT8};
+	cl_image_desc desc = {.image_type = CL_MEM_OBJECT_IMAGE2D, .image_width = t->width, .image_height = t->height};
+	cl_int code;
+	t->memory = d->cl.clCreateImage(d->context, CL_MEM_READ_WRITE, &format, &desc, NULL, &code);
+	return code;
+}
+
+static cl_int make_buffer(cl_device *d, carom_texture *t)
+{
+	cl_int code;
+	t->memory = d->cl.clCreateBuffer(d->context, CL_MEM_READ_WRITE, (size_t)t->width * t->height * texel_size(t->format), NULL, &code);
+	return code;
+}
+
+/* Drivers allocate when a texture is first touched: filling it now makes it fail now. */
+static cl_int fill_texture(cl_device *d, carom_texture *t, const float fill[4])
+{
+	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, t->height, 1};
+	cl_uint color[4];
+	cl_uchar bytes[4];
+	for (int i = 0; i < 4; i++) {
+		bytes[i] = (cl_uchar)fill[i];
+		color[i] = bytes[i];
+	}
+	if (t->is_image)
+		return d->cl.clEnqueueFillImage(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : color, origin, region, 0, NULL, NULL);
+	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, texel_size(t->format) == sizeof(float[4]) ? (const void *)fill : bytes, texel_size(t->format), 0,
+		(size_t)t->width * t->height * texel_size(t->format), 0, NULL, NULL);
+}
+
+void carom_cl_destroy_texture(carom_device *device, carom_texture *texture)
+{
+	if (!texture)
+		return;
+	/* an address may come again for another texture: forget what was bound */
+	for (int i = 0; i < STAGE_COUNT; i++)
+		memset(carom_cl_of(device)->kernels[i].textures, 0, sizeof carom_cl_of(device)->kernels[i].textures);
+	if (texture->memory)
+		carom_cl_of(device)->cl.clReleaseMemObject(texture->memory);
+	free(texture);
+}
+
+carom_status carom_cl_create_texture(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
+	carom_texture **texture, carom_error *error)
+{
+	cl_device *d = carom_cl_of(device);
+	carom_texture *t = calloc(1, sizeof *t);
+	cl_int code;
+	if (!t)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a texture");
+	t->width = width;
+	t->height = height;
+	t->format = format;
+	t->is_image = device->storage == CAROM_STORAGE_IMAGE && !carom_cl_is_list(format);
+	code = t->is_image ? make_image(d, t) : make_buffer(d, t);
+	if (!code)
+		code = fill_texture(d, t, fill);
+	if (!code)
+		code = d->cl.clFinish(d->queue);
+	if (code) {
+		carom_cl_destroy_texture(device, t);
+		return carom_cl_device_fail(d, error, code, "a texture can't be made");
+	}
+	*texture = t;
+	return CAROM_OK;
+}
+
+carom_status carom_cl_upload(carom_device *device, carom_texture *t, uint32_t rows, const void *texels, carom_error *error)
+{
+	cl_device *d = carom_cl_of(device);
+	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
+	cl_int code = t->is_image ? d->cl.clEnqueueWriteImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+	                          : d->cl.clEnqueueWriteBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
+	return code ? carom_cl_device_fail(d, error, code, "a texture can't be written") : CAROM_OK;
+}
+
+carom_status carom_cl_download(carom_device *device, carom_texture *t, uint32_t rows, void *texels, carom_error *error)
+{
+	cl_device *d = carom_cl_of(device);
+	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
+	cl_int code = t->is_image ? d->cl.clEnqueueReadImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+	                          : d->cl.clEnqueueReadBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
+	return code ? carom_cl_device_fail(d, error, code, "a texture can't be read") : CAROM_OK;
+}
