@@ -137,7 +137,7 @@ static void begin(queue_body *k, double length)
 	k->at.ay = k->push[1] * length * length;
 	k->at.b = k->push[2] * length * length;
 	k->time = 0.0;
-	k->events = 0;
+	k->events = k->rapid = 0;
 	k->held = false;
 }
 
@@ -291,19 +291,20 @@ static void push(const touch *t, const party *p, const double (*levers)[2], cons
 	p->body->at.w += sign * (j[0] * arm(t, levers[0]) + j[1] * arm(t, levers[1])) * p->inverse_inertia;
 }
 
-static void count_event(queue *q, queue_body *k)
+static bool is_rapid(const queue_body *k, double time)
+{
+	return k && !is_still(k) && k->events > 0 && time - k->time < (double)RAPID;
+}
+
+static void count_event(queue *q, queue_body *k, bool rapid)
 {
 	if (!k || is_still(k))
 		return;
+	k->rapid += rapid;
 	if (++k->events > HOLD_LIMIT) {
 		k->held = true;
 		q->held++;
 	}
-}
-
-static bool is_rapid(const queue_body *k, double time)
-{
-	return k && !is_still(k) && k->events > 0 && time - k->time < (double)RAPID;
 }
 
 static void record(queue *q, queue_hit hit)
@@ -316,12 +317,12 @@ static void record(queue *q, queue_hit hit)
 	q->hits[q->hit_count++] = hit;
 }
 
-/* CONTRACT's 1 to 3: an approach needs half the stillness, what is rapid is elastic, and what is pushed together parts with a little speed. */
+/* CONTRACT's 1 to 3: an approach needs half the stillness, what is rapid again and again is elastic, and what is pushed together parts with a little speed. */
 static rules rules_of(const queue *q, const queue_body *a, const queue_body *b, double time)
 {
 	const double restitution = fmax(a->restitution, b ? b->restitution : q->room.restitution);
-	const bool rapid = is_rapid(a, time) || is_rapid(b, time);
-	return (rules){rapid ? 1.0 : restitution, restitution < 1.0 ? (double)MICRO : 0.0, 0.5};
+	const bool elastic = (is_rapid(a, time) && a->rapid >= RAPID_MOST) || (is_rapid(b, time) && b->rapid >= RAPID_MOST);
+	return (rules){elastic ? 1.0 : restitution, restitution < 1.0 ? (double)MICRO : 0.0, 0.5};
 }
 
 /* How fast a push makes of them what it will, in a step; 0 where it parts them. */
@@ -341,6 +342,7 @@ static void answer(queue *q, queue_hit hit)
 {
 	queue_body *a = &q->bodies[hit.row], *b = hit.column < 0 ? NULL : &q->bodies[hit.column];
 	rules how = rules_of(q, a, b, hit.time);
+	const bool rapid[2] = {is_rapid(a, hit.time), is_rapid(b, hit.time)};
 	double j[2];
 	move(a, hit.time);
 	if (b)
@@ -357,8 +359,8 @@ static void answer(queue *q, queue_hit hit)
 		record(q, hit);
 	shake_party(q, a);
 	shake_party(q, b);
-	count_event(q, a);
-	count_event(q, b);
+	count_event(q, a, rapid[0]);
+	count_event(q, b, rapid[1]);
 }
 
 void queue_step(queue *q, double length, size_t most)

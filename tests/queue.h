@@ -12,7 +12,8 @@ typedef struct queue_body {
 	double push[3];    /* m/s^2, m/s^2, rad/s^2 */
 	double inverse_mass, inverse_inertia, restitution;
 	double time;       /* part of the step */
-	uint32_t events;   /* of this step */
+	uint32_t events;   /* of this step, */
+	uint32_t rapid;    /* and of these, which came soon after the one before */
 	bool held;
 } queue_body;
 
