@@ -22,12 +22,14 @@ template <> struct Instance<float> {
 	static Run<float> run(const Kernel &kernel) { return kernel.run; }
 	static InsideTest<float> inside(const Stage &stage) { return stage.inside; }
 	static FindTransform<float> transform(const Stage &stage) { return stage.transform; }
+	static const Functions<float> &functions(const Stage &stage) { return stage.functions; }
 };
 
 template <> struct Instance<double> {
 	static Run<double> run(const Kernel &kernel) { return kernel.run_double; }
 	static InsideTest<double> inside(const Stage &stage) { return stage.inside_double; }
 	static FindTransform<double> transform(const Stage &stage) { return stage.transform_double; }
+	static const Functions<double> &functions(const Stage &stage) { return stage.functions_double; }
 };
 
 template <typename T> struct Device : carom_device {
@@ -42,6 +44,7 @@ template <typename T> struct Device : carom_device {
 	Run<T> kernels[STAGE_COUNT] = {};
 	InsideTest<T> inside = nullptr;
 	FindTransform<T> transform = nullptr;
+	Functions<T> functions;
 };
 
 template <typename T> static Device<T> &of(carom_device *device)
@@ -184,7 +187,7 @@ static void run_kernel(Device<T> &device, carom_stage stage, const Texture *cons
 	using Clock = std::chrono::steady_clock;
 	const Clock::time_point start = device.profiled ? Clock::now() : Clock::time_point();
 	device.kernels[stage](
-		{textures, domain, device.pool, device.inside, device.transform, device.counted ? &device.reads : nullptr});
+		{textures, domain, device.pool, device.inside, device.transform, device.functions, device.counted ? &device.reads : nullptr});
 	if (device.profiled) {
 		device.times[stage].seconds += std::chrono::duration<double>(Clock::now() - start).count();
 		device.times[stage].launches++;
@@ -239,6 +242,16 @@ static bool is_chosen(const carom_pipeline &pipeline, const Stage &stage, const 
 	return !name || std::strcmp(name, stage.name) == 0;
 }
 
+template <typename T> static void add_functions(Functions<T> &all, const Functions<T> &of_stage)
+{
+	if (of_stage.pair_time)
+		all.pair_time = of_stage.pair_time;
+	if (of_stage.wall_time)
+		all.wall_time = of_stage.wall_time;
+	if (of_stage.impulses)
+		all.impulses = of_stage.impulses;
+}
+
 template <typename T> static void choose(Device<T> &device, const carom_pipeline &pipeline)
 {
 	for (const Stage *const *stage = stages; *stage; stage++) {
@@ -248,6 +261,8 @@ template <typename T> static void choose(Device<T> &device, const carom_pipeline
 		}
 		if ((*stage)->inside && is_chosen(pipeline, **stage, nullptr))
 			device.inside = Instance<T>::inside(**stage);
+		if (is_chosen(pipeline, **stage, nullptr))
+			add_functions(device.functions, Instance<T>::functions(**stage));
 		if ((*stage)->transform && is_chosen(pipeline, **stage, nullptr))
 			device.transform = Instance<T>::transform(**stage);
 	}
@@ -262,7 +277,7 @@ static carom_status unknown(carom_error *error, const carom_pipeline &pipeline, 
 /* Not every alternative has them. */
 static bool is_optional(int stage)
 {
-	return stage == STAGE_TOI_NEXT || stage == STAGE_REDUCE || stage == STAGE_REDUCE_TILES || (stage >= STAGE_LOAD && stage <= STAGE_UNLOAD);
+	return stage == STAGE_TOI_NEXT || stage == STAGE_REDUCE || stage == STAGE_REDUCE_TILES;
 }
 
 template <typename T> static carom_status check(const Device<T> &device, const carom_pipeline &pipeline, carom_error *error)

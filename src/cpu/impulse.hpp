@@ -11,6 +11,7 @@ template <typename T> struct Collision {
 	Contact<T> contact;
 	T stillness, restitution;
 	T ref_mass, inc_mass, ref_inertia, inc_inertia; /* inverse; a wall's are 0 */
+	T micro = 0;                                    /* the least speed at which the points part */
 
 	/* How fast the points' parting at i grows by an impulse of 1 at k. */
 	T coupling(int i, int k) const
@@ -20,7 +21,11 @@ template <typename T> struct Collision {
 			inc_inertia * (cross(c.inc[i], c.n) * cross(c.inc[k], c.n));
 	}
 
-	T gain(int i) const { return (-(1 + restitution)) * contact.rate[i]; }
+	T gain(int i) const
+	{
+		const T rate = contact.rate[i];
+		return -rate < micro ? micro - rate : (-(1 + restitution)) * rate;
+	}
 	bool approaches(int i) const { return i < contact.count && contact.rate[i] < -stillness; }
 	T alone(int i) const { return gain(i) / coupling(i, i); }
 };

@@ -27,6 +27,20 @@ template <typename T> struct Transform {
 	T x, y, angle;
 };
 
+/* What the step events asks of alternatives, as functions; null where an alternative has none. */
+template <typename T> struct Pair;
+template <typename T> struct Wall;
+template <typename T> struct Collision;
+template <typename T> struct Impulses;
+template <typename T> struct SearchRules {
+	T epsilon, iterations;
+};
+template <typename T> struct Functions {
+	T (*pair_time)(const Pair<T> &pair, const SearchRules<T> &rules) = nullptr; /* part of the step, or NO_HIT */
+	T (*wall_time)(const Convex<T> &body, const Wall<T> &wall) = nullptr;
+	Impulses<T> (*impulses)(const Collision<T> &collision) = nullptr;
+};
+
 template <typename T> using FindTransform = Transform<T> (*)(const Job<T> &job, int32_t body);
 
 /* One run of a kernel. */
@@ -36,6 +50,7 @@ template <typename T> struct Job {
 	Pool &pool;
 	InsideTest<T> inside; /* of the chosen alternatives, these two */
 	FindTransform<T> transform;
+	const Functions<T> &functions;
 	std::atomic<uint64_t> *reads; /* of texels; null where they are not counted */
 
 	Texels<T> texels(int index) const { return Texels<T>(*textures[index]); }
@@ -63,6 +78,8 @@ struct Stage {
 	InsideTest<double> inside_double;
 	FindTransform<float> transform = nullptr;
 	FindTransform<double> transform_double = nullptr;
+	Functions<float> functions = {};
+	Functions<double> functions_double = {};
 };
 
 /* Sorted by slot and name; ends with a null pointer. */

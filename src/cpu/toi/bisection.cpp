@@ -30,9 +30,9 @@ template <typename T> static bool approaches_at(const Pair<T> &pair, T t)
 }
 
 /* Halves the interval, at most `iterations` times [2.1]. */
-template <typename T> static HitTime<T> bisect(const Pair<T> &pair, T min, T max, const Shapes<T> &shapes)
+template <typename T> static HitTime<T> bisect(const Pair<T> &pair, T min, T max, const SearchRules<T> &rules)
 {
-	const T epsilon = shapes.rule(RULES_EPSILON), iterations = shapes.rule(RULES_ITERATIONS);
+	const T epsilon = rules.epsilon, iterations = rules.iterations;
 	for (T i = 0; max - min > epsilon && i < iterations; i++) {
 		T middle = T(0.5) * (max + min);
 		(overlap_at(pair, middle) ? max : min) = middle;
@@ -42,21 +42,37 @@ template <typename T> static HitTime<T> bisect(const Pair<T> &pair, T min, T max
 	return approaches_at(pair, min) ? HitTime<T>{min, max, 1, min} : no_hit<T>();
 }
 
-/* The paper's Bisection1 [2.1]. A pair that parts is no hit, or time would stop at it. */
-template <typename T> static void first(const Job<T> &job)
+/* A pair that parts is no hit, or time would stop at it. */
+template <typename T> static HitTime<T> find(const Pair<T> &pair, const SearchRules<T> &rules)
+{
+	if (overlap_at(pair, T(0)))
+		return approaches_at(pair, T(0)) ? hit_at(T(0)) : no_hit<T>();
+	return overlap_at(pair, T(1)) ? bisect(pair, T(0), T(1), rules) : no_hit<T>();
+}
+
+template <typename T> static T time(const Pair<T> &pair, const SearchRules<T> &rules)
+{
+	return find(pair, rules).hit;
+}
+
+template <typename T> static SearchRules<T> rules_of(const Job<T> &job)
 {
 	const Shapes<T> shapes = shapes_before(job);
-	find_hits(job, [&](const Pair<T> &pair) {
-		if (overlap_at(pair, T(0)))
-			return approaches_at(pair, T(0)) ? hit_at(T(0)) : no_hit<T>();
-		return overlap_at(pair, T(1)) ? bisect(pair, T(0), T(1), shapes) : no_hit<T>();
-	});
+	return {shapes.rule(RULES_EPSILON), shapes.rule(RULES_ITERATIONS)};
+}
+
+/* The paper's Bisection1 [2.1]. */
+template <typename T> static void first(const Job<T> &job)
+{
+	const SearchRules<T> rules = rules_of(job);
+	find_hits(job, [&](const Pair<T> &pair) { return find(pair, rules); });
 }
 
 /* The paper's Bisection2: goes on with the intervals that are too long yet [2.1]. */
 template <typename T> static void next(const Job<T> &job)
 {
 	const Shapes<T> shapes = shapes_before(job);
+	const SearchRules<T> rules = rules_of(job);
 	const Texels<T> front = job.texels(TOI_COUNT);
 	search_tiles(job, TOI_COUNT + 1, [&](int32_t row, int32_t column, bool) {
 		const HitTime<T> hit{front.at(column, row, HITTIMES_MIN), front.at(column, row, HITTIMES_MAX),
@@ -64,12 +80,13 @@ template <typename T> static void next(const Job<T> &job)
 		if (hit.done != 0)
 			return hit;
 		const Convex<T> a = shapes.convex(row), b = shapes.convex(column);
-		return bisect(Pair<T>(a, b, job.inside), hit.min, hit.max, shapes);
+		return bisect(Pair<T>(a, b, job.inside), hit.min, hit.max, rules);
 	});
 }
 
 extern const Stage toi_bisection;
 const Stage toi_bisection{"toi", "bisection",
-	{{STAGE_TOI_FIRST, first<float>, first<double>}, {STAGE_TOI_NEXT, next<float>, next<double>}}, nullptr, nullptr};
+	{{STAGE_TOI_FIRST, first<float>, first<double>}, {STAGE_TOI_NEXT, next<float>, next<double>}}, nullptr, nullptr, nullptr, nullptr,
+	{time<float>}, {time<double>}};
 
 }

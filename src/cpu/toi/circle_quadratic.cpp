@@ -28,8 +28,14 @@ template <typename T> static void circle_quadratic(const Job<T> &job)
 	find_hits(job, find<T>);
 }
 
+template <typename T> static T time(const Pair<T> &pair, const SearchRules<T> &)
+{
+	return find<T>(pair).hit;
+}
+
 extern const Stage toi_circle_quadratic;
 const Stage toi_circle_quadratic{
-	"toi", "circle_quadratic", {{STAGE_TOI_FIRST, circle_quadratic<float>, circle_quadratic<double>}}, nullptr, nullptr};
+	"toi", "circle_quadratic", {{STAGE_TOI_FIRST, circle_quadratic<float>, circle_quadratic<double>}}, nullptr, nullptr, nullptr, nullptr,
+	{time<float>}, {time<double>}};
 
 }

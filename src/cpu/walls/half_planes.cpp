@@ -53,6 +53,17 @@ template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, con
 	return {smaller(t, T(1)), 0};
 }
 
+template <typename T> static WallHit<T> body_hit(const Convex<T> &convex, const Wall<T> &wall)
+{
+	const T stillness = wall_stillness(convex);
+	return convex.is_circle() ? circle_hit(convex, wall, stillness) : polygon_hit(convex, wall, wall_slop(convex), stillness);
+}
+
+template <typename T> static T time(const Convex<T> &convex, const Wall<T> &wall)
+{
+	return body_hit(convex, wall).time;
+}
+
 template <typename T> struct GroupHit {
 	WallHit<T> hit{NO_HIT, 1};
 	int32_t body = 0, wall = 0;
@@ -63,10 +74,9 @@ template <typename T> static void find_first(GroupHit<T> &first, const Shapes<T>
 	if (shapes.is_static(i))
 		return;
 	const Convex<T> convex = shapes.convex(i);
-	T slop = wall_slop(convex), stillness = wall_stillness(convex);
 	for (int32_t k = 0; k < wall_count; k++) {
 		Wall<T> wall = room_wall(shapes, k);
-		WallHit<T> hit = convex.is_circle() ? circle_hit(convex, wall, stillness) : polygon_hit(convex, wall, slop, stillness);
+		WallHit<T> hit = body_hit(convex, wall);
 		if (hit.time < first.hit.time)
 			first = {hit, i, k};
 	}
@@ -92,6 +102,7 @@ template <typename T> static void half_planes(const Job<T> &job)
 }
 
 extern const Stage walls_half_planes;
-const Stage walls_half_planes{"walls", "half_planes", {{STAGE_WALLS, half_planes<float>, half_planes<double>}}, nullptr, nullptr};
+const Stage walls_half_planes{"walls", "half_planes", {{STAGE_WALLS, half_planes<float>, half_planes<double>}}, nullptr, nullptr,
+	nullptr, nullptr, {nullptr, time<float>}, {nullptr, time<double>}};
 
 }

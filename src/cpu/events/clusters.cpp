@@ -1,0 +1,175 @@
+#include "cpu/queue.hpp"
+
+namespace carom::cpu {
+
+template <typename T> static void look_around(const Clusters<T> &clusters, int32_t s, int32_t round)
+{
+	const Slot<T> &slot = clusters.slots[s];
+	const Trajectory<T> way(slot);
+	const Disc<T> disc(slot, slot.place, 0, false, clusters.length);
+	int32_t wall;
+	if (clusters.wall_time(s, way, &wall) <= 1)
+		clusters.activate(s, round);
+	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].half; k++) {
+		const int32_t other = clusters.neighbours[k];
+		const Slot<T> &other_slot = clusters.slots[other];
+		if (stay_apart(disc, Disc<T>(other_slot, other_slot.place, 0, false, clusters.length)))
+			continue;
+		if (!(clusters.pair_time(s, way, other, Trajectory<T>(other_slot)) <= 1))
+			continue;
+		if (!slot.is_static())
+			clusters.activate(s, round);
+		if (!other_slot.is_static())
+			clusters.activate(other, round);
+		if (!slot.is_static() && !other_slot.is_static())
+			clusters.unite(__atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE), __atomic_load_n(&clusters.owners[other], __ATOMIC_ACQUIRE));
+	}
+}
+
+template <typename T> static void seek(const Job<T> &job)
+{
+	const Clusters<T> clusters(job, 9);
+	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
+		return;
+	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
+		for (int32_t s = begin; s < end; s++)
+			look_around(clusters, s, job.domain[2]);
+	});
+}
+
+/* Clusters that are to be done in this round begin anew, those that are in conflict as one. */
+template <typename T> static void muster(const Job<T> &job)
+{
+	const Slot<T> *slots = reinterpret_cast<const Slot<T> *>(job.records(0));
+	int32_t *status = job.list(1);
+	Member *members = reinterpret_cast<Member *>(job.list(2));
+	const int32_t *active = job.list(3), round = job.domain[2];
+	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(4));
+	if (status[STATUS_ROUND] != round)
+		return;
+	status[STATUS_SEEDS] = status[STATUS_ACTIVE];
+	for (int32_t id = 0; id < status[STATUS_SEEDS]; id++) {
+		Member &member = members[id];
+		if (active[id] < 0 || members[member.owner].round != round)
+			continue;
+		int32_t root = id;
+		while (members[root].parent != root)
+			root = members[root].parent;
+		status[STATUS_HITS] -= member.hits;
+		status[STATUS_HELD] -= member.events > 0 && work[id].held > 0;
+		member.events = member.rapid = member.hits = 0;
+		const Slot<T> &slot = slots[active[id]];
+		work[id].keep(Trajectory<T>(slot));
+		work[id].next[NEXT_TIME] = NO_HIT;
+		work[id].box[0] = work[id].box[2] = slot.place[LINEAR_X];
+		work[id].box[1] = work[id].box[3] = slot.place[LINEAR_Y];
+		member.owner = root;
+		member.link = members[root].head;
+		members[root].head = id;
+	}
+}
+
+template <typename T> static void resolve(const Job<T> &job)
+{
+	const Clusters<T> clusters(job, 12);
+	const int32_t round = job.domain[2];
+	if (clusters.status[STATUS_ROUND] < round)
+		return;
+	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(9));
+	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(10));
+	job.pool.run(clusters.status[STATUS_SEEDS], 16, [&](int32_t begin, int32_t end) {
+		for (int32_t id = begin; id < end; id++) {
+			const Member &member = clusters.members[id];
+			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
+				Queue<T>(clusters, work, boxes, job.list(11), id, round).run();
+		}
+	});
+}
+
+/* Do two bodies that different clusters changed get in each other's way? */
+template <typename T> static bool ways_meet(const Clusters<T> &clusters, const Work<T> *work, int32_t s, int32_t id, int32_t other, int32_t other_id)
+{
+	const Work<T> &a = work[id], &b = work[other_id];
+	const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
+	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1) {
+		const T reach = slot.radius() + other_slot.radius();
+		return a.box[0] - reach <= b.box[2] && a.box[2] + reach >= b.box[0] && a.box[1] - reach <= b.box[3] && a.box[3] + reach >= b.box[1];
+	}
+	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
+	return !stay_apart(disc, other_disc) && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)) <= 1;
+}
+
+template <typename T> static void check_one(const Clusters<T> &clusters, const Work<T> *work, int32_t id, int32_t round)
+{
+	const Member *members = clusters.members;
+	const int32_t s = clusters.active[id], owner = members[id].owner;
+	auto done_again = [&](int32_t leader) { return __atomic_load_n(&members[leader].round, __ATOMIC_RELAXED) > round; };
+	if (s < 0 || members[id].events == 0 || done_again(owner))
+		return;
+	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
+		const int32_t other = clusters.neighbours[k], other_id = clusters.owners[other];
+		if (other_id < 0 || members[other_id].events == 0 || members[other_id].owner == owner || done_again(members[other_id].owner))
+			continue;
+		if (ways_meet(clusters, work, s, id, other, other_id))
+			clusters.conflict(owner, members[other_id].owner, round);
+	}
+}
+
+template <typename T> static void check(const Job<T> &job)
+{
+	const Clusters<T> clusters(job, 10);
+	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(9));
+	const int32_t round = job.domain[2];
+	if (clusters.status[STATUS_ROUND] < round)
+		return;
+	job.pool.run(clusters.status[STATUS_ACTIVE], 64, [&](int32_t begin, int32_t end) {
+		for (int32_t id = begin; id < end; id++)
+			check_one(clusters, work, id, round);
+	});
+}
+
+/* The clock gets on, if the step is done. */
+template <typename T> static void settle(const Job<T> &job)
+{
+	const Texels<T> uniforms = job.texels(0), clock = job.texels(1), now = job.texels(3);
+	int32_t *status = job.list(2);
+	const T length = step_length(clock, uniforms);
+	const bool good = length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL], left = good && status[STATUS_LEFT];
+	const bool again = good && !left && status[STATUS_ROUND] > job.domain[2], done = good && !left && !again;
+	for (int32_t texel = 0; texel < CLOCK_WIDTH; texel++) {
+		for (int32_t channel = 0; channel < 4; channel++)
+			now.fact(texel, channel) = clock.fact(texel, channel);
+	}
+	now.set(CLOCK_STEP, 0, 0, 0, clock.fact(CLOCK_STEP, STEP_STALLED), clock.fact(CLOCK_STEP, STEP_ENDED));
+	if (done) {
+		auto add = [&](int32_t texel, int32_t high, int32_t low, T x) {
+			const Sum<T> sum = add_exactly({clock.fact(texel, high), clock.fact(texel, low)}, x);
+			now.fact(texel, high) = sum.high, now.fact(texel, low) = sum.low;
+		};
+		now.set(CLOCK_HIT, 0, NO_HIT, 0, 0, 1);
+		now.set(CLOCK_STEP, 0, length, length, 0, 0);
+		add(CLOCK_TIME, TIME_ELAPSED, TIME_ELAPSED_LOW, length);
+		add(CLOCK_TIME, TIME_REMAINING, TIME_REMAINING_LOW, -length);
+		add(CLOCK_COUNTS, COUNTS_HITS, COUNTS_HITS_LOW, static_cast<T>(status[STATUS_HITS]));
+		now.fact(CLOCK_COUNTS, COUNTS_STEPS) += 1;
+		now.fact(CLOCK_COUNTS, COUNTS_HELD) += static_cast<T>(status[STATUS_HELD]);
+	}
+	status[STATUS_COMMIT] = done;
+	status[STATUS_UNDER_WAY] = again;
+	status[STATUS_STEPS] += done;
+	status[STATUS_AGAIN] += again;
+	status[STATUS_IDLE] += !good && length > 0;
+	status[STATUS_RETRIES] += left;
+	if (left)
+		status[STATUS_STALE] = 1;
+	if (done || left)
+		status[STATUS_ACTIVE] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
+}
+
+extern const Stage events_clusters;
+const Stage events_clusters{"events", "clusters",
+	{{STAGE_SEEK, seek<float>, seek<double>}, {STAGE_MUSTER, muster<float>, muster<double>}, {STAGE_RESOLVE, resolve<float>, resolve<double>},
+		{STAGE_CHECK, check<float>, check<double>}, {STAGE_SETTLE, settle<float>, settle<double>}},
+	nullptr, nullptr};
+
+}

@@ -1,0 +1,55 @@
+#include "cpu/reach.hpp"
+
+namespace carom::cpu {
+
+/* Whether a body might get out of its box in the next step. */
+template <typename T> static bool may_leave(const Slot<T> &slot, const Box<T> &box, T step, T common)
+{
+	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
+	const T speed = std::sqrt(slot.place[LINEAR_VX] * slot.place[LINEAR_VX] + slot.place[LINEAR_VY] * slot.place[LINEAR_VY]) +
+		(std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * step;
+	const T way = std::max(speed_margin * speed * step, common) + slot.radius();
+	return (x - way < box.min_x) | (y - way < box.min_y) | (x + way > box.max_x) | (y + way > box.max_y);
+}
+
+template <typename T> static void drift(const Job<T> &job)
+{
+	const Texels<T> uniforms = job.texels(0);
+	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
+	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(3));
+	int32_t *status = job.list(4), *owners = job.list(7);
+	Member *members = reinterpret_cast<Member *>(job.list(5));
+	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(6));
+	const bool commits = status[STATUS_COMMIT] != 0;
+	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH), step = uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP);
+	const T common = drift_part * T(as_float(status[STATUS_PACE])) * (step / T(as_float(status[STATUS_WINDOW])));
+	if (!commits && !status[STATUS_LEFT])
+		return;
+	const Mover<T> mover{length};
+	job.pool.run(job.domain[0], 2048, [&](int32_t begin, int32_t end) {
+		bool stale = false;
+		for (int32_t s = begin; s < end; s++) {
+			const int32_t id = owners[s];
+			Slot<T> &slot = slots[s];
+			if (commits && !slot.is_static()) {
+				Trajectory<T> way = id >= 0 ? work[id].trajectory(slot) : Trajectory<T>(slot);
+				mover.move(slot, way, T(1));
+				std::copy(way.place, way.place + 4, slot.place);
+				slot.turn[TURN_ANGLE] = way.angle;
+				slot.turn[TURN_VELOCITY] = way.velocity;
+				stale |= may_leave(slot, boxes[s], step, common);
+			}
+			if (id >= 0) {
+				members[id].reset(id);
+				owners[s] = -1;
+			}
+		}
+		if (stale)
+			__atomic_store_n(&status[STATUS_STALE], 1, __ATOMIC_RELAXED);
+	});
+}
+
+extern const Stage forward_drift;
+const Stage forward_drift{"forward", "drift", {{STAGE_DRIFT, drift<float>, drift<double>}}, nullptr, nullptr};
+
+}

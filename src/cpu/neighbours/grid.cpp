@@ -1,0 +1,300 @@
+#include "cpu/reach.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace carom::cpu {
+
+constexpr int32_t chunk = 1024; /* slots */
+
+template <typename T> static Slot<T> *slots_of(const Job<T> &job, int index)
+{
+	return reinterpret_cast<Slot<T> *>(job.records(index));
+}
+
+template <typename T> static void load(const Job<T> &job)
+{
+	const State<T> state(job, 1);
+	Slot<T> *slots = slots_of(job, STATE_COUNT);
+	int32_t *need = job.list(STATE_COUNT + 1);
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
+		for (int32_t i = begin; i < end; i++) {
+			Slot<T> &slot = slots[i];
+			const T im = 1 / state.geometry.of(i, GEOMETRY_MASS), ii = 1 / state.geometry.of(i, GEOMETRY_INERTIA);
+			for (int32_t k = 0; k < 4; k++)
+				slot.place[k] = state.linear.of(i, k);
+			slot.turn[TURN_ANGLE] = state.rotational.of(i, ROTATIONAL_ANGLE);
+			slot.turn[TURN_VELOCITY] = state.rotational.of(i, ROTATIONAL_VELOCITY);
+			slot.turn[TURN_RADIUS] = state.rotational.of(i, ROTATIONAL_RADIUS);
+			slot.turn[TURN_RESTITUTION] = state.restitution(i);
+			slot.mass[MASS_INVERSE] = im;
+			slot.mass[MASS_INVERSE_INERTIA] = ii;
+			slot.mass[MASS_FIRST] = state.geometry.of(i, GEOMETRY_FIRST);
+			slot.mass[MASS_COUNT] = state.geometry.of(i, GEOMETRY_COUNT);
+			const bool moves = im > 0;
+			slot.push[PUSH_X] = moves ? state.world(WORLD_GRAVITY_X) + state.forces.of(i, FORCES_X) * im : 0;
+			slot.push[PUSH_Y] = moves ? state.world(WORLD_GRAVITY_Y) + state.forces.of(i, FORCES_Y) * im : 0;
+			slot.push[PUSH_TORQUE] = moves ? state.forces.of(i, FORCES_TORQUE) * ii : 0;
+			slot.push[PUSH_BODY] = static_cast<T>(i);
+			need[i] = 0;
+		}
+	});
+}
+
+template <typename T> static void unload(const Job<T> &job)
+{
+	const Slot<T> *slots = slots_of(job, 0);
+	const Texels<T> linear = job.texels(1), rotational = job.texels(2);
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
+		for (int32_t s = begin; s < end; s++) {
+			const Slot<T> &slot = slots[s];
+			for (int32_t k = 0; k < 4; k++)
+				linear.of(slot.body(), k) = slot.place[k];
+			rotational.of(slot.body(), ROTATIONAL_ANGLE) = slot.turn[TURN_ANGLE];
+			rotational.of(slot.body(), ROTATIONAL_VELOCITY) = slot.turn[TURN_VELOCITY];
+			rotational.of(slot.body(), ROTATIONAL_RADIUS) = slot.turn[TURN_RADIUS];
+			rotational.of(slot.body(), 3) = 0;
+		}
+	});
+}
+
+/* How far bodies go in the time that lists are to last, from a sample of them. */
+template <typename T> static void pace(const Job<T> &job)
+{
+	const Slot<T> *slots = slots_of(job, 1);
+	int32_t *status = job.list(2);
+	const int32_t count = job.domain[2], step = count / 256 + 1;
+	const float window = static_cast<float>(job.texels(0).fact(UNIFORMS_WORLD, WORLD_TIME_STEP)) * (static_cast<float>(job.domain[3]) / 256.0f);
+	float squares = 0, push = 0, radius = 0, many = 0;
+	for (int32_t s = 0; s < count; s += step) {
+		if (slots[s].is_static())
+			continue;
+		const float vx = static_cast<float>(slots[s].place[LINEAR_VX]), vy = static_cast<float>(slots[s].place[LINEAR_VY]);
+		squares += vx * vx + vy * vy;
+		push += static_cast<float>(std::hypot(slots[s].push[PUSH_X], slots[s].push[PUSH_Y]));
+		radius += static_cast<float>(slots[s].radius());
+		many++;
+	}
+	many = std::max(many, 1.0f);
+	radius /= many;
+	const float way = (std::sqrt(squares / many) + push / many * window) * window * speed_margin;
+	const float side = 1.01f * (radius + std::max(cell_part * way, 0.1f * radius));
+	for (int field : {STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS,
+			 STATUS_PLACED, STATUS_HITS, STATUS_HELD})
+		status[field] = 0;
+	status[STATUS_BUILDS]++;
+	status[STATUS_PACE] = as_bits(std::max(pace_part * way, 0.1f * radius));
+	status[STATUS_CELL] = as_bits(side > 0 && side < 1e30f ? side : 1.0f);
+	status[STATUS_WINDOW] = as_bits(window);
+}
+
+template <typename T> static ReachRules<T> reach_rules(const int32_t *status)
+{
+	return {T(as_float(status[STATUS_WINDOW])), T(as_float(status[STATUS_PACE]))};
+}
+
+template <typename T> static void reach(const Job<T> &job)
+{
+	const Texels<T> vertices = job.texels(0);
+	const Slot<T> *slots = slots_of(job, 1);
+	const int32_t *need = job.list(2);
+	int32_t *status = job.list(3), *cells = job.list(5);
+	Span *spans = reinterpret_cast<Span *>(job.list(4));
+	const Grid grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]};
+	const ReachRules<T> rules = reach_rules<T>(status);
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
+		int32_t levels = 0;
+		for (int32_t s = begin; s < end; s++) {
+			const T *place = slots[s].place;
+			const int32_t level = grid.level_of(reach_box(slots[s], T(as_float(need[s])), rules, vertices).half(place));
+			const Cell at = grid.cell_at(place[0], place[1], level);
+			spans[s].cell = grid.row_of(at.y, level) + grid.column_of(at.x, level);
+			fetch_add(&cells[CELL_WIDTH * spans[s].cell + CELL_COUNT], 1);
+			levels |= 1 << level;
+		}
+		__atomic_fetch_or(&status[STATUS_LEVELS], levels, __ATOMIC_RELAXED);
+	});
+}
+
+template <typename T> static void cells(const Job<T> &job)
+{
+	int32_t *status = job.list(0), *all = job.list(1);
+	const int32_t columns = job.domain[2];
+	job.pool.run(job.domain[0], 16, [&](int32_t begin, int32_t end) {
+		int32_t *first = all + static_cast<size_t>(CELL_WIDTH) * static_cast<size_t>(begin) * static_cast<size_t>(columns), sum = 0;
+		const int32_t many = (end - begin) * columns;
+		for (int32_t i = 0; i < many; i++)
+			sum += first[CELL_WIDTH * i + CELL_COUNT];
+		int32_t next = fetch_add(&status[STATUS_PLACED], sum);
+		for (int32_t i = 0; i < many; i++) {
+			int32_t *cell = first + CELL_WIDTH * i;
+			cell[CELL_START] = cell[CELL_END] = next;
+			next += cell[CELL_COUNT];
+			cell[CELL_COUNT] = 0;
+		}
+	});
+}
+
+template <typename T> static void sort(const Job<T> &job)
+{
+	const Texels<T> vertices = job.texels(0);
+	const Slot<T> *slots = slots_of(job, 1);
+	Slot<T> *to = slots_of(job, 6);
+	Box<T> *boxes = reinterpret_cast<Box<T> *>(job.records(8));
+	Member *members = reinterpret_cast<Member *>(job.list(9));
+	const Span *spans = reinterpret_cast<const Span *>(job.list(4));
+	const int32_t *need = job.list(2), *status = job.list(3);
+	int32_t *all = job.list(5), *new_need = job.list(7), *owners = job.list(10);
+	const ReachRules<T> rules = reach_rules<T>(status);
+	const bool forget = status[STATUS_COMMIT] != 0;
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
+		for (int32_t s = begin; s < end; s++) {
+			const int32_t place = fetch_add(&all[CELL_WIDTH * spans[s].cell + CELL_END], 1);
+			to[place] = slots[s];
+			boxes[place] = reach_box(slots[s], T(as_float(need[s])), rules, vertices);
+			new_need[place] = forget ? 0 : need[s];
+			members[place].reset(place);
+			owners[place] = -1;
+		}
+	});
+}
+
+/* The search for neighbours of a few slots; what they find lies here until it is known how much it is. */
+template <typename T> class Search
+{
+public:
+	explicit Search(const Job<T> &job)
+		: slots(slots_of(job, 0)), boxes(reinterpret_cast<Box<T> *>(job.records(1))), status(job.list(2)), cells(job.list(3)),
+		  spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), nodes(job.list(6)),
+		  members(reinterpret_cast<Member *>(job.list(7))), grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]},
+		  levels(status[STATUS_LEVELS])
+	{
+	}
+
+	void run(int32_t begin, int32_t end)
+	{
+		static thread_local std::vector<int32_t> found, behind;
+		found.clear();
+		for (int32_t s = begin; s < end; s++) {
+			spans[s].start = static_cast<int32_t>(found.size());
+			behind.clear();
+			search(s, found, behind);
+			spans[s].half = static_cast<int32_t>(found.size());
+			found.insert(found.end(), behind.begin(), behind.end());
+			spans[s].end = static_cast<int32_t>(found.size());
+		}
+		const int32_t many = static_cast<int32_t>(found.size()), start = fetch_add(&status[STATUS_NEIGHBOURS], many);
+		const bool fits = start + many <= status[STATUS_ROOM];
+		if (fits)
+			std::copy(found.begin(), found.end(), neighbours + start);
+		else
+			__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
+		for (int32_t s = begin; s < end; s++) {
+			Span &span = spans[s];
+			span = fits ? Span{start + span.start, start + span.half, start + span.end, span.cell} : Span{0, 0, 0, span.cell};
+		}
+	}
+
+private:
+	void search(int32_t s, std::vector<int32_t> &ahead, std::vector<int32_t> &behind)
+	{
+		const Box<T> box = boxes[s];
+		const int32_t own = grid.level_of(box.half(slots[s].place));
+		const bool stands = slots[s].is_static(), mixed = (levels & (levels - 1)) != 0;
+		for (int32_t level = std::max(own - levels_below, 0); level < CELL_LEVELS; level++) {
+			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
+				continue;
+			each(box, level, [&](int32_t other) {
+				if (!box.touches(boxes[other]) || other == s || (stands && slots[other].is_static()))
+					return;
+				if (mixed && grid.level_of(boxes[other].half(slots[other].place)) != level)
+					return;
+				(level != own || other > s ? ahead : behind).push_back(other);
+				if (level != own)
+					tell(other, s);
+			});
+		}
+	}
+
+	/* All the slots in the cells of a level that a box of that level could touch. */
+	template <typename Visit> void each(const Box<T> &box, int32_t level, Visit visit)
+	{
+		const T side = T(grid.side_of(level));
+		const Cell low = grid.cell_at(box.min_x - side, box.min_y - side, level), high = grid.cell_at(box.max_x + side, box.max_y + side, level);
+		for (int32_t y = low.y; y <= high.y; y++) {
+			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x, level), last = row + grid.column_of(high.x, level);
+			if (last < first) {
+				for (int32_t k = start(row); k < finish(last); k++)
+					visit(k);
+			}
+			for (int32_t k = start(first), end = finish(last < first ? row + grid.columns - 1 : last); k < end; k++)
+				visit(k);
+		}
+	}
+
+	int32_t start(int32_t cell) const { return cells[CELL_WIDTH * cell + CELL_START]; }
+	int32_t finish(int32_t cell) const { return cells[CELL_WIDTH * cell + CELL_END]; }
+
+	/* Of two bodies of different levels one looks, and tells the other. */
+	void tell(int32_t other, int32_t s)
+	{
+		const int32_t node = fetch_add(&status[STATUS_NODES], 1);
+		if (node >= status[STATUS_NODE_ROOM]) {
+			__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
+			return;
+		}
+		nodes[NODE_WIDTH * node + NODE_SLOT] = s;
+		nodes[NODE_WIDTH * node + NODE_LINK] = __atomic_exchange_n(&members[other].head, node, __ATOMIC_RELAXED);
+	}
+
+	const Slot<T> *const slots;
+	const Box<T> *const boxes;
+	int32_t *const status, *const cells;
+	Span *const spans;
+	int32_t *const neighbours, *const nodes;
+	Member *const members;
+	const Grid grid;
+	const int32_t levels;
+};
+
+template <typename T> static void near(const Job<T> &job)
+{
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) { Search<T>(job).run(begin, end); });
+}
+
+template <typename T> static void gather(const Job<T> &job)
+{
+	int32_t *status = job.list(0), *neighbours = job.list(2);
+	Span *spans = reinterpret_cast<Span *>(job.list(1));
+	const int32_t *nodes = job.list(3);
+	Member *members = reinterpret_cast<Member *>(job.list(4));
+	job.pool.run(job.domain[0], 4096, [&](int32_t begin, int32_t end) {
+		for (int32_t s = begin; s < end; s++) {
+			int32_t more = 0, own = spans[s].end - spans[s].start;
+			if (members[s].head < 0)
+				continue;
+			for (int32_t k = members[s].head; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
+				more++;
+			int32_t to = fetch_add(&status[STATUS_NEIGHBOURS], own + more);
+			if (to + own + more > status[STATUS_ROOM]) {
+				__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
+			} else {
+				std::copy(neighbours + spans[s].start, neighbours + spans[s].end, neighbours + to);
+				spans[s] = {to, to + spans[s].half - spans[s].start, to + own + more, spans[s].cell};
+				to += own;
+				for (int32_t k = members[s].head; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
+					neighbours[to++] = nodes[NODE_WIDTH * k + NODE_SLOT];
+			}
+			members[s].head = -1;
+		}
+	});
+}
+
+extern const Stage neighbours_grid;
+const Stage neighbours_grid{"neighbours", "grid",
+	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_PACE, pace<float>, pace<double>}, {STAGE_REACH, reach<float>, reach<double>},
+		{STAGE_CELLS, cells<float>, cells<double>}, {STAGE_SORT, sort<float>, sort<double>}, {STAGE_NEAR, near<float>, near<double>},
+		{STAGE_GATHER, gather<float>, gather<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}},
+	nullptr, nullptr};
+
+}

@@ -1,0 +1,367 @@
+/* The clusters of the step events, and the queue of events of one: CONTRACT.md, "The step events". */
+#ifndef CAROM_CPU_QUEUE_HPP
+#define CAROM_CPU_QUEUE_HPP
+
+#include "cpu/reach.hpp"
+
+namespace carom::cpu {
+
+/* What the threads that run clusters share. A number belongs to one cluster; only its thread changes what it numbers, but for what is
+ * reached by the atomic functions here. */
+template <typename T> class Clusters : public Bodies<T>
+{
+public:
+	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active; owners last. */
+	Clusters(const Job<T> &job, int owners_at)
+		: Bodies<T>(job), spans(reinterpret_cast<const Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
+		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at))
+	{
+	}
+
+	bool ready() const { return this->length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL]; }
+
+	int32_t root_of(int32_t id) const
+	{
+		for (int32_t parent; (parent = __atomic_load_n(&members[id].parent, __ATOMIC_ACQUIRE)) != id;)
+			id = parent;
+		return id;
+	}
+
+	void unite(int32_t a, int32_t b) const
+	{
+		while ((a = root_of(a)) != (b = root_of(b))) {
+			int32_t child = std::max(a, b);
+			const int32_t hook = child;
+			if (__atomic_compare_exchange_n(&members[hook].parent, &child, std::min(a, b), false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE))
+				return;
+		}
+	}
+
+	/* A number for a body of a step that begins; who comes second leaves one that nobody uses. */
+	void activate(int32_t s, int32_t round) const
+	{
+		if (__atomic_load_n(&owners[s], __ATOMIC_ACQUIRE) >= 0)
+			return;
+		const int32_t id = fetch_add(&status[STATUS_ACTIVE], 1);
+		members[id].owner = id;
+		const bool mine = take(s, id);
+		active[id] = mine ? s : -1;
+		members[id].round = mine ? round : 0;
+		__atomic_store_n(&status[STATUS_ROUND], round, __ATOMIC_RELAXED);
+	}
+
+	bool take(int32_t s, int32_t id) const
+	{
+		int32_t nobody = -1;
+		return __atomic_compare_exchange_n(&owners[s], &nobody, id, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE);
+	}
+
+	/* The two are one in the next round. */
+	void conflict(int32_t a, int32_t b, int32_t round) const
+	{
+		unite(a, b);
+		for (int32_t leader : {a, b}) {
+			__atomic_store_n(&members[leader].round, round + 1, __ATOMIC_RELAXED);
+			__atomic_store_n(&members[leader].head, -1, __ATOMIC_RELAXED);
+		}
+		__atomic_store_n(&status[STATUS_ROUND], round + 1, __ATOMIC_RELAXED);
+	}
+
+	void begin(Work<T> &work, int32_t id, int32_t s) const
+	{
+		const T *place = this->slots[s].place;
+		work.keep(Trajectory<T>(this->slots[s]));
+		work.next[NEXT_TIME] = NO_HIT;
+		work.box[0] = work.box[2] = place[LINEAR_X];
+		work.box[1] = work.box[3] = place[LINEAR_Y];
+		members[id].events = members[id].rapid = members[id].hits = 0;
+	}
+
+	const Span *const spans;
+	const int32_t *const neighbours;
+	int32_t *const status;
+	Member *const members;
+	int32_t *const active, *const owners;
+};
+
+/* One cluster, by its leader's number. */
+template <typename T> class Queue
+{
+public:
+	Queue(const Clusters<T> &all, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round)
+		: clusters(all), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs), leader(number), round(in_round),
+		  head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE))
+	{
+	}
+
+	void run()
+	{
+		if (head < 0)
+			return;
+		for (int32_t m = head; m >= 0; m = members[m].link)
+			look(m);
+		while (answer_first()) {
+		}
+		count();
+	}
+
+private:
+	/* Answers the first event; false when there is none left, or the cluster has to be given up. */
+	bool answer_first()
+	{
+		const int32_t id = first();
+		const T *next = work[id].next;
+		const int32_t other = static_cast<int32_t>(next[NEXT_PARTNER]);
+		finished = !(next[NEXT_TIME] <= 1);
+		if (finished)
+			return false;
+		int32_t other_id = -1;
+		if (other >= 0 && !slots[other].is_static()) {
+			other_id = member(other);
+			if (other_id < 0)
+				return false;
+			if (members[other_id].events != members[id].seen) {
+				look(id); /* what it saw is over */
+				return true;
+			}
+		}
+		if (!answer(id, other_id)) {
+			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
+			return false;
+		}
+		look(id);
+		if (other_id >= 0)
+			look(other_id);
+		return true;
+	}
+
+	static bool before(const T *a, const T *b)
+	{
+		return std::lexicographical_compare(a, a + 3, b, b + 3);
+	}
+
+	int32_t first() const
+	{
+		int32_t least = head;
+		for (int32_t m = members[head].link; m >= 0; m = members[m].link) {
+			if (before(work[m].next, work[least].next))
+				least = m;
+		}
+		return least;
+	}
+
+	/* The number of a body that is to be hit, claimed if it is nobody's; -1 if it is another cluster's. */
+	int32_t member(int32_t s)
+	{
+		int32_t id = __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
+		if (id < 0)
+			id = claim(s);
+		const int32_t owner = __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE);
+		if (owner == leader)
+			return id;
+		clusters.conflict(leader, owner, round);
+		return -1;
+	}
+
+	int32_t claim(int32_t s)
+	{
+		const int32_t id = fetch_add(&clusters.status[STATUS_ACTIVE], 1);
+		clusters.active[id] = s;
+		clusters.begin(work[id], id, s);
+		members[id].parent = members[id].owner = leader;
+		if (!clusters.take(s, id)) {
+			clusters.active[id] = -1;
+			members[id].reset(id);
+			return __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
+		}
+		members[id].link = members[head].link;
+		members[head].link = id;
+		return id;
+	}
+
+	/* Of the cluster's own bodies the way as it is now, of all others as the step began. */
+	Trajectory<T> way_of(int32_t s, int32_t &id) const
+	{
+		id = __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
+		if (id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) != leader)
+			id = -1;
+		return id >= 0 ? work[id].trajectory(slots[s]) : Trajectory<T>(slots[s]);
+	}
+
+	/* Finds the member's first event. */
+	void look(int32_t id)
+	{
+		const int32_t s = clusters.active[id], index = slots[s].body();
+		const Trajectory<T> way = work[id].trajectory(slots[s]);
+		const Disc<T> disc(slots[s], way.place, way.time, way.held > 0, clusters.length);
+		T *next = work[id].next;
+		int32_t wall;
+		next[NEXT_TIME] = clusters.wall_time(s, way, &wall);
+		next[NEXT_ROW] = static_cast<T>(index);
+		next[NEXT_COLUMN] = next[NEXT_PARTNER] = static_cast<T>(-1 - wall);
+		members[id].seen = 0;
+		for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
+			const int32_t other = clusters.neighbours[k];
+			int32_t other_id;
+			const Trajectory<T> other_way = way_of(other, other_id);
+			if (stay_apart(disc, Disc<T>(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length)))
+				continue;
+			const int32_t other_index = slots[other].body();
+			const T event[4] = {clusters.pair_time(s, way, other, other_way), static_cast<T>(std::max(index, other_index)),
+				static_cast<T>(std::min(index, other_index)), static_cast<T>(other)};
+			if (event[NEXT_TIME] <= 1 && before(event, next)) {
+				std::copy(event, event + 4, next);
+				members[id].seen = other_id >= 0 ? members[other_id].events : 0;
+			}
+		}
+	}
+
+	/* Is the event at time u a rapid one of a body that had enough of them? */
+	bool is_rapid(int32_t id, const Trajectory<T> &way, T u)
+	{
+		if (id < 0 || way.held > 0 || members[id].events == 0 || !(u - way.time < T(RAPID)))
+			return false;
+		return members[id].rapid++ >= RAPID_MOST;
+	}
+
+	/* Answers the member's event; false if a body would leave its box. */
+	bool answer(int32_t id, int32_t other_id)
+	{
+		const int32_t s = clusters.active[id], other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]);
+		const T u = work[id].next[NEXT_TIME];
+		Trajectory<T> way = work[id].trajectory(slots[s]);
+		const bool changes = !(way.held > 0);
+		bool rapid = is_rapid(id, way, u), stays = true;
+		clusters.move(slots[s], way, u);
+		Impact hit;
+		if (other < 0) {
+			hit = wall_impact(s, way, -1 - other, rapid);
+		} else {
+			Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
+			const bool other_changes = other_id >= 0 && !(other_way.held > 0);
+			const bool other_rapid = is_rapid(other_id, other_way, u);
+			clusters.move(slots[other], other_way, u);
+			const bool is_row = slots[s].body() > slots[other].body();
+			hit = is_row ? pair_impact(s, way, other, other_way, rapid || other_rapid) : pair_impact(other, other_way, s, way, rapid || other_rapid);
+			if (other_changes)
+				stays = push(other, other_id, other_way, hit, !is_row);
+			if (changes)
+				stays = push(s, id, way, hit, is_row) && stays;
+		}
+		if (other < 0 && changes)
+			stays = push(s, id, way, hit, true);
+		members[id].hits += hit.total > 0;
+		return stays;
+	}
+
+	/* What the row body gets; the column body gets the impulse's opposite. */
+	struct Impact {
+		T x, y, row_torque, column_torque, total;
+	};
+
+	void set_rules(Collision<T> &collision, T restitution, T pull, bool rapid) const
+	{
+		collision.restitution = rapid ? T(1) : restitution;
+		collision.micro = restitution < 1 ? larger(-(T(MICRO) * pull), T(0)) : T(0);
+		collision.stillness = collision.stillness * T(0.5);
+	}
+
+	Impact impact(const Collision<T> &collision) const
+	{
+		const Contact<T> &c = collision.contact;
+		const Impulses<T> j = clusters.functions.impulses(collision);
+		const T total = j.at[0] + j.at[1], length = clusters.length, x = (total * c.n.x()) / length, y = (total * c.n.y()) / length;
+		const T on_inc = torque(c, c.inc, j) / length, on_ref = -torque(c, c.ref, j) / length;
+		if (c.from_b)
+			return {x, y, on_inc, on_ref, total};
+		return {-x, -y, on_ref, on_inc, total};
+	}
+
+	Impact wall_impact(int32_t s, const Trajectory<T> &way, int32_t k, bool rapid) const
+	{
+		Convex<T> body;
+		clusters.fill(body, slots[s], way);
+		const Wall<T> wall = clusters.wall(k);
+		Collision<T> collision{wall_contact(body, wall, T(0), wall_slop(body)), wall_stillness(body), 1, 0, body.inverse_mass, 0,
+			body.inverse_inertia};
+		set_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), rapid);
+		return impact(collision);
+	}
+
+	Impact pair_impact(int32_t row, const Trajectory<T> &row_way, int32_t column, const Trajectory<T> &column_way, bool rapid) const
+	{
+		Convex<T> a, b;
+		clusters.fill(a, slots[row], row_way);
+		clusters.fill(b, slots[column], column_way);
+		const Pose<T> at = pose(a, b, T(0));
+		const Axis<T> axis = best_axis(a, b, at);
+		const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
+		Collision<T> collision{contact_at(a, b, at, axis, pair_slop(a, b)), pair_stillness(a, b), 1, ref.inverse_mass, inc.inverse_mass,
+			ref.inverse_inertia, inc.inverse_inertia};
+		const Vec<T> between = inc.a - ref.a;
+		set_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]), inner(collision.contact.n, between),
+			rapid);
+		return impact(collision);
+	}
+
+	bool push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row)
+	{
+		const T sign = is_row ? T(1) : T(-1);
+		way.place[LINEAR_VX] += (sign * hit.x) * slots[s].mass[MASS_INVERSE];
+		way.place[LINEAR_VY] += (sign * hit.y) * slots[s].mass[MASS_INVERSE];
+		way.velocity += (is_row ? hit.row_torque : hit.column_torque) * slots[s].mass[MASS_INVERSE_INERTIA];
+		if (++members[id].events > HOLD_LIMIT)
+			way.held = 1;
+		work[id].keep(way);
+		return stays_in_reach(s, id, way);
+	}
+
+	/* Adds the way that is left to the box of all of it. */
+	bool stays_in_reach(int32_t s, int32_t id, const Trajectory<T> &way)
+	{
+		const Body<T> body = clusters.body(slots[s], way);
+		const T rest = 1 - way.time, size = std::abs(body.x.x()) + std::abs(body.x.y()) + body.radius;
+		const T pad = T(0.125) * rest * rest * (std::abs(body.a.x()) + std::abs(body.a.y())) + size * T(4 * SLOP);
+		const Vec<T> end = body.place_at(rest);
+		const Box<T> left{std::min(body.x.x(), end.x()) - pad, std::min(body.x.y(), end.y()) - pad, std::max(body.x.x(), end.x()) + pad,
+			std::max(body.x.y(), end.y()) + pad};
+		T *box = work[id].box;
+		box[0] = std::min(box[0], left.min_x), box[1] = std::min(box[1], left.min_y);
+		box[2] = std::max(box[2], left.max_x), box[3] = std::max(box[3], left.max_y);
+		const Box<T> &most = boxes[s];
+		if (left.min_x - body.radius >= most.min_x && left.min_y - body.radius >= most.min_y && left.max_x + body.radius <= most.max_x &&
+			left.max_y + body.radius <= most.max_y)
+			return true;
+		need[s] = as_bits(static_cast<float>(left.half(slots[s].place)));
+		return false;
+	}
+
+	/* Adds up what the cluster did; one that is given up did nothing. */
+	void count()
+	{
+		int32_t hits = 0, held = 0;
+		for (int32_t m = head; m >= 0; m = members[m].link) {
+			hits += members[m].hits;
+			held += work[m].held > 0;
+			if (!finished)
+				members[m].hits = members[m].events = 0;
+		}
+		if (finished) {
+			fetch_add(&clusters.status[STATUS_HITS], hits);
+			fetch_add(&clusters.status[STATUS_HELD], held);
+		}
+	}
+
+	const Clusters<T> &clusters;
+	const Slot<T> *const slots;
+	Member *const members;
+	Work<T> *const work;
+	const Box<T> *const boxes;
+	int32_t *const need;
+	const int32_t leader, round, head;
+	bool finished = false;
+};
+
+}
+
+#endif

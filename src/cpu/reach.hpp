@@ -1,0 +1,108 @@
+/* Where a body may get while the lists of neighbours are good, and the cells where it is looked for. */
+#ifndef CAROM_CPU_REACH_HPP
+#define CAROM_CPU_REACH_HPP
+
+#include "cpu/slots.hpp"
+
+namespace carom::cpu {
+
+/* None of these changes a result: they decide how long lists last. */
+constexpr float speed_margin = 1.25f; /* of a body's speed: hits may make it faster */
+constexpr float pace_part = 1.6f;     /* of the mean speed, which counts for bodies that are slower */
+constexpr float cell_part = 2.5f;     /* of the mean speed: few bodies are too fast for the cells of their size */
+constexpr float drift_part = 1.34f;   /* of what the pace is for a step */
+constexpr int32_t levels_below = 2;   /* a body looks for others so many levels below its own; those farther below look for it */
+
+inline int32_t fetch_add(int32_t *number, int32_t by)
+{
+	return __atomic_fetch_add(number, by, __ATOMIC_RELAXED);
+}
+
+inline float as_float(int32_t bits)
+{
+	float number;
+	std::memcpy(&number, &bits, sizeof number);
+	return number;
+}
+
+inline int32_t as_bits(float number)
+{
+	int32_t bits;
+	std::memcpy(&bits, &number, sizeof bits);
+	return bits;
+}
+
+template <typename T> struct Box {
+	T min_x, min_y, max_x, max_y;
+
+	bool touches(const Box &other) const
+	{
+		return (min_x <= other.max_x) & (max_x >= other.min_x) & (min_y <= other.max_y) & (max_y >= other.min_y);
+	}
+	/* the largest extent from a place */
+	T half(const T *place) const
+	{
+		return std::max(std::max(place[0] - min_x, max_x - place[0]), std::max(place[1] - min_y, max_y - place[1]));
+	}
+};
+
+struct Cell {
+	int32_t x, y;
+};
+
+/* The grid is a torus; its levels lie upon one another, shifted. */
+struct Grid {
+	float side;
+	int32_t columns, rows;
+
+	float side_of(int32_t level) const { return side * static_cast<float>(1 << level); }
+	template <typename T> int32_t level_of(T half) const
+	{
+		int32_t level = 0;
+		while (level < CELL_LEVELS - 1 && T(side_of(level)) < half)
+			level++;
+		return level;
+	}
+	template <typename T> static int32_t step(T x, T side)
+	{
+		return static_cast<int32_t>(std::floor(std::min(std::max(x / side, T(-1e9)), T(1e9))));
+	}
+	template <typename T> Cell cell_at(T x, T y, int32_t level) const { return {step(x, T(side_of(level))), step(y, T(side_of(level)))}; }
+	int32_t row_of(int32_t y, int32_t level) const { return ((y + 7 * level) & (rows - 1)) * columns; }
+	int32_t column_of(int32_t x, int32_t level) const { return (x + 11 * level) & (columns - 1); }
+};
+
+template <typename T> struct ReachRules {
+	T window, pace;
+};
+
+template <typename T> Box<T> static_box(const Slot<T> &slot, const Texels<T> &vertices)
+{
+	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y], pad = (std::abs(x) + std::abs(y) + slot.radius()) * T(4 * SLOP);
+	const int32_t count = static_cast<int32_t>(slot.mass[MASS_COUNT]), first = static_cast<int32_t>(slot.mass[MASS_FIRST]);
+	const T grow = count == 1 ? pad + slot.radius() : pad;
+	Box<T> box{x, y, x, y};
+	const Vec<T> rotation = rotation_of(slot.turn[TURN_ANGLE]);
+	for (int32_t k = 0; count > 1 && k < count; k++) {
+		const Vec<T> local(vertices.of(first + k / 2, k % 2 ? VERTICES_X1 : VERTICES_X0),
+			vertices.of(first + k / 2, k % 2 ? VERTICES_Y1 : VERTICES_Y0));
+		const Vec<T> v = turn(rotation, local);
+		box = {std::min(box.min_x, x + v.x()), std::min(box.min_y, y + v.y()), std::max(box.max_x, x + v.x()), std::max(box.max_y, y + v.y())};
+	}
+	return {box.min_x - grow, box.min_y - grow, box.max_x + grow, box.max_y + grow};
+}
+
+template <typename T> Box<T> reach_box(const Slot<T> &slot, T need, const ReachRules<T> &rules, const Texels<T> &vertices)
+{
+	if (slot.is_static())
+		return static_box(slot, vertices);
+	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
+	const T speed = std::hypot(slot.place[LINEAR_VX], slot.place[LINEAR_VY]) + std::hypot(slot.push[PUSH_X], slot.push[PUSH_Y]) * rules.window;
+	T way = std::max(std::max(rules.pace, speed_margin * speed * rules.window), speed_margin * need);
+	way += slot.radius() + (std::abs(x) + std::abs(y) + slot.radius()) * T(8 * SLOP);
+	return {x - way, y - way, x + way, y + way};
+}
+
+}
+
+#endif

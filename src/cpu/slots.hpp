@@ -1,0 +1,233 @@
+/* Slots, trajectories, and the hits of the step events: CONTRACT.md, "The step events". */
+#ifndef CAROM_CPU_SLOTS_HPP
+#define CAROM_CPU_SLOTS_HPP
+
+#include "cpu/impulse.hpp"
+#include "cpu/toi.hpp"
+
+namespace carom::cpu {
+
+/* The records of a slot, as they lie in memory. */
+template <typename T> struct Slot {
+	T place[4], turn[4], mass[4], push[4];
+
+	bool is_static() const { return !(mass[MASS_INVERSE] > 0); }
+	int32_t body() const { return static_cast<int32_t>(push[PUSH_BODY]); }
+	T radius() const { return turn[TURN_RADIUS]; }
+};
+
+/* A body's way from a time on. */
+template <typename T> struct Trajectory {
+	T place[4], angle, velocity, time, held;
+
+	explicit Trajectory(const Slot<T> &slot) : angle(slot.turn[TURN_ANGLE]), velocity(slot.turn[TURN_VELOCITY]), time(0), held(0)
+	{
+		std::copy(slot.place, slot.place + 4, place);
+	}
+};
+
+/* What is known of a body that events change: the records of Work. */
+template <typename T> struct Work {
+	T place[4], angle, velocity, time, held, next[4], box[4];
+
+	void keep(const Trajectory<T> &way)
+	{
+		std::copy(way.place, way.place + 4, place);
+		angle = way.angle, velocity = way.velocity, time = way.time, held = way.held;
+	}
+
+	Trajectory<T> trajectory(const Slot<T> &slot) const
+	{
+		Trajectory<T> way(slot);
+		std::copy(place, place + 4, way.place);
+		way.angle = angle, way.velocity = velocity, way.time = time, way.held = held;
+		return way;
+	}
+};
+
+static_assert(sizeof(Slot<float>) == SLOT_WIDTH * 4 * sizeof(float) && sizeof(Work<float>) == WORK_WIDTH * 4 * sizeof(float), "records");
+
+/* The numbers of a member. */
+struct Member {
+	int32_t parent, owner, link, head, events, rapid, seen, round, hits, unused[3];
+
+	void reset(int32_t id)
+	{
+		*this = {id, -1, -1, -1, 0, 0, 0, 0, 0, {0, 0, 0}};
+	}
+};
+
+static_assert(sizeof(Member) == MEMBER_WIDTH * sizeof(int32_t) && offsetof(Member, hits) == MEMBER_HITS * sizeof(int32_t) &&
+	offsetof(Member, round) == MEMBER_ROUND * sizeof(int32_t) && offsetof(Member, rapid) == MEMBER_RAPID * sizeof(int32_t), "members");
+
+struct Span {
+	int32_t start, half, end, cell;
+};
+
+static_assert(sizeof(Span) == SPAN_WIDTH * sizeof(int32_t), "spans");
+
+/* The centre's motion in step units, with the radius about it. */
+template <typename T> struct Disc {
+	T x, y, vx, vy, ax, ay, radius, time;
+
+	Disc(const Slot<T> &slot, const T *place, T at, bool stands, T length)
+		: x(place[LINEAR_X]), y(place[LINEAR_Y]), vx(stands ? 0 : place[LINEAR_VX] * length), vy(stands ? 0 : place[LINEAR_VY] * length),
+		  ax(stands ? 0 : (slot.push[PUSH_X] * length) * length), ay(stands ? 0 : (slot.push[PUSH_Y] * length) * length),
+		  radius(slot.radius()), time(at)
+	{
+	}
+};
+
+template <typename T> bool stay_apart(const Disc<T> &a, const Disc<T> &b)
+{
+	const T t0 = std::max(a.time, b.time), rest = 1 - t0, da = t0 - a.time, db = t0 - b.time;
+	const T x0 = a.x + da * (a.vx + T(0.5) * da * a.ax), y0 = a.y + da * (a.vy + T(0.5) * da * a.ay);
+	const T x = b.x + db * (b.vx + T(0.5) * db * b.ax) - x0, y = b.y + db * (b.vy + T(0.5) * db * b.ay) - y0;
+	const T vx = b.vx + db * b.ax - (a.vx + da * a.ax), vy = b.vy + db * b.ay - (a.vy + da * a.ay);
+	const T reach = a.radius + b.radius, differ = std::abs(b.ax - a.ax) + std::abs(b.ay - a.ay);
+	const T size = 2 * (std::abs(x0) + std::abs(y0)) + std::abs(x) + std::abs(y) + reach + std::abs(vx) + std::abs(vy);
+	const T most = reach + differ + size * T(4 * SLOP);
+	if ((std::abs(x) > most + std::abs(vx)) | (std::abs(y) > most + std::abs(vy)))
+		return true;
+	const T square = most * most * T(1.00001), approach = x * vx + y * vy;
+	if (approach >= 0)
+		return x * x + y * y > square;
+	const T x1 = x + rest * vx, y1 = y + rest * vy;
+	if (x1 * vx + y1 * vy <= 0)
+		return x1 * x1 + y1 * y1 > square;
+	const T across = x * vy - y * vx;
+	return across * across > square * (vx * vx + vy * vy);
+}
+
+/* Trajectories in a step of a length, s. */
+template <typename T> struct Mover {
+	T length;
+
+	Body<T> body(const Slot<T> &slot, const Trajectory<T> &way) const
+	{
+		Body<T> body;
+		body.radius = slot.radius();
+		body.first = static_cast<int32_t>(slot.mass[MASS_FIRST]);
+		body.count = static_cast<int32_t>(slot.mass[MASS_COUNT]);
+		body.x = {way.place[LINEAR_X], way.place[LINEAR_Y]};
+		body.r = way.angle;
+		const bool stands = way.held > 0, pushed = !stands && !slot.is_static();
+		body.inverse_mass = stands ? 0 : slot.mass[MASS_INVERSE];
+		body.inverse_inertia = stands ? 0 : slot.mass[MASS_INVERSE_INERTIA];
+		body.v = stands ? Vec<T>(0, 0) : Vec<T>(way.place[LINEAR_VX] * length, way.place[LINEAR_VY] * length);
+		body.w = stands ? 0 : way.velocity * length;
+		body.a = pushed ? Vec<T>((slot.push[PUSH_X] * length) * length, (slot.push[PUSH_Y] * length) * length) : Vec<T>(0, 0);
+		body.b = pushed ? (slot.push[PUSH_TORQUE] * length) * length : 0;
+		return body;
+	}
+
+	void move(const Slot<T> &slot, Trajectory<T> &way, T u) const
+	{
+		if (u == way.time || way.held > 0 || slot.is_static())
+			return;
+		const Body<T> at = body(slot, way);
+		const T dt = u - way.time, part = dt / length;
+		const Vec<T> x = at.place_at(dt);
+		way.place[LINEAR_X] = x.x();
+		way.place[LINEAR_Y] = x.y();
+		way.place[LINEAR_VX] = way.place[LINEAR_VX] + part * at.a.x();
+		way.place[LINEAR_VY] = way.place[LINEAR_VY] + part * at.a.y();
+		way.angle = wrapped(at.angle_at(dt));
+		way.velocity = way.velocity + part * at.b;
+		way.time = u;
+	}
+};
+
+/* What the hits of a step depend on. */
+template <typename T> class Bodies : public Mover<T>
+{
+public:
+	/* The kernel's first textures are Vertices, Uniforms and the clock, the next the slots. */
+	explicit Bodies(const Job<T> &job)
+		: Mover<T>{step_length(job.texels(2), job.texels(1))}, slots(reinterpret_cast<Slot<T> *>(job.records(3))), functions(job.functions),
+		  inside(job.inside),
+		  uniforms(job.texels(1)), vertices(job.texels(0)), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
+		  has_room(rule(RULES_HAS_ROOM) > 0)
+	{
+	}
+
+	T rule(int32_t channel) const { return uniforms.fact(UNIFORMS_RULES, channel); }
+	T room(int32_t channel) const { return uniforms.fact(UNIFORMS_ROOM, channel); }
+
+	void fill(Convex<T> &convex, const Slot<T> &slot, const Trajectory<T> &way) const
+	{
+		static_cast<Body<T> &>(convex) = this->body(slot, way);
+		convex.vertices.resize(2, convex.count);
+		for (int32_t k = 0; convex.count > 1 && k < convex.count; k++) {
+			const int32_t texel = convex.first + k / 2;
+			convex.vertices(0, k) = vertices.of(texel, k % 2 ? VERTICES_X1 : VERTICES_X0);
+			convex.vertices(1, k) = vertices.of(texel, k % 2 ? VERTICES_Y1 : VERTICES_Y0);
+		}
+	}
+
+	/* When the two hit; NO_HIT if they don't. */
+	T pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way) const
+	{
+		const T t0 = larger(way.time, other_way.time), rest = 1 - t0;
+		this->move(slots[s], way, t0);
+		this->move(slots[other], other_way, t0);
+		Convex<T> a, b;
+		const bool in_order = slots[s].body() > slots[other].body();
+		fill(in_order ? a : b, slots[s], way);
+		fill(in_order ? b : a, slots[other], other_way);
+		if (a.is_static() && b.is_static())
+			return NO_HIT;
+		const T hit = functions.pair_time(Pair<T>(a, b, inside), rules);
+		return hit <= rest ? smaller(t0 + hit, T(1)) : T(NO_HIT);
+	}
+
+	/* When the body hits which wall first. */
+	T wall_time(int32_t s, const Trajectory<T> &way, int32_t *which) const
+	{
+		T first = NO_HIT;
+		*which = 0;
+		if (!has_room || slots[s].is_static() || way.held > 0 || stays_inside(s, way))
+			return first;
+		Convex<T> convex;
+		fill(convex, slots[s], way);
+		for (int32_t k = 0; k < wall_count; k++) {
+			const T t = functions.wall_time(convex, wall(k)), u = t <= 1 - way.time ? smaller(way.time + t, T(1)) : T(NO_HIT);
+			if (u <= 1 && u <= first)
+				first = u, *which = k;
+		}
+		return first;
+	}
+
+	Wall<T> wall(int32_t k) const
+	{
+		switch (k) {
+		case 0: return {{1, 0}, room(ROOM_MIN_X)};
+		case 1: return {{0, 1}, room(ROOM_MIN_Y)};
+		case 2: return {{-1, 0}, -room(ROOM_MAX_X)};
+		default: return {{0, -1}, -room(ROOM_MAX_Y)};
+		}
+	}
+
+	Slot<T> *const slots;
+	const Functions<T> &functions;
+	const InsideTest<T> inside;
+	using Mover<T>::length;
+
+private:
+	bool stays_inside(int32_t s, const Trajectory<T> &way) const
+	{
+		const Disc<T> disc(slots[s], way.place, way.time, false, length);
+		const T push = std::abs(disc.ax) + std::abs(disc.ay), size = disc.radius + push + std::abs(disc.vx) + std::abs(disc.vy);
+		const T pad = disc.radius + push + (size + std::abs(disc.x) + std::abs(disc.y)) * T(4 * SLOP);
+		return std::min(disc.x, disc.x + disc.vx) - pad >= room(ROOM_MIN_X) && std::min(disc.y, disc.y + disc.vy) - pad >= room(ROOM_MIN_Y) &&
+			std::max(disc.x, disc.x + disc.vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y, disc.y + disc.vy) + pad <= room(ROOM_MAX_Y);
+	}
+
+	const Texels<T> uniforms, vertices;
+	const SearchRules<T> rules;
+	const bool has_room;
+};
+
+}
+
+#endif
