@@ -128,48 +128,10 @@ template <typename T> static void check(const Job<T> &job)
 	});
 }
 
-/* The clock gets on, if the step is done. */
-template <typename T> static void settle(const Job<T> &job)
-{
-	const Texels<T> uniforms = job.texels(0), clock = job.texels(1), now = job.texels(3);
-	int32_t *status = job.list(2);
-	const T length = step_length(clock, uniforms);
-	const bool good = length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL], left = good && status[STATUS_LEFT];
-	const bool again = good && !left && status[STATUS_ROUND] > job.domain[2], done = good && !left && !again;
-	for (int32_t texel = 0; texel < CLOCK_WIDTH; texel++) {
-		for (int32_t channel = 0; channel < 4; channel++)
-			now.fact(texel, channel) = clock.fact(texel, channel);
-	}
-	now.set(CLOCK_STEP, 0, 0, 0, clock.fact(CLOCK_STEP, STEP_STALLED), clock.fact(CLOCK_STEP, STEP_ENDED));
-	if (done) {
-		auto add = [&](int32_t texel, int32_t high, int32_t low, T x) {
-			const Sum<T> sum = add_exactly({clock.fact(texel, high), clock.fact(texel, low)}, x);
-			now.fact(texel, high) = sum.high, now.fact(texel, low) = sum.low;
-		};
-		now.set(CLOCK_HIT, 0, NO_HIT, 0, 0, 1);
-		now.set(CLOCK_STEP, 0, length, length, 0, 0);
-		add(CLOCK_TIME, TIME_ELAPSED, TIME_ELAPSED_LOW, length);
-		add(CLOCK_TIME, TIME_REMAINING, TIME_REMAINING_LOW, -length);
-		add(CLOCK_COUNTS, COUNTS_HITS, COUNTS_HITS_LOW, static_cast<T>(status[STATUS_HITS]));
-		now.fact(CLOCK_COUNTS, COUNTS_STEPS) += 1;
-		now.fact(CLOCK_COUNTS, COUNTS_HELD) += static_cast<T>(status[STATUS_HELD]);
-	}
-	status[STATUS_COMMIT] = done;
-	status[STATUS_UNDER_WAY] = again;
-	status[STATUS_STEPS] += done;
-	status[STATUS_AGAIN] += again;
-	status[STATUS_IDLE] += !good && length > 0;
-	status[STATUS_RETRIES] += left;
-	if (left)
-		status[STATUS_STALE] = 1;
-	if (done || left)
-		status[STATUS_ACTIVE] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
-}
-
 extern const Stage events_clusters;
 const Stage events_clusters{"events", "clusters",
 	{{STAGE_SEEK, seek<float>, seek<double>}, {STAGE_MUSTER, muster<float>, muster<double>}, {STAGE_RESOLVE, resolve<float>, resolve<double>},
-		{STAGE_CHECK, check<float>, check<double>}, {STAGE_SETTLE, settle<float>, settle<double>}},
+		{STAGE_CHECK, check<float>, check<double>}},
 	nullptr, nullptr};
 
 }

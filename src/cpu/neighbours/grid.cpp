@@ -12,52 +12,6 @@ template <typename T> static Slot<T> *slots_of(const Job<T> &job, int index)
 	return reinterpret_cast<Slot<T> *>(job.records(index));
 }
 
-template <typename T> static void load(const Job<T> &job)
-{
-	const State<T> state(job, 1);
-	Slot<T> *slots = slots_of(job, STATE_COUNT);
-	int32_t *need = job.list(STATE_COUNT + 1);
-	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
-		for (int32_t i = begin; i < end; i++) {
-			Slot<T> &slot = slots[i];
-			const T im = 1 / state.geometry.of(i, GEOMETRY_MASS), ii = 1 / state.geometry.of(i, GEOMETRY_INERTIA);
-			for (int32_t k = 0; k < 4; k++)
-				slot.place[k] = state.linear.of(i, k);
-			slot.turn[TURN_ANGLE] = state.rotational.of(i, ROTATIONAL_ANGLE);
-			slot.turn[TURN_VELOCITY] = state.rotational.of(i, ROTATIONAL_VELOCITY);
-			slot.turn[TURN_RADIUS] = state.rotational.of(i, ROTATIONAL_RADIUS);
-			slot.turn[TURN_RESTITUTION] = state.restitution(i);
-			slot.mass[MASS_INVERSE] = im;
-			slot.mass[MASS_INVERSE_INERTIA] = ii;
-			slot.mass[MASS_FIRST] = state.geometry.of(i, GEOMETRY_FIRST);
-			slot.mass[MASS_COUNT] = state.geometry.of(i, GEOMETRY_COUNT);
-			const bool moves = im > 0;
-			slot.push[PUSH_X] = moves ? state.world(WORLD_GRAVITY_X) + state.forces.of(i, FORCES_X) * im : 0;
-			slot.push[PUSH_Y] = moves ? state.world(WORLD_GRAVITY_Y) + state.forces.of(i, FORCES_Y) * im : 0;
-			slot.push[PUSH_TORQUE] = moves ? state.forces.of(i, FORCES_TORQUE) * ii : 0;
-			slot.push[PUSH_BODY] = static_cast<T>(i);
-			need[i] = 0;
-		}
-	});
-}
-
-template <typename T> static void unload(const Job<T> &job)
-{
-	const Slot<T> *slots = slots_of(job, 0);
-	const Texels<T> linear = job.texels(1), rotational = job.texels(2);
-	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
-		for (int32_t s = begin; s < end; s++) {
-			const Slot<T> &slot = slots[s];
-			for (int32_t k = 0; k < 4; k++)
-				linear.of(slot.body(), k) = slot.place[k];
-			rotational.of(slot.body(), ROTATIONAL_ANGLE) = slot.turn[TURN_ANGLE];
-			rotational.of(slot.body(), ROTATIONAL_VELOCITY) = slot.turn[TURN_VELOCITY];
-			rotational.of(slot.body(), ROTATIONAL_RADIUS) = slot.turn[TURN_RADIUS];
-			rotational.of(slot.body(), 3) = 0;
-		}
-	});
-}
-
 /* How far bodies go in the time that lists are to last, from a sample of them. */
 template <typename T> static void pace(const Job<T> &job)
 {
@@ -292,9 +246,9 @@ template <typename T> static void gather(const Job<T> &job)
 
 extern const Stage neighbours_grid;
 const Stage neighbours_grid{"neighbours", "grid",
-	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_PACE, pace<float>, pace<double>}, {STAGE_REACH, reach<float>, reach<double>},
+	{{STAGE_PACE, pace<float>, pace<double>}, {STAGE_REACH, reach<float>, reach<double>},
 		{STAGE_CELLS, cells<float>, cells<double>}, {STAGE_SORT, sort<float>, sort<double>}, {STAGE_NEAR, near<float>, near<double>},
-		{STAGE_GATHER, gather<float>, gather<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}},
+		{STAGE_GATHER, gather<float>, gather<double>}},
 	nullptr, nullptr};
 
 }
