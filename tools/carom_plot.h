@@ -8,6 +8,7 @@
 #define PLOT_POINTS 16
 #define PLOT_SERIES 24
 #define PLOT_PANELS 9
+#define PLOT_GRAY (-1)
 
 struct plot_point {
 	double x, y;        /* above 0 */
@@ -16,7 +17,7 @@ struct plot_point {
 
 struct plot_series {
 	const char *label; /* in the legend, once however many series have it; NULL for none */
-	int color;         /* from 0, of a palette */
+	int color;         /* from 0, of a palette, or PLOT_GRAY */
 	bool reference;    /* dashed, with hollow markers: figures that others are compared with */
 	size_t point_count;
 	struct plot_point points[PLOT_POINTS];

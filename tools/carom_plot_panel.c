@@ -10,7 +10,8 @@
 #define BOTTOM 44.0
 #define TOP 30.0
 #define RIGHT 14.0
-#define BAR_GAP 4.0 /* between the bars of two series */
+#define LABEL_GAP 8.0 /* between two labels */
+#define BAR_GAP 4.0   /* between the bars of two series */
 #define TWO_PI 6.28318530717958647692
 
 /* Told apart with any colour vision (Okabe and Ito), yellow left out: it is too light on white. */
@@ -35,6 +36,10 @@ void set_gray(cairo_t *cairo, double gray)
 void set_color(cairo_t *cairo, int color)
 {
 	const double *c = palette[(size_t)color % COLORS];
+	if (color == PLOT_GRAY) {
+		set_gray(cairo, 0.4);
+		return;
+	}
 	cairo_set_source_rgb(cairo, c[0], c[1], c[2]);
 }
 
@@ -74,14 +79,18 @@ void put_within(cairo_t *cairo, const char *text, double x, double y, double wid
 	put_text(cairo, part, x, y, 0);
 }
 
-/* "0.001", "1", "1,000" */
+/* "0.001", "1", "1,000", "1,000,000" */
 static void format_number(double number, char *text, size_t size)
 {
-	if (number >= 1000) {
-		snprintf(text, size, "%.0f,%03.0f", floor(number / 1000), fmod(number, 1000));
-	} else {
-		snprintf(text, size, "%g", number);
+	char digits[32];
+	snprintf(digits, sizeof digits, number < 1000 ? "%g" : "%.0f", number);
+	size_t used = 0, length = strlen(digits);
+	for (size_t k = 0; k < length && used + 2 < size; k++) {
+		if (number >= 1000 && k > 0 && (length - k) % 3 == 0)
+			text[used++] = ',';
+		text[used++] = digits[k];
 	}
+	text[used] = '\0';
 }
 
 /* ---- Axes ---- */
@@ -140,25 +149,50 @@ static void draw_y_axis(const struct canvas *canvas, struct box plot)
 	}
 }
 
-/* A tick at each number of bodies that was measured. */
+/* The first that is no reference: the others have the same numbers of bodies, or fewer. NULL for none. */
+static const struct plot_series *find_ticks(const struct plot_panel *panel)
+{
+	for (size_t k = 0; k < panel->series_count; k++) {
+		if (!panel->series[k].reference && panel->series[k].point_count)
+			return &panel->series[k];
+	}
+	return NULL;
+}
+
+/* Whether each `stride`-th label keeps clear of the next. */
+static bool labels_fit(const struct canvas *canvas, struct box plot, const struct plot_series *ticks, size_t stride)
+{
+	double end = -HUGE_VAL;
+	for (size_t k = 0; k < ticks->point_count; k += stride) {
+		char text[32];
+		format_number(ticks->points[k].x, text, sizeof text);
+		double x = place_x(canvas, plot, ticks->points[k].x), half = width_of(canvas->cairo, text) / 2;
+		if (x - half < end + LABEL_GAP)
+			return false;
+		end = x + half;
+	}
+	return true;
+}
+
+/* A line at each number of bodies that was measured; where there are many, some are labelled. */
 static void draw_x_axis(const struct canvas *canvas, struct box plot, const struct plot_panel *panel)
 {
 	cairo_t *cairo = canvas->cairo;
+	const struct plot_series *ticks = find_ticks(panel);
+	size_t stride = 1;
 	char text[32];
 	set_font(cairo, 11, false);
-	for (size_t i = 0; i < panel->series_count; i++) {
-		const struct plot_series *series = &panel->series[i];
-		for (size_t k = 0; !series->reference && k < series->point_count; k++) {
-			double x = place_x(canvas, plot, series->points[k].x);
-			set_gray(cairo, 0.93);
-			cairo_set_line_width(cairo, 0.6);
-			put_line(cairo, x, plot.y, x, plot.y + plot.height);
-			format_number(series->points[k].x, text, sizeof text);
-			set_gray(cairo, 0.25);
+	while (ticks && stride < ticks->point_count && !labels_fit(canvas, plot, ticks, stride))
+		stride++;
+	for (size_t k = 0; ticks && k < ticks->point_count; k++) {
+		double x = place_x(canvas, plot, ticks->points[k].x);
+		set_gray(cairo, 0.93);
+		cairo_set_line_width(cairo, 0.6);
+		put_line(cairo, x, plot.y, x, plot.y + plot.height);
+		format_number(ticks->points[k].x, text, sizeof text);
+		set_gray(cairo, 0.25);
+		if (k % stride == 0)
 			put_text(cairo, text, x, plot.y + plot.height + 16, 0.5);
-		}
-		if (!series->reference && series->point_count)
-			break; /* the others have the same */
 	}
 }
 

@@ -22,7 +22,7 @@ struct canvas {
 };
 
 void set_gray(cairo_t *cairo, double gray);
-/* Of the palette. */
+/* Of the palette, or PLOT_GRAY. */
 void set_color(cairo_t *cairo, int color);
 void set_font(cairo_t *cairo, double size, bool bold);
 double width_of(cairo_t *cairo, const char *text);
