@@ -4,6 +4,9 @@ BUILD ?= build
 PREFIX ?= /usr/local
 PKG_CONFIG ?= pkg-config
 CAIRO ?= yes
+BOX2D ?= $(call yes_if,$(PKG_CONFIG) --exists 'box2d >= 2.4' 'box2d < 3')
+CHIPMUNK ?= $(call yes_if,printf '%s\n' '$(hash)include <chipmunk/chipmunk.h>' '$(hash)if CP_VERSION_MAJOR != 7' '$(hash)error' \
+	'$(hash)endif' | $(CC) $(CPPFLAGS) -E -)
 OPTIMIZE ?= -O3
 WERROR ?= -Werror
 
@@ -30,15 +33,24 @@ ABI := $(firstword $(VERSION_PARTS))
 empty :=
 VERSION := $(subst $(empty) ,.,$(strip $(VERSION_PARTS)))
 
+# yes where the command succeeds, else no
+yes_if = $(if $(shell { $(1); } >/dev/null 2>&1 && echo yes),yes,no)
+hash := \#
+
 # ---- What there is: adding a file edits nothing here
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*/*.cl))
 STAGES := $(sort $(wildcard src/cpu/*/*.cpp))
 LIBRARY := $(sort $(wildcard src/*.c src/step/*.c src/cl/*.c src/cpu/*.cpp)) $(STAGES)
-COMMAND := $(sort $(wildcard tools/carom*.c))
+COMMAND := $(sort $(filter-out tools/carom_peer_%,$(wildcard tools/carom*.c)))
 ifeq ($(CAIRO),no)
 COMMAND := $(filter-out tools/carom_plot%.c,$(COMMAND)) tools/without_cairo.c
 endif
+# The engines beside Carom in `carom bench scale`, where they are installed.
+BOX2D := $(BOX2D)
+CHIPMUNK := $(CHIPMUNK)
+COMMAND += $(if $(filter no,$(BOX2D)),tools/without_box2d.c,tools/carom_peer_box2d.cpp)
+COMMAND += $(if $(filter no,$(CHIPMUNK)),tools/without_chipmunk.c,tools/carom_peer_chipmunk.c)
 TESTS := $(sort $(wildcard tests/test_*.c))
 HELPERS := $(filter-out $(TESTS),$(sort $(wildcard tests/*.c)))
 
@@ -58,6 +70,8 @@ CMOCKA := $(call system_includes,cmocka)
 CAIRO_INCLUDES := $(call system_includes,cairo)
 CAIRO_LIBRARIES := $(if $(filter no,$(CAIRO)),,$(shell $(PKG_CONFIG) --libs cairo 2>/dev/null))
 LIBRARIES := $(shell $(PKG_CONFIG) --libs libpng jansson 2>/dev/null) -ldl -lpthread -lm
+BOX2D_INCLUDES := $(call system_includes,box2d)
+PEER_LIBRARIES := $(if $(filter no,$(BOX2D)),,$(shell $(PKG_CONFIG) --libs box2d 2>/dev/null)) $(if $(filter no,$(CHIPMUNK)),,-lchipmunk)
 CMOCKA_LIBRARIES := $(shell $(PKG_CONFIG) --libs cmocka 2>/dev/null)
 
 # The same bits everywhere rests on these, so they come after what the user sets.
@@ -86,16 +100,17 @@ help:
 	@echo 'make                 build the command, the static and the shared library into build/'
 	@echo 'make demo            run scenes and write their pictures into build/demo/'
 	@echo 'make check           build and run the tests and the checks of the source'
-	@echo 'make bench           measure the tables of the paper and write them into build/bench/'
+	@echo 'make bench           measure the tables of the paper, and scale, and write them into build/bench/'
 	@echo 'make install         install below PREFIX=$(PREFIX), staged in DESTDIR='
 	@echo 'make clean           remove build/'
 	@echo 'CAIRO=no             build the command without cairo, and so without the charts of `carom bench`'
+	@echo 'BOX2D=no CHIPMUNK=no build it without these two, which `carom bench scale` measures beside Carom if they are installed'
 	@echo 'SANITIZE=1           build into build/sanitize/ with the address and undefined behaviour sanitizers'
 	@echo 'V=1                  show the commands'
 	@echo 'CC= CXX= CFLAGS= CXXFLAGS= CPPFLAGS= LDFLAGS= OPTIMIZE= WERROR=   as usual'
 
 $(BUILD)/carom: $(COMMAND_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/command.list
-	$(call say,LINK) $(LINK) -o $@ $(filter %.o %.a,$^) $(CAIRO_LIBRARIES) $(LIBRARIES)
+	$(call say,LINK) $(LINK) -o $@ $(filter %.o %.a,$^) $(CAIRO_LIBRARIES) $(PEER_LIBRARIES) $(LIBRARIES)
 
 $(BUILD)/libcarom.a: $(LIBRARY_OBJECTS) $(BUILD)/library.list
 	@rm -f $@
@@ -128,6 +143,7 @@ $(BUILD)/src/cpu/%.o $(BUILD)/cpu_stages.o: private PACKAGES := $(EIGEN)
 $(BUILD)/tools/%.o: private PACKAGES :=
 $(BUILD)/tools/%.o: private INCLUDES := -Iinclude
 $(call object,$(wildcard tools/carom_plot*.c)): private PACKAGES := $(CAIRO_INCLUDES)
+$(BUILD)/tools/carom_peer_box2d.o: private PACKAGES := $(BOX2D_INCLUDES) -DBOX2D_VERSION='"$(shell $(PKG_CONFIG) --modversion box2d 2>/dev/null)"'
 $(BUILD)/tests/%.o: private PACKAGES += $(CMOCKA)
 $(BUILD)/tests/%.o: private INCLUDES += -Itests
 
@@ -205,9 +221,9 @@ demo: all
 	@$(demo_lines); $(BUILD)/carom run scenes/$$scene.json $$options --png $$png </dev/null || exit 1; done
 	@echo; $(demo_lines); echo "$$png: $${shows# }"; done
 
-# ---- The paper's tables. BENCH are more options for each call of `carom bench`.
+# ---- The paper's tables, and Carom beside other engines. BENCH are more options for each call of `carom bench`.
 
-BENCH_TABLES := table1 table2 table3 table4 table5
+BENCH_TABLES := table1 table2 table3 table4 table5 scale
 
 bench: all
 	@mkdir -p $(BUILD)/bench

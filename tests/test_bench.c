@@ -5,7 +5,7 @@
 #include <math.h>
 #include <png.h>
 
-#define FIELDS 16
+#define FIELDS 19
 #define FAST "--runs 2 --seconds 0.0001 --quiet"
 
 enum field {
@@ -24,7 +24,10 @@ enum field {
 	LAUNCHES,
 	SECONDS,
 	PER_1000,
-	PAPER
+	PAPER,
+	DRIFT,
+	OVERLAP,
+	COPY_RATE
 };
 
 /* ---- CSV ---- */
@@ -86,7 +89,6 @@ static double number(size_t row, enum field field)
 
 static void check_row(size_t row, double bodies)
 {
-	assert_string_equal(csv.at[row][VERSION], carom_version());
 	assert_true(number(row, BODIES) == bodies && number(row, SECONDS) > 0 && number(row, REPETITIONS) >= 10);
 	assert_true(number(row, RUN) == (double)(1 + (row - 1) % 2));
 	assert_true(fabs(number(row, PER_1000) * number(row, REPETITIONS) / (1000 * number(row, SECONDS)) - 1) < 1e-6);
@@ -158,6 +160,8 @@ static void all_tables_are_measured(void **state)
 	check(line, 0, NULL);
 	assert_string_equal(call.err, "");
 	read_csv("t.csv");
+	assert_int_equal(count(VERSION, carom_version()), csv.rows - 1);
+	assert_int_equal(count(TABLE, "scale"), 0);
 	for (size_t row = 1; row < csv.rows; row++)
 		check_row(row, 12);
 	for (size_t k = 0; k < COUNT(tables); k++) {
@@ -185,6 +189,117 @@ static void opencl_has_its_columns(void **state)
 	assert_non_null(strstr(call.out, "textures in buffers"));
 	check("$C bench table5 --device opencl --sizes 12 " FAST, 0, "");
 	assert_non_null(strstr(call.out, "OpenCL's, by profiling events"));
+}
+
+/* ---- scale ---- */
+
+/* The engines beside Carom that are in this build: what it says of those that are not. */
+static size_t count_peers(void)
+{
+	static const char *const names[] = {"Box2D", "Chipmunk"};
+	char line[64];
+	size_t found = 0;
+	for (size_t k = 0; k < COUNT(names); k++) {
+		snprintf(line, sizeof line, "\n%s: not in this build", names[k]);
+		bool is_there = !strstr(call.out, line);
+		snprintf(line, sizeof line, "\n%s ", names[k]);
+		assert_true(is_there == (strstr(call.out, line) != NULL));
+		assert_true(is_there == (count(ALTERNATIVE, names[k]) > 0));
+		found += is_there;
+	}
+	return found;
+}
+
+/* 12 bodies are the most that were measured, so it is told of them what is kept. */
+static void check_kept(size_t row)
+{
+	char *end = NULL;
+	bool ours = strncmp(csv.at[row][ALTERNATIVE], "Carom", 5) == 0;
+	double drift = strtod(csv.at[row][DRIFT], &end);
+	assert_true(end != csv.at[row][DRIFT] && !*end && number(row, BODIES) == 12 && number(row, REPETITIONS) == 1000);
+	assert_true(ours ? fabs(drift) < 1e-4 && number(row, OVERLAP) < 1e-4 : drift > -1 && number(row, OVERLAP) < 1);
+	assert_true(number(row, RUN) == 1 && number(row, SECONDS) > 0);
+}
+
+static void check_scale_row(size_t row, const char *step)
+{
+	char setting[64];
+	bool ours = strncmp(csv.at[row][ALTERNATIVE], "Carom", 5) == 0;
+	snprintf(setting, sizeof setting, "step=%s ", step);
+	assert_true(ours == (strncmp(csv.at[row][PIPELINE], setting, strlen(setting)) == 0));
+	assert_true(*csv.at[row][DEVICE] && *csv.at[row][PIPELINE] && !*csv.at[row][PAPER]);
+	assert_true(strcmp(csv.at[row][SHAPE], "circle") == 0 || strcmp(csv.at[row][SHAPE], "triangle") == 0);
+	assert_true(number(row, COPY_RATE) > 1e6 && number(row, LAUNCHES) == 0);
+	assert_true(fabs(number(row, PER_1000) * number(row, REPETITIONS) / (1000 * number(row, SECONDS)) - 1) < 1e-6);
+	if (strstr(csv.at[row][PART], ", kept")) {
+		check_kept(row);
+		return;
+	}
+	assert_true(number(row, BODIES) == 8 || number(row, BODIES) == 12);
+	assert_true(number(row, SECONDS) > 0 && number(row, REPETITIONS) >= 1 && number(row, RUN) >= 1 && number(row, RUN) <= 2);
+	assert_true(!*csv.at[row][DRIFT] && !*csv.at[row][OVERLAP]);
+}
+
+/* Two shapes, two sizes, two runs, and a row of what is kept. */
+static void check_scale(const char *options, const char *step, size_t devices)
+{
+	char line[256];
+	snprintf(line, sizeof line, "$C bench scale --sizes 8,12 " FAST " --csv $D/t.csv %s", options);
+	check(line, 0, NULL);
+	assert_string_equal(call.err, "");
+	read_csv("t.csv");
+	assert_int_equal(csv.rows, 1 + 2 * (devices + count_peers()) * (2 * 2 + 1));
+	assert_int_equal(count(TABLE, "scale"), csv.rows - 1);
+	assert_int_equal(count(VERSION, carom_version()), csv.rows - 1);
+	for (size_t row = 1; row < csv.rows; row++)
+		check_scale_row(row, step);
+	assert_int_equal(count(ALTERNATIVE, "Carom, CPU fallback"), 2 * 5);
+	assert_int_equal(count(ALTERNATIVE, "Carom, OpenCL"), (devices - 1) * 2 * 5);
+	assert_non_null(strstr(call.out, "kept in 1000 steps of 12 bodies"));
+}
+
+/* Whether every device has the step that is measured by itself. */
+static bool has_events(void)
+{
+	if (shell("$C run scenes/thin_wall.json --steps 1 --set step=events --device cpu") == 0)
+		return true;
+	print_message("SKIPPED step=events: %s", call.err);
+	return false;
+}
+
+static void scale_is_measured(void **state)
+{
+	(void)state;
+	check_scale("--device cpu --set step=first_impact", "first_impact", 1);
+	assert_non_null(strstr(call.out, "can't be compared"));
+	if (has_opencl()) {
+		check_scale("--device opencl --storage buffer --set step=first_impact", "first_impact", 2);
+		assert_int_equal(count(STORAGE, "buffer"), 2 * 5);
+	}
+	if (!has_events())
+		return;
+	check_scale("--device cpu", "events", 1);
+	assert_null(strstr(call.out, "can't be compared"));
+}
+
+static void scale_has_a_chart(void **state)
+{
+	(void)state;
+	if (!has_charts())
+		return;
+	check("$C bench scale --device cpu --sizes 8,12,20 --set step=first_impact " FAST " --plot $D/scale.png", 0, "");
+	check_chart("scale.png");
+}
+
+/* What does not fit is left out, and that is said. */
+static void scale_goes_on_without_what_does_not_fit(void **state)
+{
+	(void)state;
+	check("$C bench scale --device cpu --sizes 12,1048576 --set step=first_impact " FAST " --csv $D/t.csv", 0, "");
+	assert_non_null(strstr(call.out, " 1048576  Carom, CPU fallback           -  left out: "));
+	read_csv("t.csv");
+	assert_int_equal(count(BODIES, "1048576"), 0);
+	assert_true(count(BODIES, "12") > 0);
 }
 
 /* The figure of that alternative in run 1; NULL for none. */
@@ -231,17 +346,20 @@ static void wrong_calls_exit_with_2(void **state)
 	static const struct {
 		const char *line, *said;
 	} calls[] = {
-		{"$C bench table6", "table6: no such table; allowed: table1, table2, table3, table4, table5"},
+		{"$C bench table6", "table6: no such table; allowed: table1, table2, table3, table4, table5, scale, all"},
 		{"$C bench table1 table2", "one argument too many"},
 		{"$C bench table1 --runs 0", "--runs: found \"0\"; allowed: a whole number from 1 to 99"},
 		{"$C bench table1 --runs 100", "allowed: a whole number from 1 to 99"},
 		{"$C bench table1 --seconds 0", "--seconds: found \"0\"; allowed: a number above 0"},
-		{"$C bench table1 --sizes 7", "--sizes: found \"7\"; allowed: at most 16 numbers of bodies, 8 to 65536"},
+		{"$C bench table1 --sizes 7", "--sizes: found \"7\"; allowed: at most 16 numbers of bodies, 8 to 1048576"},
 		{"$C bench table1 --sizes 8,", "--sizes: found \"8,\""},
 		{"$C bench table1 --sizes 8,,9", "--sizes: found \"8,,9\""},
-		{"$C bench table1 --sizes 65537", "--sizes: found \"65537\""},
+		{"$C bench table1 --sizes 1048577", "--sizes: found \"1048577\""},
 		{"$C bench table1 --sizes 9,9,9,9,9,9,9,9,9,9,9,9,9,9,9,9,9", "at most 16 numbers"},
 		{"$C bench table1 --sizes 12 --device nowhere", "nowhere"},
+		{"$C bench scale --sizes 12 --device nowhere", "nowhere"},
+		{"$C bench scale --set step=guess", "--set: the slot 'step' has no alternative 'guess'"},
+		{"$C bench scale --runs 0", "--runs: found \"0\""},
 		{"$C bench table1 --set reduce=guess", "--set: the slot 'reduce' has no alternative 'guess'"},
 	};
 	for (size_t k = 0; k < COUNT(calls); k++)
@@ -262,6 +380,9 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(all_tables_are_measured),
 		cmocka_unit_test(opencl_has_its_columns),
+		cmocka_unit_test(scale_is_measured),
+		cmocka_unit_test(scale_has_a_chart),
+		cmocka_unit_test(scale_goes_on_without_what_does_not_fit),
 		cmocka_unit_test(the_papers_figures_stand_beside_its_sizes),
 		cmocka_unit_test(launches_and_settings_are_told),
 		cmocka_unit_test(wrong_calls_exit_with_2),

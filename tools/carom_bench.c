@@ -1,4 +1,4 @@
-/* carom bench: the paper's tables, measured here.
+/* carom bench: the paper's tables, measured here, and Carom beside other engines.
  * SPDX-License-Identifier: MIT */
 #include "carom_bench.h"
 #include "carom_plot.h"
@@ -6,19 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What `carom bench` takes by name, and `all` in this order. */
-static const struct bench_table *const tables[] = {
-	&bench_table1,
-	&bench_table2,
-	&bench_table3,
-	&bench_table4,
-	&bench_table5,
+/* What `carom bench` takes by name; `all` those of the paper in this order. */
+static const struct {
+	const char *name;
+	const struct bench_table *table; /* of the paper; NULL for scale */
+} tables[] = {
+	{"table1", &bench_table1},
+	{"table2", &bench_table2},
+	{"table3", &bench_table3},
+	{"table4", &bench_table4},
+	{"table5", &bench_table5},
+	{"scale", NULL},
 };
 
 #define TABLE_COUNT (sizeof tables / sizeof *tables)
 
-#define LEAST_BODIES 8 /* of fewer, not all numbers can be placed in their room */
-#define MOST_BODIES 65536
+#define PAPER_SECONDS 0.5 /* of a run, where --seconds is not given */
+#define LEAST_BODIES 8    /* of fewer, not all numbers can be placed in their room */
+#define MOST_BODIES 1048576
 
 /* ---- Options ---- */
 
@@ -56,55 +61,69 @@ static const struct option options_table[] = {
 	{"runs", "N", read_runs, offsetof(struct bench_options, runs),
 		"runs of each figure, 1 to 99; their median is shown; default 5"},
 	{"seconds", "S", read_positive, offsetof(struct bench_options, seconds),
-		"about how long a run may last: where 1,000 repetitions take longer, 10 to 500 are measured and scaled; default 0.5"},
+		"about how long a run may last: where 1,000 repetitions take longer, 10 to 500 are measured and scaled, of scale 1 to "
+		"500; "
+		"default 0.5, for scale 0.2"},
 	{"sizes", "N,N,..", read_sizes, 0,
-		"numbers of bodies, 8 to 65536; default those of the paper's table: 256 to 2048, for table2 to 4096"},
+		"numbers of bodies, 8 to 1048576; default those of the paper's table: 256 to 2048, for table2 to 4096; for scale 256 to "
+		"1048576"},
 	{NULL, NULL, NULL, 0, NULL},
 };
 
 /* ---- Files ---- */
 
-/* Where the table's chart goes; false if that is too long a name. */
-static bool chart_path(const struct bench_options *options, const struct bench_table *table, bool all, char *path, size_t size)
+/* Where the chart of the table goes; false if that is too long a name. */
+static bool chart_path(const struct bench_options *options, const char *table, bool all, char *path, size_t size)
 {
 	const char *plot = options->plot, *dot = strrchr(plot, '.'), *slash = strrchr(plot, '/');
 	size_t stem = dot && dot != plot && (!slash || dot > slash + 1) ? (size_t)(dot - plot) : strlen(plot);
-	int length =
-		all ? snprintf(path, size, "%.*s-%s%s", (int)stem, plot, table->name, plot + stem) : snprintf(path, size, "%s", plot);
+	int length = all ? snprintf(path, size, "%.*s-%s%s", (int)stem, plot, table, plot + stem) : snprintf(path, size, "%s", plot);
 	return length >= 0 && (size_t)length < size;
-}
-
-static carom_status draw_chart(
-	const struct bench_options *options, const struct bench_result *result, bool all, carom_error *error)
-{
-	char path[4096];
-	if (!options->plot)
-		return CAROM_OK;
-	if (!chart_path(options, result->table, all, path, sizeof path))
-		return wrong(error, "--plot: the name is too long");
-	return bench_draw(result, path, error);
 }
 
 /* ---- Tables ---- */
 
-static carom_status run_table(
-	const struct bench_table *table, const struct bench_options *options, bool all, FILE *csv, carom_error *error)
+static carom_status run_paper_table(
+	const struct bench_table *table, const struct bench_options *options, FILE *csv, const char *plot, carom_error *error)
 {
+	struct bench_options own = *options;
 	struct bench_result *result = calloc(1, sizeof *result);
 	if (!result) {
 		wrong(error, "there is not enough memory for the figures");
 		return error->status = CAROM_OUT_OF_MEMORY;
 	}
-	carom_status status = bench_measure(table, options, result, error);
+	own.seconds = own.seconds > 0 ? own.seconds : PAPER_SECONDS;
+	carom_status status = bench_measure(table, &own, result, error);
 	if (status == CAROM_OK) {
 		bench_print(result);
 		fflush(stdout);
 		if (csv)
 			bench_write_csv(csv, result);
-		status = draw_chart(options, result, all, error);
+		status = plot ? bench_draw(result, plot, error) : CAROM_OK;
 	}
 	free(result);
 	return status;
+}
+
+static carom_status check_table(size_t index, const struct bench_options *options, carom_error *error)
+{
+	carom_error found;
+	const struct bench_table *table = tables[index].table;
+	carom_status status = table ? bench_check(table, options, &found) : bench_scale_check(options, &found);
+	if (status != CAROM_OK)
+		wrong(error, "%s can't be measured: %.900s", tables[index].name, found.text);
+	return status;
+}
+
+static carom_status run_table(size_t index, const struct bench_options *options, bool all, FILE *csv, carom_error *error)
+{
+	char path[4096];
+	const char *plot = options->plot ? path : NULL;
+	if (plot && !chart_path(options, tables[index].name, all, path, sizeof path))
+		return wrong(error, "--plot: the name is too long");
+	if (!tables[index].table)
+		return bench_scale(options, csv, plot, error);
+	return run_paper_table(tables[index].table, options, csv, plot, error);
 }
 
 /* `all` leaves out what this build of the library can't do. */
@@ -113,12 +132,9 @@ static carom_status run_tables(const struct bench_options *options, const char *
 	bool all = strcmp(name, "all") == 0, printed = false;
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < TABLE_COUNT; k++) {
-		if (!all && strcmp(name, tables[k]->name) != 0)
+		if (all ? !tables[k].table : strcmp(name, tables[k].name) != 0)
 			continue;
-		carom_error found;
-		status = bench_check(tables[k], options, &found);
-		if (status != CAROM_OK)
-			wrong(error, "%s can't be measured: %.900s", tables[k]->name, found.text);
+		status = check_table(k, options, error);
 		if (status == CAROM_UNKNOWN_NAME && all) {
 			say(&options->common, "%s", error->text);
 			status = CAROM_OK;
@@ -127,7 +143,7 @@ static carom_status run_tables(const struct bench_options *options, const char *
 		if (status == CAROM_OK && printed)
 			printf("\n\n");
 		if (status == CAROM_OK)
-			status = run_table(tables[k], options, all, csv, error);
+			status = run_table(k, options, all, csv, error);
 		printed = true;
 	}
 	return status;
@@ -137,9 +153,9 @@ static carom_status check_name(const char *name, carom_error *error)
 {
 	char known[256] = "";
 	for (size_t k = 0; k < TABLE_COUNT; k++) {
-		if (strcmp(name, tables[k]->name) == 0)
+		if (strcmp(name, tables[k].name) == 0)
 			return CAROM_OK;
-		strcat(strcat(known, tables[k]->name), ", ");
+		strcat(strcat(known, tables[k].name), ", ");
 	}
 	return strcmp(name, "all") == 0 ? CAROM_OK : wrong(error, "%.80s: no such table; allowed: %sall", name, known);
 }
@@ -168,7 +184,7 @@ static carom_status run_bench(const struct bench_options *options, const char *n
 
 static int bench_main(int argc, char **argv)
 {
-	struct bench_options options = {.runs = 5, .seconds = 0.5};
+	struct bench_options options = {.runs = 5};
 	carom_error error;
 	int code = parse_options(&bench_command, argc, argv, &options.common);
 	if (code >= 0)
@@ -180,22 +196,25 @@ static int bench_main(int argc, char **argv)
 
 const struct command bench_command = {
 	.name = "bench",
-	.arguments = "[table1 | table2 | table3 | table4 | table5 | all]",
+	.arguments = "[table1 | table2 | table3 | table4 | table5 | scale | all]",
 	.least_arguments = 0,
 	.most_arguments = 1,
-	.summary = "Measures the tables of the paper here, and prints its figures beside",
+	.summary = "Measures the tables of the paper here, its figures beside, and body-steps a second beside other engines",
 	.details = "\n  table1  the bisection kernels, with the loop inside and outside\n"
 			   "  table2  the minimum of all hit times, by each alternative of reduce\n"
 			   "  table3  the six combinations of the rendering phase\n"
 			   "  table4  whole steps of circles and triangles, on OpenCL and on the CPU fallback, drawn and not drawn\n"
 			   "  table5  each kernel of a step\n"
-			   "  all     all of these, the default: four to six minutes on two cores\n\n"
+			   "  all     all of these, the default: four to six minutes on two cores\n"
+			   "  scale   not the paper's, and not part of all: body-steps a second over the number of bodies, by the step\n"
+			   "          events, on OpenCL and on the CPU fallback; beside, on the same bodies, Box2D and Chipmunk, where\n"
+			   "          this build has them; what each keeps of the energy, and how deep bodies overlap: some minutes\n\n"
 			   "Figures are seconds for 1,000 repetitions, as in the paper: the median of the runs, the least and the\n"
 			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"
 			   "states, alternatives take turns, and everything is warmed up before. The device is --device, or what is\n"
 			   "chosen by default; table4 measures the CPU fallback beside it. --set fills the slots that the table\n"
-			   "does not vary; the others are the defaults.\n",
+			   "does not vary; the others are the defaults. In scale, --set step=NAME measures that step.\n",
 	.options = options_table,
 	.main = bench_main,
 };

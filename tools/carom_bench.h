@@ -78,7 +78,7 @@ struct bench_options {
 	struct common_options common;
 	const char *csv, *plot; /* NULL if not given */
 	uint64_t runs;
-	double seconds; /* a measurement should last, about */
+	double seconds; /* a measurement should last, about; 0 for the table's own */
 	uint32_t sizes[MAX_SIZES];
 	size_t size_count; /* 0: the table's own */
 };
@@ -105,8 +105,12 @@ struct bench_result {
 	char pipelines[MAX_PARTS][MAX_SUBJECTS][512]; /* "slot=alternative" of all slots */
 };
 
+struct bench_spread {
+	double median, least, most;
+};
+
 struct bench_summary {
-	double median, least, most; /* s for 1,000 */
+	struct bench_spread spread; /* s for 1,000 */
 	double paper;               /* s for 1,000; 0 for none */
 };
 
@@ -120,6 +124,11 @@ carom_status bench_check(const struct bench_table *table, const struct bench_opt
 /* Fills in *result, which is all zeros. */
 carom_status bench_measure(
 	const struct bench_table *table, const struct bench_options *options, struct bench_result *result, carom_error *error);
+
+/* Of measurements, all multiplied by `scale`. */
+struct bench_spread bench_spread(const double *seconds, size_t runs, double scale);
+/* "slot=alternative" of all slots */
+void bench_describe_pipeline(const carom_world *world, char *text, size_t size);
 
 /* ---- carom_bench_world.c */
 
@@ -156,9 +165,29 @@ carom_status bench_world_work(struct bench_world *world, uint64_t times, carom_e
 void bench_print(const struct bench_result *result);
 void bench_write_csv_header(FILE *stream);
 void bench_write_csv(FILE *stream, const struct bench_result *result);
+/* Three significant digits, without an exponent. */
+const char *bench_format(double number, char *text, size_t size);
+const char *bench_format_ratio(double ratio, char *text, size_t size);
+/* A line: "WHAT: its name, compute units, storage" */
+void bench_print_device(const char *what, const carom_device_info *device);
+/* In quotes, with a comma behind. */
+void bench_put_text(FILE *stream, const char *text);
+/* "PLATFORM: NAME" */
+void bench_put_device(FILE *stream, const carom_device_info *device);
+/* "image", "buffer" or "memory" */
+const char *bench_storage(const carom_device_info *device);
 
 /* ---- carom_bench_chart.c */
 
 carom_status bench_draw(const struct bench_result *result, const char *path, carom_error *error);
+/* The devices, in a line. `fallback`: whether it was measured beside. */
+void bench_describe_devices(const carom_device_info *device, const carom_device_info *fallback, char *text, size_t size);
+
+/* ---- carom_bench_scale.c: no table of the paper's */
+
+/* Whether the library has the step that is measured; CAROM_UNKNOWN_NAME if not. */
+carom_status bench_scale_check(const struct bench_options *options, carom_error *error);
+/* Measures, prints, writes into `csv` and draws into `plot`, both of which may be NULL. */
+carom_status bench_scale(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
 
 #endif

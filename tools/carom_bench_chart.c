@@ -44,19 +44,18 @@ static void add_column(struct plot_figure *figure, const struct bench_result *re
 	for (size_t k = 0; k < result->row_count; k++) {
 		const struct bench_row *row = &result->rows[part][k];
 		struct bench_summary sum = bench_summarize(result, row, column, index);
-		add_point(ours, row->bodies, sum.median, sum.least, sum.most);
+		add_point(ours, row->bodies, sum.spread.median, sum.spread.least, sum.spread.most);
 		add_point(paper, row->bodies, sum.paper, sum.paper, sum.paper);
 	}
 }
 
-static void describe(const struct bench_result *result, char *text, size_t size)
+void bench_describe_devices(const carom_device_info *device, const carom_device_info *fallback, char *text, size_t size)
 {
-	const carom_device_info *device = &result->device;
-	const bool both = device->is_opencl && *result->fallback.name;
+	const bool both = device->is_opencl && *fallback->name;
 	const char *storage = device->uses_images ? ", images" : ", buffers";
 	snprintf(text, size, "%s%s%s, %u %s%s%s%s", device->platform, *device->platform ? ": " : "", device->name,
 		(unsigned)device->compute_units, device->is_opencl ? "compute units" : "cores", device->is_opencl ? storage : "",
-		both ? "; " : "", both ? result->fallback.name : "");
+		both ? "; " : "", both ? fallback->name : "");
 }
 
 carom_status bench_draw(const struct bench_result *result, const char *path, carom_error *error)
@@ -67,7 +66,7 @@ carom_status bench_draw(const struct bench_result *result, const char *path, car
 		wrong(error, "there is not enough memory for a chart");
 		return error->status = CAROM_OUT_OF_MEMORY;
 	}
-	describe(result, device, sizeof device);
+	bench_describe_devices(&result->device, &result->fallback, device, sizeof device);
 	snprintf(footnote, sizeof footnote,
 		"Carom %s: median of %zu runs, bars from the least to the most. The paper: GeForce 7900 GS; "
 		"CPU: Core 2 Duo, 1.86 GHz.",

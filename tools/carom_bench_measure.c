@@ -182,7 +182,7 @@ static carom_status measure_row(const struct bench_part *part, const struct benc
 
 /* ---- A table ---- */
 
-static void describe_pipeline(const carom_world *world, char *text, size_t size)
+void bench_describe_pipeline(const carom_world *world, char *text, size_t size)
 {
 	const carom_pipeline *pipeline = &carom_world_get_def(world)->pipeline;
 	const char *slot = "";
@@ -210,7 +210,7 @@ static carom_status measure_part(
 			status = measure_row(&result->table->parts[part], options, result, &path, row, worlds, error);
 		for (size_t i = 0; i < MAX_SUBJECTS; i++) {
 			if (worlds[i].world)
-				describe_pipeline(worlds[i].world, result->pipelines[part][i], sizeof result->pipelines[part][i]);
+				bench_describe_pipeline(worlds[i].world, result->pipelines[part][i], sizeof result->pipelines[part][i]);
 			bench_world_destroy(&worlds[i]);
 		}
 		bench_path_destroy(&path);
@@ -297,17 +297,23 @@ static double paper_of(const struct bench_column *column, uint32_t bodies)
 	return 0;
 }
 
-struct bench_summary bench_summarize(
-	const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index)
+struct bench_spread bench_spread(const double *seconds, size_t runs, double scale)
 {
-	double sorted[MAX_RUNS], scale = REPETITIONS / (double)row->repetitions;
-	size_t runs = result->runs;
-	memcpy(sorted, row->cells[index].seconds, runs * sizeof *sorted);
+	double sorted[MAX_RUNS];
+	memcpy(sorted, seconds, runs * sizeof *sorted);
 	qsort(sorted, runs, sizeof *sorted, compare);
-	return (struct bench_summary){
+	return (struct bench_spread){
 		.median = scale * (sorted[(runs - 1) / 2] + sorted[runs / 2]) / 2,
 		.least = scale * sorted[0],
 		.most = scale * sorted[runs - 1],
+	};
+}
+
+struct bench_summary bench_summarize(
+	const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index)
+{
+	return (struct bench_summary){
+		.spread = bench_spread(row->cells[index].seconds, result->runs, REPETITIONS / (double)row->repetitions),
 		.paper = paper_of(column, row->bodies),
 	};
 }

@@ -7,23 +7,22 @@
 
 /* ---- Text ---- */
 
-/* Three significant digits, without an exponent. */
-static const char *format_seconds(double seconds, char *text, size_t size)
+const char *bench_format(double number, char *text, size_t size)
 {
 	int decimals = 2;
-	for (double limit = 1; decimals < 6 && seconds < limit; limit /= 10)
+	for (double limit = 1; decimals < 6 && number < limit; limit /= 10)
 		decimals++;
-	snprintf(text, size, "%.*f", seconds >= 100 ? 0 : seconds >= 10 ? 1 : decimals, seconds);
+	snprintf(text, size, "%.*f", number >= 100 ? 0 : number >= 10 ? 1 : decimals, number);
 	return text;
 }
 
-static const char *format_ratio(double ratio, char *text, size_t size)
+const char *bench_format_ratio(double ratio, char *text, size_t size)
 {
 	snprintf(text, size, "%.*f", ratio >= 100 ? 0 : ratio >= 10 ? 1 : 2, ratio);
 	return text;
 }
 
-static void print_device(const char *what, const carom_device_info *device)
+void bench_print_device(const char *what, const carom_device_info *device)
 {
 	printf("%s: %s%s%s%s%s%s, ", what, device->platform, *device->platform ? ": " : "", device->name,
 		*device->version ? " (" : "", device->version, *device->version ? ")" : "");
@@ -39,13 +38,13 @@ static void print_cell(
 {
 	char median[32], least[32], most[32], spread[72], paper[32] = "-", ratio[32] = "-", over[32];
 	struct bench_summary sum = bench_summarize(result, row, column, index);
-	format_seconds(sum.median, median, sizeof median);
-	snprintf(spread, sizeof spread, "%s - %s", format_seconds(sum.least, least, sizeof least),
-		format_seconds(sum.most, most, sizeof most));
+	bench_format(sum.spread.median, median, sizeof median);
+	snprintf(spread, sizeof spread, "%s - %s", bench_format(sum.spread.least, least, sizeof least),
+		bench_format(sum.spread.most, most, sizeof most));
 	if (sum.paper > 0)
-		format_seconds(sum.paper, paper, sizeof paper);
-	if (sum.paper > 0 && sum.median > 0)
-		format_ratio(sum.paper / sum.median, ratio, sizeof ratio);
+		bench_format(sum.paper, paper, sizeof paper);
+	if (sum.paper > 0 && sum.spread.median > 0)
+		bench_format_ratio(sum.paper / sum.spread.median, ratio, sizeof ratio);
 	snprintf(over, sizeof over, "%" PRIu64 "%s", row->repetitions, row->repetitions < REPETITIONS ? ", scaled" : "");
 	printf("%8u  %-20s%10s  %-22s%10s%14s  %s\n", (unsigned)row->bodies, column->label, median, spread, paper, ratio, over);
 }
@@ -110,9 +109,9 @@ static bool has_kernels(const struct bench_table *table)
 void bench_print(const struct bench_result *result)
 {
 	printf("%s\n", result->table->title);
-	print_device("device", &result->device);
+	bench_print_device("device", &result->device);
 	if (*result->fallback.name)
-		print_device("CPU fallback", &result->fallback);
+		bench_print_device("CPU fallback", &result->fallback);
 	for (size_t part = 0; part < result->table->part_count; part++)
 		print_part(result, part);
 	putchar('\n');
@@ -130,12 +129,12 @@ void bench_print(const struct bench_result *result)
 void bench_write_csv_header(FILE *stream)
 {
 	fputs("version,table,part,device,storage,bodies,shape,alternative,pipeline,iterations,run,repetitions,launches,seconds,"
-		  "seconds_per_1000,paper_seconds_per_1000\n",
+		  "seconds_per_1000,paper_seconds_per_1000,energy_drift,max_overlap_m,copy_bytes_per_s\n",
 		stream);
 }
 
 /* Device names may have commas and quotes. */
-static void put_text(FILE *stream, const char *text)
+void bench_put_text(FILE *stream, const char *text)
 {
 	putc('"', stream);
 	for (; *text; text++) {
@@ -146,7 +145,14 @@ static void put_text(FILE *stream, const char *text)
 	fputs("\",", stream);
 }
 
-static const char *storage_of(const carom_device_info *device)
+void bench_put_device(FILE *stream, const carom_device_info *device)
+{
+	char name[512];
+	snprintf(name, sizeof name, "%s%s%s", device->platform, *device->platform ? ": " : "", device->name);
+	bench_put_text(stream, name);
+}
+
+const char *bench_storage(const carom_device_info *device)
 {
 	if (!device->is_opencl)
 		return "memory";
@@ -159,14 +165,12 @@ static void put_cell(
 {
 	const struct bench_subject *subject = &result->table->parts[part].subjects[column->subject];
 	const carom_device_info *device = subject->place == PLACE_CPU ? &result->fallback : &result->device;
-	char name[512];
-	snprintf(name, sizeof name, "%s%s%s", device->platform, *device->platform ? ": " : "", device->name);
 	fprintf(stream, "%s,%s,", carom_version(), result->table->name);
-	put_text(stream, result->table->parts[part].title);
-	put_text(stream, name);
-	fprintf(stream, "%s,%u,%s,", storage_of(device), (unsigned)bodies, subject->sides ? "triangle" : "circle");
-	put_text(stream, column->label);
-	put_text(stream, result->pipelines[part][column->subject]);
+	bench_put_text(stream, result->table->parts[part].title);
+	bench_put_device(stream, device);
+	fprintf(stream, "%s,%u,%s,", bench_storage(device), (unsigned)bodies, subject->sides ? "triangle" : "circle");
+	bench_put_text(stream, column->label);
+	bench_put_text(stream, result->pipelines[part][column->subject]);
 	fprintf(stream, "%u,", (unsigned)subject->iterations);
 }
 
@@ -181,7 +185,7 @@ static void write_cell(FILE *stream, const struct bench_result *result, size_t p
 			cell->seconds[run] * REPETITIONS / (double)row->repetitions);
 		if (paper > 0)
 			fprintf(stream, "%.9g", paper);
-		putc('\n', stream);
+		fputs(",,,\n", stream); /* what only scale has */
 	}
 }
 

@@ -1,0 +1,131 @@
+/* What the files of `carom bench scale` share: engines beside each other on the same bodies, over sizes.
+ * SPDX-License-Identifier: MIT */
+#ifndef CAROM_BENCH_SCALE_H
+#define CAROM_BENCH_SCALE_H
+
+#include "carom_bench.h"
+#include "carom_peer.h"
+
+#define SCALE_SECONDS 0.2 /* of a batch, where --seconds is not given */
+#define SCALE_WARM 100    /* steps before anything is measured */
+#define SCALE_SLOW 1.0    /* s: an engine whose step takes longer is left out of the larger sizes */
+#define SCALE_KEPT 1024   /* bodies of which it is told what an engine keeps */
+#define SCALE_KEPT_STEPS 1000
+#define SCALE_KEPT_EVERY 10  /* steps between two looks at the overlap */
+#define SCALE_FLOOR_BYTES 64 /* of a body and step: 32 of state read, 32 written */
+#define SCALE_SHAPES 2
+#define SCALE_ENGINES 4
+
+struct scale_engine {
+	const char *label;
+	const struct peer *peer; /* NULL: Carom */
+	enum bench_place place;  /* of Carom */
+	int color;               /* in the chart */
+};
+
+struct scale_shape {
+	const char *title; /* "circles" */
+	const char *name;  /* "circle" */
+	uint32_t sides;    /* 0 for circles */
+};
+
+extern const struct scale_engine scale_engines[SCALE_ENGINES];
+extern const struct scale_shape scale_shapes[SCALE_SHAPES];
+
+/* ---- What was measured */
+
+struct scale_cell {
+	uint64_t steps;           /* of a batch; 0: not measured */
+	double seconds[MAX_RUNS]; /* of a batch */
+	char why[256];            /* it was not measured */
+};
+
+/* What an engine keeps of the physics. */
+struct scale_kept {
+	bool measured;
+	double drift;   /* of the kinetic energy, as a part of it */
+	double overlap; /* m, the deepest that was seen, of two bodies or of a body and a wall */
+	double seconds; /* of all steps */
+};
+
+struct scale_row {
+	uint32_t bodies;
+	uint64_t warm; /* steps before */
+	struct scale_cell cells[SCALE_ENGINES];
+};
+
+struct scale_result {
+	size_t runs, row_count;
+	carom_device_info device, fallback;
+	char step[64];                     /* the alternative that Carom's step is */
+	char settings[SCALE_ENGINES][512]; /* Carom's "slot=alternative" of all slots, or what the peer runs with */
+	size_t copy_bytes;                 /* copied to measure the memory */
+	unsigned copy_threads;
+	double copy_rate; /* bytes/s, read and written together; 0: there was no memory for it */
+	uint32_t kept_bodies;
+	struct scale_kept kept[SCALE_SHAPES][SCALE_ENGINES];
+	struct scale_row rows[SCALE_SHAPES][MAX_SIZES];
+};
+
+/* s a step */
+struct bench_spread scale_spread(const struct scale_result *result, const struct scale_cell *cell);
+/* Millions a second; 0 where nothing was measured. */
+double scale_rate(const struct scale_result *result, const struct scale_row *row, size_t engine);
+
+/* ---- carom_bench_scale_world.c */
+
+/* Bodies as every engine gets them. */
+struct scale_start {
+	carom_world *world; /* on the CPU fallback; it owns what the scene points to of the bodies */
+	carom_body_def *defs;
+	carom_body_info *bodies;
+	carom_body_state *states;
+	struct peer_scene scene;
+	uint64_t steps; /* done before */
+};
+
+/* `most_steps` are done on the CPU fallback, but no more once they have taken `seconds`. */
+carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options,
+	uint64_t most_steps, double seconds, struct scale_start *start, carom_error *error);
+void scale_start_destroy(struct scale_start *start);
+/* Carom's world as the options say, but for its room. */
+carom_status scale_world_def(
+	const struct bench_options *options, enum bench_place place, carom_world_def *def, carom_error *error);
+
+/* An engine with its bodies. */
+struct scale_runner {
+	const struct scale_engine *engine;
+	carom_world *world; /* Carom's, or */
+	void *peer;         /* the peer's; NULL both: there is none */
+};
+
+carom_status scale_runner_create(const struct scale_engine *engine, const struct scale_start *start,
+	const struct bench_options *options, struct scale_runner *runner, carom_error *error);
+void scale_runner_destroy(struct scale_runner *runner);
+carom_status scale_runner_step(struct scale_runner *runner, uint64_t steps, carom_error *error);
+carom_status scale_runner_get_states(struct scale_runner *runner, size_t count, carom_body_state *states, carom_error *error);
+
+/* ---- carom_bench_scale_kept.c */
+
+carom_status scale_measure_kept(
+	struct scale_result *result, size_t shape, const struct bench_options *options, carom_error *error);
+
+/* ---- carom_bench_scale_copy.c */
+
+/* Raises the result's copy_rate to what arrays of `bytes`, copied by `threads`, reach at best; notes how it was measured. */
+void scale_measure_copy(struct scale_result *result, size_t bytes, unsigned threads);
+
+/* ---- carom_bench_scale_measure.c */
+
+/* Fills in *result, which is all zeros. */
+carom_status scale_measure(const struct bench_options *options, struct scale_result *result, carom_error *error);
+/* Why the engine can't run here at all; NULL if it can. */
+const char *scale_absence(const struct scale_result *result, size_t engine);
+
+/* ---- carom_bench_scale_print.c */
+
+void scale_print(const struct scale_result *result);
+void scale_write_csv(FILE *stream, const struct scale_result *result);
+carom_status scale_draw(const struct scale_result *result, const char *path, carom_error *error);
+
+#endif

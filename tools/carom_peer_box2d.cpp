@@ -1,0 +1,135 @@
+/* Box2D 2.4 beside Carom: the only file that knows it.
+ * SPDX-License-Identifier: MIT */
+#include "carom_peer.h"
+
+#include <box2d/box2d.h>
+
+#include <new>
+#include <vector>
+
+namespace
+{
+
+constexpr int velocity_iterations = 8, position_iterations = 3; /* as its manual and its samples have them */
+
+struct World {
+	b2World world{b2Vec2(0, 0)};
+	std::vector<b2Body *> bodies;
+	float time_step = 0;
+};
+
+/* The package's: 2.4.1 calls itself 2.4.0. */
+const char *version()
+{
+	return BOX2D_VERSION;
+}
+
+void add_shape(b2Body *body, const b2Shape *shape, float restitution)
+{
+	b2FixtureDef fixture;
+	fixture.shape = shape;
+	fixture.density = 1;
+	fixture.friction = 0;
+	fixture.restitution = restitution;
+	fixture.restitutionThreshold = 0; /* else slow hits would lose their speed */
+	body->CreateFixture(&fixture);
+}
+
+void add_walls(b2World &world, b2Vec2 least, b2Vec2 most)
+{
+	b2BodyDef def;
+	b2Body *body = world.CreateBody(&def);
+	const b2Vec2 middle = 0.5f * (least + most), half = 0.5f * (most - least);
+	const float thick = PEER_WALL / 2;
+	for (float side : {-1.0f, 1.0f}) {
+		b2PolygonShape box;
+		box.SetAsBox(thick, half.y + PEER_WALL, middle + b2Vec2(side * (half.x + thick), 0), 0);
+		add_shape(body, &box, 1);
+		box.SetAsBox(half.x + PEER_WALL, thick, middle + b2Vec2(0, side * (half.y + thick)), 0);
+		add_shape(body, &box, 1);
+	}
+}
+
+void add_shape_of(b2Body *body, const carom_body_info &info)
+{
+	if (info.shape == CAROM_CIRCLE) {
+		b2CircleShape circle;
+		circle.m_radius = info.radius;
+		add_shape(body, &circle, info.restitution);
+		return;
+	}
+	b2Vec2 vertices[b2_maxPolygonVertices];
+	b2PolygonShape polygon;
+	const uint32_t count = b2Min<uint32_t>(info.vertex_count, b2_maxPolygonVertices);
+	for (uint32_t k = 0; k < count; k++)
+		vertices[k].Set(info.vertices[k].x, info.vertices[k].y);
+	polygon.Set(vertices, static_cast<int32>(count));
+	add_shape(body, &polygon, info.restitution);
+}
+
+b2Body *add_body(b2World &world, const carom_body_info &info, const carom_body_state &state)
+{
+	b2BodyDef def;
+	def.type = b2_dynamicBody;
+	def.position.Set(state.position.x, state.position.y);
+	def.angle = state.angle;
+	def.linearVelocity.Set(state.velocity.x, state.velocity.y);
+	def.angularVelocity = state.angular_velocity;
+	b2Body *body = world.CreateBody(&def);
+	add_shape_of(body, info);
+	b2MassData mass;
+	mass.mass = info.mass;
+	mass.center.SetZero();
+	mass.I = info.inertia;
+	body->SetMassData(&mass);
+	return body;
+}
+
+void *create(const peer_scene *scene)
+{
+	World *made = nullptr;
+	try {
+		made = new World;
+		made->bodies.reserve(scene->count);
+	} catch (const std::bad_alloc &) {
+		delete made;
+		return nullptr;
+	}
+	made->time_step = scene->time_step;
+	made->world.SetAllowSleeping(false);
+	add_walls(made->world, {scene->room_min.x, scene->room_min.y}, {scene->room_max.x, scene->room_max.y});
+	for (size_t k = 0; k < scene->count; k++)
+		made->bodies.push_back(add_body(made->world, scene->bodies[k], scene->states[k]));
+	return made;
+}
+
+void step(void *world)
+{
+	World *made = static_cast<World *>(world);
+	made->world.Step(made->time_step, velocity_iterations, position_iterations);
+}
+
+void get_states(const void *world, carom_body_state *states)
+{
+	for (const b2Body *body : static_cast<const World *>(world)->bodies) {
+		const b2Vec2 at = body->GetPosition(), velocity = body->GetLinearVelocity();
+		*states++ = {{at.x, at.y}, body->GetAngle(), {velocity.x, velocity.y}, body->GetAngularVelocity()};
+	}
+}
+
+void destroy(void *world)
+{
+	delete static_cast<World *>(world);
+}
+
+}
+
+const peer peer_box2d = {
+	"Box2D",
+	"8 velocity and 3 position iterations, as in its manual, and no threshold of restitution; else its defaults",
+	version,
+	create,
+	step,
+	get_states,
+	destroy,
+};
