@@ -59,7 +59,7 @@ const carom_stage_def carom_stages[STAGE_COUNT] = {
 };
 
 const carom_slot carom_slots[] = {
-	{"step", offsetof(carom_pipeline, step), "first_impact", false},
+	{"step", offsetof(carom_pipeline, step), "events", false},
 	{"aabb", offsetof(carom_pipeline, aabb), "tight", false},
 	{"overlap", offsetof(carom_pipeline, overlap), "all_pairs", false},
 	{"inside", offsetof(carom_pipeline, inside), "naive", false},

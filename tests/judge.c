@@ -17,8 +17,7 @@ typedef struct texels {
 
 carom_world_def judge_arena(const char *slot, const char *alternative)
 {
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_error error;
 	def.gravity = (carom_vec2){0.3f, -1.0f};
 	def.restitution = 0.8f;

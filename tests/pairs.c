@@ -13,16 +13,14 @@
 
 carom_world *pairs_world(const char *toi, const scenery_device *device)
 {
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	def.pipeline.toi = toi;
 	return scenery_world(&def, device);
 }
 
 carom_world *pairs_oracle(const char *toi)
 {
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	def.pipeline.toi = toi;
 	return judge_oracle(&def);
 }

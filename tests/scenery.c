@@ -9,6 +9,13 @@ const scenery_device scenery_devices[] = {
 };
 const size_t scenery_device_count = sizeof scenery_devices / sizeof *scenery_devices;
 
+carom_world_def scenery_first_impact(void)
+{
+	carom_world_def def = carom_default_world_def();
+	def.pipeline.step = "first_impact";
+	return def;
+}
+
 carom_world *scenery_world(const carom_world_def *def, const scenery_device *device)
 {
 	carom_world_def on_device = *def;

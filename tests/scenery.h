@@ -20,6 +20,9 @@ typedef struct scenery_device {
 extern const scenery_device scenery_devices[];
 extern const size_t scenery_device_count;
 
+/* The default def, with the paper's step. */
+carom_world_def scenery_first_impact(void);
+
 /* A world on that device, or the test fails with what the library says. NULL where there is no OpenCL device, which is
  * said, and is a failure where the environment's CAROM_NO_SKIP is set. */
 carom_world *scenery_world(const carom_world_def *def, const scenery_device *device);

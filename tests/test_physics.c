@@ -55,8 +55,7 @@ static void assert_near(double found, double expected, double tolerance)
 static void head_on_circles_swap(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	const carom_body_def bodies[2] = {scenery_circle(-1.0f, 0.0f, 3.0f, 0.0f, 0.25f), scenery_circle(1.0f, 0.0f, -1.0f, 0.0f, 0.25f)};
 	def.time_step = 1.0f;
 	SCENERY_EACH_DEVICE(device) {
@@ -81,8 +80,7 @@ static void circle_quadratic(void **unused)
 	const carom_body_def bodies[2] = {scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.25f), scenery_circle(2.0f, 0.3f, -2.0f, 0.0f, 0.25f)};
 	const double time = (2.0 - 0.4) / 2.0; /* at that time d = (0.4, 0.3), of length 0.5 */
 	for (size_t way = 0; way < 3; way++) {
-		carom_world_def def = carom_default_world_def();
-		def.pipeline.step = "first_impact";
+		carom_world_def def = scenery_first_impact();
 		def.time_step = 1.0f;
 		def.pipeline.toi = ways[way];
 		SCENERY_EACH_DEVICE(device) {
@@ -104,8 +102,7 @@ static void circle_quadratic(void **unused)
 static void off_centre_hit_spins(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_body_def bodies[2] = {scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 0.5f, 2.0f), scenery_circle(-2.0f, 0.6f, 4.0f, 0.0f, 0.1f)};
 	const double M = 3.0, m = 0.5, v = 4.0, b = 0.6, I = M * (0.25 + 4.0) / 12.0, j = 2.0 * v / (1.0 / m + 1.0 / M + b * b / I);
 	bodies[0].mass = 3.0f;
@@ -125,8 +122,7 @@ static void off_centre_hit_spins(void **unused)
 
 static double flat_fall(const scenery_device *device, const char *impulse, float restitution, bool onto_wall)
 {
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_body_def bodies[2] = {scenery_box(0.0f, 0.0f, 0.0f, -2.0f, 1.0f, 1.0f), scenery_box(0.0f, -2.0f, 0.0f, 0.0f, 6.0f, 1.0f)};
 	double speed = NAN;
 	bodies[1].is_static = true;
@@ -165,8 +161,7 @@ static void square_falls_flat(void **unused)
 static void restitution_halves_speed(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_body_def bodies[2] = {scenery_circle(0.0f, 0.0f, 2.0f, 0.0f, 0.25f), scenery_box(1.0f, 0.0f, 0.0f, 0.0f, 0.5f, 4.0f)};
 	def.restitution = 0.5f;
 	bodies[1].is_static = true;
@@ -184,8 +179,7 @@ static void restitution_halves_speed(void **unused)
 static void larger_restitution_counts(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_body_def bodies[2] = {scenery_circle(-1.0f, 0.0f, 1.0f, 0.0f, 0.25f), scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.25f)};
 	bodies[0].restitution = 0.0f;
 	bodies[1].restitution = 0.5f;
@@ -203,8 +197,7 @@ static void larger_restitution_counts(void **unused)
 static void ball_bounces_to_its_height(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	const carom_body_def ball = scenery_circle(0.0f, 2.0f, 0.0f, 0.0f, 0.5f);
 	def.gravity = (carom_vec2){0.0f, -10.0f};
 	def.has_room = true;
@@ -225,8 +218,7 @@ static void ball_bounces_to_its_height(void **unused)
 static void force_and_torque(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_body_def box = scenery_box(1.0f, 2.0f, 0.5f, 0.0f, 1.0f, 1.0f);
 	box.mass = 2.0f;
 	box.force = (carom_vec2){4.0f, -2.0f};
@@ -249,8 +241,7 @@ static void force_and_torque(void **unused)
 static void nothing_tunnels(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_body_def bodies[4] = {
 		scenery_circle(-3.0f, 0.0f, 1000.0f, 0.0f, 0.05f),
 		scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 0.001f, 2.0f),
@@ -274,8 +265,7 @@ static void nothing_tunnels(void **unused)
 static void crossing_without_vertex_inside(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_body_def bodies[2] = {scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 4.0f, 0.1f), scenery_box(0.0f, 0.6f, 0.0f, -30.0f, 0.1f, 1.0f)};
 	def.pipeline.toi = "separating";
 	SCENERY_EACH_DEVICE(device) {
@@ -295,8 +285,7 @@ static void overlapping_pairs(void **unused)
 	(void)unused;
 	static const char *const ways[] = {"circle_quadratic", "separating", "bisection"};
 	for (size_t k = 0; k < 6; k++) {
-		carom_world_def def = carom_default_world_def();
-		def.pipeline.step = "first_impact";
+		carom_world_def def = scenery_first_impact();
 		bool boxes = k >= 3;
 		float speed = 1.0f;
 		def.pipeline.toi = ways[k % 3];
@@ -326,8 +315,7 @@ static void many_hits_keep_energy(void **unused)
 	carom_body_def bodies[COUNT];
 	for (int shapes = SCENERY_MIXED; shapes <= SCENERY_POLYGONS; shapes++) {
 		scenery_random random = {7};
-		carom_world_def def = carom_default_world_def();
-		def.pipeline.step = "first_impact";
+		carom_world_def def = scenery_first_impact();
 		def.has_room = true;
 		def.room_min = (carom_vec2){-4.5f, -4.5f};
 		def.room_max = (carom_vec2){4.5f, 4.5f};
@@ -353,8 +341,7 @@ static void momentum_stays(void **unused)
 	enum { COUNT = 36 };
 	carom_body_def bodies[COUNT];
 	scenery_random random = {3};
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	scenery_bodies(&random, SCENERY_POLYGONS, COUNT, 1.1f, 1.0f, bodies);
 	for (int i = 0; i < COUNT; i++) {
 		bodies[i].is_static = false;
@@ -380,8 +367,7 @@ static void momentum_stays(void **unused)
 static void rest_is_a_stall(void **unused)
 {
 	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	const carom_body_def ball = scenery_circle(0.0f, 1.0f, 0.0f, 0.0f, 0.5f);
 	def.gravity = (carom_vec2){0.0f, -10.0f};
 	def.restitution = 0.5f;

@@ -26,8 +26,7 @@ typedef struct run {
 /* NULL where there is no such device. */
 static carom_world *world_of(const char *alternative, const scenery_device *device, bool counting)
 {
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_device_def instrumented = {.name = device->name, .storage = device->storage, .count_reads = true};
 	carom_world *world;
 	carom_error error;

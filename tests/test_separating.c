@@ -108,8 +108,7 @@ static void judge(const truth *t, const pairs_hit *hit, const bands *within, tal
 /* After a pause the next step goes on with the search: in a world of their own the two find what is true of them. */
 static void follow(const truth *t, const carom_body_def *bodies)
 {
-	carom_world_def def = carom_default_world_def();
-	def.pipeline.step = "first_impact";
+	carom_world_def def = scenery_first_impact();
 	carom_world *world;
 	carom_report done;
 	carom_measure measure;
