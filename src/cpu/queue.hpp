@@ -3,6 +3,7 @@
 #define CAROM_CPU_QUEUE_HPP
 
 #include "cpu/reach.hpp"
+#include "cpu/sieve.hpp"
 
 namespace carom::cpu {
 
@@ -179,13 +180,11 @@ private:
 		return id;
 	}
 
-	/* Of the cluster's own bodies the way as it is now, of all others as the step began. */
-	Trajectory<T> way_of(int32_t s, int32_t &id) const
+	/* The number of a body of the cluster, else -1: of all others the way counts as the step began. */
+	int32_t own_number(int32_t s) const
 	{
-		id = __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
-		if (id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) != leader)
-			id = -1;
-		return id >= 0 ? work[id].trajectory(slots[s]) : Trajectory<T>(slots[s]);
+		const int32_t id = __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
+		return id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader ? id : -1;
 	}
 
 	/* Finds the member's first event. */
@@ -200,20 +199,34 @@ private:
 		next[NEXT_ROW] = static_cast<T>(index);
 		next[NEXT_COLUMN] = next[NEXT_PARTNER] = static_cast<T>(-1 - wall);
 		members[id].seen = 0;
+		Sieve<T> sieve(disc);
+		const auto meet = [&](int32_t other) { look_at(id, way, other, -1, Trajectory<T>(slots[other])); };
 		for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
-			const int32_t other = clusters.neighbours[k];
-			int32_t other_id;
-			const Trajectory<T> other_way = way_of(other, other_id);
-			if (stay_apart(disc, Disc<T>(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length)))
+			const int32_t other = clusters.neighbours[k], other_id = own_number(other);
+			if (other_id >= 0) {
+				const Work<T> &at = work[other_id];
+				if (!stay_apart(disc, Disc<T>(slots[other], at.place, at.time, at.held > 0, clusters.length)))
+					look_at(id, way, other, other_id, at.trajectory(slots[other]));
 				continue;
-			const int32_t other_index = slots[other].body();
-			const T event[4] = {clusters.pair_time(s, way, other, other_way), static_cast<T>(std::max(index, other_index)),
-				static_cast<T>(std::min(index, other_index)), static_cast<T>(other)};
-			if (event[NEXT_TIME] <= 1 && before(event, next)) {
-				std::copy(event, event + 4, next);
-				members[id].seen = other_id >= 0 ? members[other_id].events : 0;
 			}
+			sieve.add(other, slots[other], clusters.length);
+			if (sieve.is_full())
+				sieve.sift(meet);
 		}
+		sieve.sift(meet);
+	}
+
+	/* The member's next event is the one with this body, if that comes before. */
+	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, int32_t other_id, const Trajectory<T> &other_way)
+	{
+		const int32_t s = clusters.active[id], index = slots[s].body(), other_index = slots[other].body();
+		const T event[4] = {clusters.pair_time(s, way, other, other_way), static_cast<T>(std::max(index, other_index)),
+			static_cast<T>(std::min(index, other_index)), static_cast<T>(other)};
+		T *next = work[id].next;
+		if (!(event[NEXT_TIME] <= 1 && before(event, next)))
+			return;
+		std::copy(event, event + 4, next);
+		members[id].seen = other_id >= 0 ? members[other_id].events : 0;
 	}
 
 	/* Is the event at time u a rapid one of a body that had enough of them? */

@@ -2,28 +2,33 @@
 
 namespace carom::cpu {
 
+template <typename T> static void seek_pair(const Clusters<T> &clusters, int32_t s, int32_t other, int32_t round)
+{
+	const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
+	if (!(clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot)) <= 1))
+		return;
+	if (!slot.is_static())
+		clusters.activate(s, round);
+	if (!other_slot.is_static())
+		clusters.activate(other, round);
+	if (!slot.is_static() && !other_slot.is_static())
+		clusters.unite(__atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE), __atomic_load_n(&clusters.owners[other], __ATOMIC_ACQUIRE));
+}
+
 template <typename T> static void look_around(const Clusters<T> &clusters, int32_t s, int32_t round)
 {
 	const Slot<T> &slot = clusters.slots[s];
-	const Trajectory<T> way(slot);
-	const Disc<T> disc(slot, slot.place, 0, false, clusters.length);
+	Sieve<T> sieve(Disc<T>(slot, slot.place, 0, false, clusters.length));
 	int32_t wall;
-	if (clusters.wall_time(s, way, &wall) <= 1)
+	if (clusters.wall_time(s, Trajectory<T>(slot), &wall) <= 1)
 		clusters.activate(s, round);
+	const auto meet = [&](int32_t other) { seek_pair(clusters, s, other, round); };
 	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].half; k++) {
-		const int32_t other = clusters.neighbours[k];
-		const Slot<T> &other_slot = clusters.slots[other];
-		if (stay_apart(disc, Disc<T>(other_slot, other_slot.place, 0, false, clusters.length)))
-			continue;
-		if (!(clusters.pair_time(s, way, other, Trajectory<T>(other_slot)) <= 1))
-			continue;
-		if (!slot.is_static())
-			clusters.activate(s, round);
-		if (!other_slot.is_static())
-			clusters.activate(other, round);
-		if (!slot.is_static() && !other_slot.is_static())
-			clusters.unite(__atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE), __atomic_load_n(&clusters.owners[other], __ATOMIC_ACQUIRE));
+		sieve.add(clusters.neighbours[k], clusters.slots[clusters.neighbours[k]], clusters.length);
+		if (sieve.is_full())
+			sieve.sift(meet);
 	}
+	sieve.sift(meet);
 }
 
 template <typename T> static void seek(const Job<T> &job)
@@ -104,7 +109,8 @@ template <typename T> static void check_one(const Clusters<T> &clusters, const W
 	const Member *members = clusters.members;
 	const int32_t s = clusters.active[id], owner = members[id].owner;
 	auto done_again = [&](int32_t leader) { return __atomic_load_n(&members[leader].round, __ATOMIC_RELAXED) > round; };
-	if (s < 0 || members[id].events == 0 || done_again(owner))
+	/* Of a pair one at least was done in this round, and finds the other. */
+	if (s < 0 || members[id].events == 0 || __atomic_load_n(&members[owner].round, __ATOMIC_RELAXED) != round)
 		return;
 	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
 		const int32_t other = clusters.neighbours[k], other_id = clusters.owners[other];

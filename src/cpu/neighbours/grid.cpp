@@ -113,6 +113,31 @@ template <typename T> static void sort(const Job<T> &job)
 	});
 }
 
+/* Slots that grow in number; there is always room for a few more. */
+class Finds
+{
+public:
+	void clear() { count = 0; }
+	int32_t *next(int32_t more)
+	{
+		if (slots.size() < count + static_cast<size_t>(more))
+			slots.resize(2 * (count + static_cast<size_t>(more)));
+		return slots.data() + count;
+	}
+	void keep(int32_t *end) { count = static_cast<size_t>(end - slots.data()); }
+	void add(const Finds &other)
+	{
+		keep(std::copy(other.begin(), other.end(), next(other.size())));
+	}
+	int32_t size() const { return static_cast<int32_t>(count); }
+	const int32_t *begin() const { return slots.data(); }
+	const int32_t *end() const { return slots.data() + count; }
+
+private:
+	std::vector<int32_t> slots;
+	size_t count = 0;
+};
+
 /* The search for neighbours of a few slots; what they find lies here until it is known how much it is. */
 template <typename T> class Search
 {
@@ -127,17 +152,17 @@ public:
 
 	void run(int32_t begin, int32_t end)
 	{
-		static thread_local std::vector<int32_t> found, behind;
+		static thread_local Finds found, behind;
 		found.clear();
 		for (int32_t s = begin; s < end; s++) {
-			spans[s].start = static_cast<int32_t>(found.size());
+			spans[s].start = found.size();
 			behind.clear();
 			search(s, found, behind);
-			spans[s].half = static_cast<int32_t>(found.size());
-			found.insert(found.end(), behind.begin(), behind.end());
-			spans[s].end = static_cast<int32_t>(found.size());
+			spans[s].half = found.size();
+			found.add(behind);
+			spans[s].end = found.size();
 		}
-		const int32_t many = static_cast<int32_t>(found.size()), start = fetch_add(&status[STATUS_NEIGHBOURS], many);
+		const int32_t many = found.size(), start = fetch_add(&status[STATUS_NEIGHBOURS], many);
 		const bool fits = start + many <= status[STATUS_ROOM];
 		if (fits)
 			std::copy(found.begin(), found.end(), neighbours + start);
@@ -150,39 +175,70 @@ public:
 	}
 
 private:
-	void search(int32_t s, std::vector<int32_t> &ahead, std::vector<int32_t> &behind)
+	void search(int32_t s, Finds &ahead, Finds &behind)
 	{
 		const Box<T> box = boxes[s];
 		const int32_t own = grid.level_of(box.half(slots[s].place));
-		const bool stands = slots[s].is_static(), mixed = (levels & (levels - 1)) != 0;
-		for (int32_t level = std::max(own - levels_below, 0); level < CELL_LEVELS; level++) {
+		const bool mixed = levels != 1 << own, stands = slots[s].is_static();
+		for (int32_t level = std::max(own - levels_below, 0); levels >> level; level++) {
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
 				continue;
-			each(box, level, [&](int32_t other) {
-				if (!box.touches(boxes[other]) || other == s || (stands && slots[other].is_static()))
-					return;
-				if (mixed && grid.level_of(boxes[other].half(slots[other].place)) != level)
-					return;
-				(level != own || other > s ? ahead : behind).push_back(other);
-				if (level != own)
-					tell(other, s);
+			if (level == own && !stands) {
+				each(box, own, [&](int32_t first, int32_t end) { search_alike(s, box, first, end, mixed ? own : -1, ahead, behind); });
+				continue;
+			}
+			each(box, level, [&](int32_t first, int32_t end) {
+				for (int32_t other = first; other < end; other++)
+					if (are_near(s, box, other, level))
+						meet(s, other, level == own, ahead, behind);
 			});
 		}
 	}
 
-	/* All the slots in the cells of a level that a box of that level could touch. */
+	/* On the slot's own level, where most are. Without branches: whether boxes touch is hard to foretell. Where there are other levels
+	 * (level >= 0), what is found must be seen to be of this one. */
+	void search_alike(int32_t s, const Box<T> &box, int32_t first, int32_t end, int32_t level, Finds &ahead, Finds &behind) const
+	{
+		int32_t *before = behind.next(end - first), *after = ahead.next(end - first);
+		for (int32_t other = first; other < std::min(end, s); other++) {
+			*before = other;
+			before += box.touches(boxes[other]);
+		}
+		for (int32_t other = std::max(first, s + 1); other < end; other++) {
+			*after = other;
+			after += box.touches(boxes[other]);
+		}
+		const auto is_of_other = [&](int32_t other) { return grid.level_of(boxes[other].half(slots[other].place)) != level; };
+		behind.keep(level < 0 ? before : std::remove_if(behind.next(0), before, is_of_other));
+		ahead.keep(level < 0 ? after : std::remove_if(ahead.next(0), after, is_of_other));
+	}
+
+	bool are_near(int32_t s, const Box<T> &box, int32_t other, int32_t level) const
+	{
+		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static()) &&
+			grid.level_of(boxes[other].half(slots[other].place)) == level;
+	}
+
+	void meet(int32_t s, int32_t other, bool alike, Finds &ahead, Finds &behind)
+	{
+		Finds &to = !alike || other > s ? ahead : behind;
+		int32_t *end = to.next(1);
+		*end = other;
+		to.keep(end + 1);
+		if (!alike)
+			tell(other, s);
+	}
+
+	/* All the slots in the cells of a level that a box of that level could touch, in a few runs. */
 	template <typename Visit> void each(const Box<T> &box, int32_t level, Visit visit)
 	{
 		const T side = T(grid.side_of(level));
 		const Cell low = grid.cell_at(box.min_x - side, box.min_y - side, level), high = grid.cell_at(box.max_x + side, box.max_y + side, level);
 		for (int32_t y = low.y; y <= high.y; y++) {
 			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x, level), last = row + grid.column_of(high.x, level);
-			if (last < first) {
-				for (int32_t k = start(row); k < finish(last); k++)
-					visit(k);
-			}
-			for (int32_t k = start(first), end = finish(last < first ? row + grid.columns - 1 : last); k < end; k++)
-				visit(k);
+			if (last < first)
+				visit(start(row), finish(last));
+			visit(start(first), finish(last < first ? row + grid.columns - 1 : last));
 		}
 	}
 
