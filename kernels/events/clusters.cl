@@ -35,7 +35,7 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 	int count = status[STATUS_ACTIVE];
 	if (get_global_id(0) == 0)
 		status[STATUS_SEEDS] = count;
-	for (int id = get_global_id(0); id < count; id += domain.x) {
+	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		if (active[id] < 0 || members[MEMBER(members[MEMBER(id, MEMBER_OWNER)], MEMBER_ROUND)] != domain.z)
 			continue;
 		int root = find_root(members, id);
@@ -56,7 +56,7 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 		return;
 	int seeds = status[STATUS_SEEDS];
 	float length = step_length(TEX(uniforms), TEX(clock));
-	for (int id = get_global_id(0); id < seeds; id += domain.x)
+	for (int id = get_global_id(0); id < seeds; id += get_global_size(0))
 		if (members[MEMBER(id, MEMBER_HEAD)] >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
 			cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, id, domain.z, length);
 }
@@ -70,7 +70,7 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 	int count = status[STATUS_ACTIVE];
 	float length = step_length(TEX(uniforms), TEX(clock));
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
-	for (int id = get_global_id(0); id < count; id += domain.x) {
+	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
 		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || members[MEMBER(owner, MEMBER_ROUND)] > domain.z)
 			continue;
