@@ -65,10 +65,10 @@ int int_load(LIST_OUT(list), int index)
 	return atomic_or(&list[index], 0);
 }
 
-int find_root(LIST_OUT(members), int s)
+int find_root(LIST_OUT(parents), int s)
 {
 	for (;;) {
-		int parent = int_load(members, MEMBER(s, MEMBER_PARENT));
+		int parent = int_load(parents, s);
 		if (parent == s)
 			return s;
 		s = parent;
@@ -76,37 +76,37 @@ int find_root(LIST_OUT(members), int s)
 }
 
 /* The larger root hangs itself onto the less; who comes second tries again from what it finds. */
-void unite(LIST_OUT(members), int a, int b)
+void unite(LIST_OUT(parents), int a, int b)
 {
 	for (;;) {
-		a = find_root(members, a);
-		b = find_root(members, b);
+		a = find_root(parents, a);
+		b = find_root(parents, b);
 		if (a == b)
 			return;
 		int child = a > b ? a : b, parent = a > b ? b : a;
-		if (atomic_cmpxchg(&members[MEMBER(child, MEMBER_PARENT)], child, parent) == child)
+		if (atomic_cmpxchg(&parents[child], child, parent) == child)
 			return;
 	}
 }
 
-/* A number for a body of which events change something. Whoever comes second loses the number, and nobody knows of it. */
+/* A number for a body of which events change something. It is known to others when the kernel has ended. */
 void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int s, int round)
 {
-	if (owners[s] >= 0)
+	if (owners[s] != -1 || atomic_cmpxchg(&owners[s], -1, -2) != -1)
 		return;
 	int id = atomic_inc(&status[STATUS_ACTIVE]);
-	bool first = atomic_cmpxchg(&owners[s], -1, id) == -1;
-	active[id] = first ? s : -1;
+	active[id] = s;
 	members[MEMBER(id, MEMBER_OWNER)] = id;
-	members[MEMBER(id, MEMBER_ROUND)] = first ? round : 0;
-	if (first && status[STATUS_ROUND] < round)
+	members[MEMBER(id, MEMBER_ROUND)] = round;
+	atomic_xchg(&owners[s], id);
+	if (status[STATUS_ROUND] < round)
 		atomic_max(&status[STATUS_ROUND], round);
 }
 
 /* Two clusters get into each other's way: they are one in the next round. */
-void conflict(LIST_OUT(status), LIST_OUT(members), int a, int b, int round)
+void conflict(LIST_OUT(status), LIST_OUT(members), LIST_IN(active), LIST_OUT(parents), int a, int b, int round)
 {
-	unite(members, a, b);
+	unite(parents, active[a], active[b]);
 	atomic_xchg(&members[MEMBER(a, MEMBER_ROUND)], round + 1);
 	atomic_xchg(&members[MEMBER(b, MEMBER_ROUND)], round + 1);
 	atomic_xchg(&members[MEMBER(a, MEMBER_HEAD)], -1);

@@ -165,9 +165,11 @@
 #define NEXT_PARTNER 3 /* its slot, or -1 - wall */
 #define WORK_BOX 3 /* record: AABB's channels, of all the way in this step */
 
+/* So many numbers more than bodies, since a cluster loses one where another claims the body first. */
+#define NUMBERS_SPARE 4096
+
 /* Members: twelve ints a number */
 #define MEMBER_WIDTH 12
-#define MEMBER_PARENT 0 /* union-find: clusters that meet are one */
 #define MEMBER_OWNER 1  /* number of the cluster's leader */
 #define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
 #define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
@@ -177,7 +179,8 @@
 #define MEMBER_HITS 8   /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
 
-/* Owners: the number of the body in the slot, -1 for none; Active: the slot of the number, -1 for none */
+/* Owners: the number of the body in the slot, -1 for none (-2: just being given one); Active: the slot of the number, -1 for none; Parents: union-find over
+ * slots: clusters that meet are one */
 
 /* Spans: four ints a slot */
 #define SPAN_WIDTH 4
@@ -222,6 +225,7 @@
 #define STATUS_BUILDS 18    /* since the host asked: how often lists were made, */
 #define STATUS_STEPS 19     /* steps done, */
 #define STATUS_RETRIES 20   /* begun again with other lists, */
+#define STATUS_NUMBERS 24  /* there are for bodies that events change */
 #define STATUS_IDLE 22      /* not begun for want of lists, */
 #define STATUS_AGAIN 23     /* and not done since they needed more rounds */
 

@@ -56,12 +56,16 @@ int first_member(LIST_OUT(members), RECORD_OUT(work), int head)
 }
 
 /* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
-int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), int s, int leader, int head)
+int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners),
+	LIST_OUT(parents), int s, int leader, int head)
 {
 	int id = atomic_inc(&status[STATUS_ACTIVE]);
+	if (id >= status[STATUS_NUMBERS]) {
+		atomic_or(&status[STATUS_LEFT], 1); /* so many were lost: the step begins again */
+		return -1;
+	}
 	active[id] = s;
 	members[MEMBER(id, MEMBER_OWNER)] = leader;
-	members[MEMBER(id, MEMBER_PARENT)] = leader;
 	work_begin(slots, members, work, s, id);
 	mem_fence(CLK_GLOBAL_MEM_FENCE);
 	if (atomic_cmpxchg(&owners[s], -1, id) != -1) {
@@ -69,6 +73,7 @@ int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active
 		member_reset(members, id);
 		return -1;
 	}
+	atomic_xchg(&parents[s], active[leader]);
 	members[MEMBER(id, MEMBER_LINK)] = members[MEMBER(head, MEMBER_LINK)];
 	members[MEMBER(head, MEMBER_LINK)] = id;
 	return id;
@@ -91,7 +96,7 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 }
 
 void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need),
-	LIST_OUT(owners), int leader, int round,
+	LIST_OUT(owners), LIST_OUT(parents), int leader, int round,
 	float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
@@ -111,10 +116,12 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 		if (other >= 0 && !slot_is_static(slots, other)) {
 			other_id = int_load(owners, other);
 			if (other_id < 0)
-				other_id = claim(slots, status, members, active, work, owners, other, leader, head);
+				other_id = claim(slots, status, members, active, work, owners, parents, other, leader, head);
 			if (other_id < 0 || int_load(members, MEMBER(other_id, MEMBER_OWNER)) != leader) {
 				other_id = int_load(owners, other);
-				conflict(status, members, leader, int_load(members, MEMBER(other_id, MEMBER_OWNER)), round);
+				if (other_id < 0)
+					break; /* there are no more numbers */
+				conflict(status, members, active, parents, leader, int_load(members, MEMBER(other_id, MEMBER_OWNER)), round);
 				break;
 			}
 			if (members[MEMBER(other_id, MEMBER_EVENTS)] != members[MEMBER(id, MEMBER_SEEN)]) {

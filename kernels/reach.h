@@ -91,7 +91,6 @@ int cell_index(int2 cell, int level, int columns, int rows)
 void member_reset(LIST_OUT(members), int id)
 {
 	__global int *m = members + MEMBER(id, 0);
-	m[MEMBER_PARENT] = id;
 	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
 	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
 }
@@ -169,6 +168,7 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 		float side = level_side(status, level);
 		int2 low = cell_of((float2)(box.x - side, box.y - side), side);
 		int2 high = cell_of((float2)(box.z + side, box.w + side), side);
+		high = (int2)(min(high.x, low.x + columns - 1), min(high.y, low.y + rows - 1)); /* once round is enough */
 		for (int y = low.y; y <= high.y; y++) {
 			int first = cell_index((int2)(low.x, y), level, columns, rows), last = cell_index((int2)(high.x, y), level, columns, rows);
 			int row = first - (first & (columns - 1));

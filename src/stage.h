@@ -34,6 +34,7 @@ typedef enum carom_role {
 	ROLE_WORK,       /* records, WORK_WIDTH a slot */
 	ROLE_MEMBERS,    /* list, MEMBER_WIDTH a slot */
 	ROLE_OWNERS,     /* list, one a slot */
+	ROLE_PARENTS,    /* the same */
 	ROLE_ACTIVE,     /* list: the slots of bodies in clusters */
 	ROLE_SPANS,      /* list, SPAN_WIDTH a slot */
 	ROLE_NEIGHBOURS, /* list: slots */

@@ -1,7 +1,7 @@
 /* All the hits of a step: bodies that hit form clusters, and each cluster is a queue of events that one work-item runs. */
 
 __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN,
-	LIST_OUT(owners), int4 domain)
+	LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	int s = get_global_id(0), wall;
 	float length = step_length(TEX(uniforms), TEX(clock));
@@ -24,11 +24,12 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 		if (other_changes)
 			activate(status, members, active, owners, other, domain.z);
 		if (changes && other_changes)
-			unite(members, int_load(owners, s), int_load(owners, other));
+			unite(parents, s, other);
 	}
 }
 
-__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), int4 domain)
+__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners),
+	LIST_OUT(parents), int4 domain)
 {
 	if (status[STATUS_ROUND] != domain.z)
 		return;
@@ -38,7 +39,7 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		if (active[id] < 0 || members[MEMBER(members[MEMBER(id, MEMBER_OWNER)], MEMBER_ROUND)] != domain.z)
 			continue;
-		int root = find_root(members, id);
+		int root = owners[find_root(parents, active[id])];
 		if (members[MEMBER(id, MEMBER_HITS)] > 0)
 			atomic_sub(&status[STATUS_HITS], members[MEMBER(id, MEMBER_HITS)]);
 		if (members[MEMBER(id, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * id + WORK_TURN], WORK_HELD) > 0.0f)
@@ -50,7 +51,7 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 }
 
 __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
-	LIST_OUT(need), LIST_OUT(owners), int4 domain)
+	LIST_OUT(need), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	if (status[STATUS_ROUND] < domain.z)
 		return;
@@ -58,12 +59,12 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 	float length = step_length(TEX(uniforms), TEX(clock));
 	for (int id = get_global_id(0); id < seeds; id += get_global_size(0))
 		if (members[MEMBER(id, MEMBER_HEAD)] >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
-			cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, id, domain.z, length);
+			cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, parents, id, domain.z, length);
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
 __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work),
-	LIST_IN(owners), int4 domain)
+	LIST_IN(owners), LIST_OUT(parents), int4 domain)
 {
 	if (status[STATUS_ROUND] < domain.z)
 		return;
@@ -82,7 +83,7 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 			if (theirs == owner || members[MEMBER(theirs, MEMBER_ROUND)] > domain.z)
 				continue;
 			if (ways_meet(TEX(vertices), slots, members, work, rules, s, id, other, other_id, length))
-				conflict(status, members, owner, theirs, domain.z);
+				conflict(status, members, active, parents, owner, theirs, domain.z);
 		}
 	}
 }

@@ -44,7 +44,8 @@ __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 }
 
 __kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells),
-	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), int4 domain)
+	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners),
+	LIST_OUT(parents), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x)
@@ -56,6 +57,9 @@ __kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need),
 	new_need[to] = status[STATUS_COMMIT] ? 0 : need[s];
 	member_reset(members, to);
 	owners[to] = -1;
+	parents[to] = to;
+	for (int id = domain.x + s; id < status[STATUS_NUMBERS]; id += domain.x)
+		member_reset(members, id);
 }
 
 __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans), LIST_OUT(neighbours),

@@ -15,17 +15,17 @@ public:
 	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active; owners last. */
 	Clusters(const Job<T> &job, int owners_at)
 		: Bodies<T>(job), spans(reinterpret_cast<const Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
-		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at))
+		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at)), parents(job.list(owners_at + 1))
 	{
 	}
 
 	bool ready() const { return this->length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL]; }
 
-	int32_t root_of(int32_t id) const
+	int32_t root_of(int32_t s) const
 	{
-		for (int32_t parent; (parent = __atomic_load_n(&members[id].parent, __ATOMIC_ACQUIRE)) != id;)
-			id = parent;
-		return id;
+		for (int32_t parent; (parent = __atomic_load_n(&parents[s], __ATOMIC_ACQUIRE)) != s;)
+			s = parent;
+		return s;
 	}
 
 	void unite(int32_t a, int32_t b) const
@@ -33,21 +33,21 @@ public:
 		while ((a = root_of(a)) != (b = root_of(b))) {
 			int32_t child = std::max(a, b);
 			const int32_t hook = child;
-			if (__atomic_compare_exchange_n(&members[hook].parent, &child, std::min(a, b), false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE))
+			if (__atomic_compare_exchange_n(&parents[hook], &child, std::min(a, b), false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE))
 				return;
 		}
 	}
 
-	/* A number for a body of a step that begins; who comes second leaves one that nobody uses. */
+	/* A number for a body of a step that begins; others may ask for it when the kernel has ended. */
 	void activate(int32_t s, int32_t round) const
 	{
-		if (__atomic_load_n(&owners[s], __ATOMIC_ACQUIRE) >= 0)
+		if (__atomic_load_n(&owners[s], __ATOMIC_RELAXED) != -1 || !take(s, -2))
 			return;
 		const int32_t id = fetch_add(&status[STATUS_ACTIVE], 1);
+		active[id] = s;
 		members[id].owner = id;
-		const bool mine = take(s, id);
-		active[id] = mine ? s : -1;
-		members[id].round = mine ? round : 0;
+		members[id].round = round;
+		__atomic_store_n(&owners[s], id, __ATOMIC_RELEASE);
 		__atomic_store_n(&status[STATUS_ROUND], round, __ATOMIC_RELAXED);
 	}
 
@@ -60,7 +60,7 @@ public:
 	/* The two are one in the next round. */
 	void conflict(int32_t a, int32_t b, int32_t round) const
 	{
-		unite(a, b);
+		unite(active[a], active[b]);
 		for (int32_t leader : {a, b}) {
 			__atomic_store_n(&members[leader].round, round + 1, __ATOMIC_RELAXED);
 			__atomic_store_n(&members[leader].head, -1, __ATOMIC_RELAXED);
@@ -82,7 +82,7 @@ public:
 	const int32_t *const neighbours;
 	int32_t *const status;
 	Member *const members;
-	int32_t *const active, *const owners;
+	int32_t *const active, *const owners, *const parents;
 };
 
 /* One cluster, by its leader's number. */
@@ -157,6 +157,8 @@ private:
 		int32_t id = __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
 		if (id < 0)
 			id = claim(s);
+		if (id < 0)
+			return -1;
 		const int32_t owner = __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE);
 		if (owner == leader)
 			return id;
@@ -167,14 +169,19 @@ private:
 	int32_t claim(int32_t s)
 	{
 		const int32_t id = fetch_add(&clusters.status[STATUS_ACTIVE], 1);
+		if (id >= clusters.status[STATUS_NUMBERS]) {
+			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED); /* so many were lost: the step begins again */
+			return -1;
+		}
 		clusters.active[id] = s;
 		clusters.begin(work[id], id, s);
-		members[id].parent = members[id].owner = leader;
+		members[id].owner = leader;
 		if (!clusters.take(s, id)) {
 			clusters.active[id] = -1;
-			members[id].reset(id);
+			members[id].reset();
 			return __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
 		}
+		__atomic_store_n(&clusters.parents[s], clusters.active[leader], __ATOMIC_RELEASE);
 		members[id].link = members[head].link;
 		members[head].link = id;
 		return id;

@@ -49,11 +49,11 @@ static_assert(sizeof(Slot<float>) == SLOT_WIDTH * 4 * sizeof(float) && sizeof(Wo
 
 /* The numbers of a member. */
 struct Member {
-	int32_t parent, owner, link, head, events, rapid, seen, round, hits, unused[3];
+	int32_t unused, owner, link, head, events, rapid, seen, round, hits, more_unused[3];
 
-	void reset(int32_t id)
+	void reset()
 	{
-		*this = {id, -1, -1, -1, 0, 0, 0, 0, 0, {0, 0, 0}};
+		*this = {0, -1, -1, -1, 0, 0, 0, 0, 0, {0, 0, 0}};
 	}
 };
 

@@ -74,6 +74,12 @@ static carom_status run(carom_world *world, carom_error *error)
 	return carom_run(world, STAGE_DRIFT, count, 1, 0, 0, error);
 }
 
+/* A cluster may lose a number to another: there are some more than bodies. NUMBERS_SPARE of them are the device's to make ready. */
+static uint64_t numbers_of(uint64_t capacity)
+{
+	return capacity + NUMBERS_SPARE;
+}
+
 /* A texture of so many ints or records, folded into rows. */
 static carom_status create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error)
 {
@@ -97,6 +103,7 @@ static carom_status begin(carom_world *world, carom_error *error)
 		return CAROM_OK;
 	status[STATUS_ROOM] = (int32_t)world->events.room;
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
+	status[STATUS_NUMBERS] = (int32_t)numbers_of(world->capacity);
 	TRY(send_status(world, status, error));
 	TRY(carom_run(world, STAGE_LOAD, (int32_t)world->body_count, 1, 0, 0, error));
 	carom_swap(world, ROLE_SLOTS);
@@ -178,7 +185,7 @@ static carom_status finish(carom_world *world, carom_error *error)
 /* Twice as many cells as bodies, in rows of a power of two. */
 static void choose_cells(carom_events *events, uint32_t capacity)
 {
-	events->rows = events->columns = 8; /* more than a body looks at in a row */
+	events->rows = events->columns = 16; /* more than a body looks at in a row */
 	while (events->rows * events->columns < 2 * capacity) {
 		if (events->columns <= events->rows)
 			events->columns *= 2;
@@ -192,7 +199,7 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 	const uint64_t n = carom_capacity(body_count);
 	(void)pipeline;
 	(void)def;
-	return n * (16 * (2 * SLOT_WIDTH + 1 + WORK_WIDTH) + 4 * (2 + MEMBER_WIDTH + 2 + SPAN_WIDTH + 2 * CELL_WIDTH + 16 + 1)) + 4 * STATUS_WIDTH;
+	return n * (16 * (2 * SLOT_WIDTH + 1 + WORK_WIDTH) + 4 * (2 + MEMBER_WIDTH + 3 + SPAN_WIDTH + 2 * CELL_WIDTH + 16 + 1)) + 4 * STATUS_WIDTH;
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -204,10 +211,11 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));
 	TRY(create_list(world, ROLE_REACH, false, n, error));
-	TRY(create_list(world, ROLE_WORK, false, WORK_WIDTH * n, error));
-	TRY(create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * n, error));
+	TRY(create_list(world, ROLE_WORK, false, WORK_WIDTH * numbers_of(n), error));
+	TRY(create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * numbers_of(n), error));
 	TRY(create_list(world, ROLE_OWNERS, false, n, error));
-	TRY(create_list(world, ROLE_ACTIVE, false, n, error));
+	TRY(create_list(world, ROLE_PARENTS, false, n, error));
+	TRY(create_list(world, ROLE_ACTIVE, false, numbers_of(n), error));
 	TRY(create_list(world, ROLE_SPANS, false, SPAN_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
 	TRY(create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));

@@ -12,7 +12,7 @@ template <typename T> static void seek_pair(const Clusters<T> &clusters, int32_t
 	if (!other_slot.is_static())
 		clusters.activate(other, round);
 	if (!slot.is_static() && !other_slot.is_static())
-		clusters.unite(__atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE), __atomic_load_n(&clusters.owners[other], __ATOMIC_ACQUIRE));
+		clusters.unite(s, other);
 }
 
 template <typename T> static void look_around(const Clusters<T> &clusters, int32_t s, int32_t round)
@@ -48,7 +48,7 @@ template <typename T> static void muster(const Job<T> &job)
 	const Slot<T> *slots = reinterpret_cast<const Slot<T> *>(job.records(0));
 	int32_t *status = job.list(1);
 	Member *members = reinterpret_cast<Member *>(job.list(2));
-	const int32_t *active = job.list(3), round = job.domain[2];
+	const int32_t *active = job.list(3), *owners = job.list(5), *parents = job.list(6), round = job.domain[2];
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(4));
 	if (status[STATUS_ROUND] != round)
 		return;
@@ -57,9 +57,10 @@ template <typename T> static void muster(const Job<T> &job)
 		Member &member = members[id];
 		if (active[id] < 0 || members[member.owner].round != round)
 			continue;
-		int32_t root = id;
-		while (members[root].parent != root)
-			root = members[root].parent;
+		int32_t root_slot = active[id];
+		while (parents[root_slot] != root_slot)
+			root_slot = parents[root_slot];
+		const int32_t root = owners[root_slot];
 		status[STATUS_HITS] -= member.hits;
 		status[STATUS_HELD] -= member.events > 0 && work[id].held > 0;
 		member.events = member.rapid = member.hits = 0;

@@ -17,7 +17,7 @@ template <typename T> static void drift(const Job<T> &job)
 	const Texels<T> uniforms = job.texels(0);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(3));
-	int32_t *status = job.list(4), *owners = job.list(7);
+	int32_t *status = job.list(4), *owners = job.list(7), *parents = job.list(8);
 	Member *members = reinterpret_cast<Member *>(job.list(5));
 	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(6));
 	const bool commits = status[STATUS_COMMIT] != 0;
@@ -40,8 +40,9 @@ template <typename T> static void drift(const Job<T> &job)
 				stale |= may_leave(slot, boxes[s], step, common);
 			}
 			if (id >= 0) {
-				members[id].reset(id);
+				members[id].reset();
 				owners[s] = -1;
+				parents[s] = s;
 			}
 		}
 		if (stale)

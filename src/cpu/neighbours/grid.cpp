@@ -98,17 +98,20 @@ template <typename T> static void sort(const Job<T> &job)
 	Member *members = reinterpret_cast<Member *>(job.list(9));
 	const Span *spans = reinterpret_cast<const Span *>(job.list(4));
 	const int32_t *need = job.list(2), *status = job.list(3);
-	int32_t *all = job.list(5), *new_need = job.list(7), *owners = job.list(10);
+	int32_t *all = job.list(5), *new_need = job.list(7), *owners = job.list(10), *parents = job.list(11);
 	const ReachRules<T> rules = reach_rules<T>(status);
 	const bool forget = status[STATUS_COMMIT] != 0;
+	for (int32_t id = job.domain[0]; id < status[STATUS_NUMBERS]; id++)
+		members[id].reset();
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		for (int32_t s = begin; s < end; s++) {
 			const int32_t place = fetch_add(&all[CELL_WIDTH * spans[s].cell + CELL_END], 1);
 			to[place] = slots[s];
 			boxes[place] = reach_box(slots[s], T(as_float(need[s])), rules, vertices);
 			new_need[place] = forget ? 0 : need[s];
-			members[place].reset(place);
+			members[place].reset();
 			owners[place] = -1;
+			parents[place] = place;
 		}
 	});
 }
@@ -234,8 +237,9 @@ private:
 	{
 		const T side = T(grid.side_of(level));
 		const Cell low = grid.cell_at(box.min_x - side, box.min_y - side, level), high = grid.cell_at(box.max_x + side, box.max_y + side, level);
-		for (int32_t y = low.y; y <= high.y; y++) {
-			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x, level), last = row + grid.column_of(high.x, level);
+		const int32_t last_x = std::min(high.x, low.x + grid.columns - 1), last_y = std::min(high.y, low.y + grid.rows - 1); /* once round */
+		for (int32_t y = low.y; y <= last_y; y++) {
+			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x, level), last = row + grid.column_of(last_x, level);
 			if (last < first)
 				visit(start(row), finish(last));
 			visit(start(first), finish(last < first ? row + grid.columns - 1 : last));
