@@ -1,0 +1,190 @@
+/* Crowds under the step events keep their energy and momentum and don't overlap; and worlds that are changed between calls. On every device. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "layout.h"
+#include "runs.h"
+
+/* `count` bodies on a lattice: nearly two fifths of the area are filled by discs, less by triangles, which could not be placed closer blindly. */
+static void fill(scenery_random *random, scenery_shapes shapes, int side, float radius, float speed, carom_body_def *bodies)
+{
+	const float pitch = shapes == SCENERY_CIRCLES ? 2.8f * radius : 2.1f * radius; /* pi / 2.8^2 = 0.40, 1.3 / 2.1^2 = 0.29 */
+	for (int i = 0; i < side * side; i++) {
+		carom_body_def def = scenery_circle(pitch * ((float)(i % side) - 0.5f * (float)(side - 1)), pitch * ((float)(i / side) - 0.5f * (float)(side - 1)),
+			scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed), radius);
+		if (shapes == SCENERY_POLYGONS || (shapes == SCENERY_MIXED && i % 2)) {
+			def.shape = CAROM_REGULAR;
+			def.sides = shapes == SCENERY_POLYGONS ? 3 : 3 + (uint32_t)(i / 2) % 4;
+			def.angle = scenery_uniform(random, -3.0f, 3.0f);
+			def.angular_velocity = scenery_uniform(random, -speed, speed);
+		}
+		bodies[i] = def;
+	}
+}
+
+/* What 200 steps may cost, with a margin of three over what was seen: 1.6e-6 of the energy, 1.3e-8 of the momentum there is (the sum of all |m v|). */
+#define ENERGY_KEPT 5e-6
+#define MOMENTUM_KEPT 4e-8
+
+static double impulse_of(carom_world *world)
+{
+	double sum = 0.0;
+	for (uint32_t i = 0; i < carom_world_body_count(world); i++) {
+		carom_body_info info;
+		carom_error error;
+		const carom_body_state s = runs_state(world, i);
+		scenery_check(carom_world_get_body(world, i, &info, &error), &error);
+		sum += (double)info.mass * hypot((double)s.velocity.x, (double)s.velocity.y);
+	}
+	return sum;
+}
+
+static void crowd(scenery_shapes shapes, bool has_room, const scenery_device *device, uint64_t *first)
+{
+	enum { SIDE = 16, COUNT = SIDE * SIDE };
+	static carom_body_def bodies[COUNT];
+	scenery_random random = {9};
+	fill(&random, shapes, SIDE, 0.4f, 3.0f, bodies);
+	const float half = 0.4f * (shapes == SCENERY_CIRCLES ? 1.4f : 1.05f) * (float)SIDE + 0.05f;
+	const carom_world_def def = has_room ? runs_room(half, half) : runs_def();
+	for (int i = 0; i < COUNT && !has_room; i++) { /* towards the middle, so that much is hit */
+		bodies[i].velocity.x -= bodies[i].position.x;
+		bodies[i].velocity.y -= bodies[i].position.y;
+	}
+	carom_world *world = runs_world(&def, device, bodies, COUNT);
+	if (!world)
+		return;
+	const carom_measure before = runs_measure(world);
+	const double impulse = impulse_of(world);
+	const carom_report report = runs_step(world, runs_affordable(200));
+	const carom_measure after = runs_measure(world);
+	const double energy = after.kinetic_energy / before.kinetic_energy - 1.0;
+	const double momentum = hypot(after.momentum_x - before.momentum_x, after.momentum_y - before.momentum_y) / impulse;
+	print_message("%llu hits, energy %+.2g, momentum %.2g, %.2g m deep\n", (unsigned long long)report.hits, energy, has_room ? 0.0 : momentum,
+		after.max_penetration);
+	assert_true(report.hits > runs_affordable(500));
+	assert_true(report.held == 0);
+	runs_near(energy, 0.0, ENERGY_KEPT);
+	if (!has_room)
+		runs_near(momentum, 0.0, MOMENTUM_KEPT);
+	runs_near(after.max_penetration, 0.0, (has_room ? 11.0 : 40.0) * (double)SLOP); /* CONTRACT's slop: bodies that near touch */
+	runs_same_hash(first, runs_hash(world), device);
+	carom_world_destroy(world);
+}
+
+static void crowds_keep_energy_and_momentum(void **unused)
+{
+	(void)unused;
+	for (int shapes = SCENERY_MIXED; shapes <= SCENERY_POLYGONS; shapes++) {
+		for (int has_room = 0; has_room < 2; has_room++) {
+			uint64_t first = 0;
+			SCENERY_EACH_DEVICE(device)
+				crowd((scenery_shapes)shapes, has_room, device, &first);
+		}
+	}
+}
+
+static void twenty_thousand_circles(void **unused)
+{
+	(void)unused;
+	enum { SIDE = 142, COUNT = SIDE * SIDE };
+	carom_body_def *bodies = calloc(COUNT, sizeof *bodies);
+	const carom_world_def def = runs_room(100.0f, 100.0f);
+	scenery_random random = {4};
+	uint64_t first = 0, hits = 0;
+	assert_non_null(bodies);
+	fill(&random, SCENERY_CIRCLES, SIDE, 0.4f, 5.0f, bodies);
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = runs_world(&def, device, bodies, COUNT);
+		if (!world)
+			continue;
+		const double begun = runs_seconds();
+		const carom_report report = runs_step(world, runs_affordable(20));
+		print_message("%llu hits in %.2f s\n", (unsigned long long)report.hits, runs_seconds() - begun);
+		assert_true(report.hits > runs_affordable(5000) && (hits == 0 || report.hits == hits));
+		hits = report.hits;
+		runs_near(runs_measure(world).max_penetration, 0.0, 101.0 * (double)SLOP);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+	free(bodies);
+}
+
+/* ---- Worlds that are changed */
+
+static void little_or_nothing_in_a_room(void **unused)
+{
+	(void)unused;
+	carom_world_def def = runs_room(1.0f, 1.0f);
+	const carom_body_def ball = scenery_circle(0.0f, 0.0f, 1.0f, 0.0f, 0.5f), still = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f);
+	carom_error error;
+	def.time_step = 0.25f;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = runs_world(&def, device, NULL, 0);
+		if (!world)
+			continue;
+		assert_int_equal(runs_step(world, 100).steps, 0);
+		scenery_check(carom_world_add(world, &ball, 1, NULL, &error), &error);
+		assert_int_equal(runs_advance(world, 10.0).hits, 10); /* at 0.5 s, 1.5 s, ... */
+		runs_near((double)runs_state(world, 0).position.x, 0.0, 1e-5);
+		carom_world_destroy(world);
+		world = runs_world(&def, device, &still, 1);
+		assert_int_equal(runs_step(world, 100).hits, 0);
+		carom_world_destroy(world);
+	}
+}
+
+static void copy_body(carom_world *from, uint32_t index, carom_body_def *def)
+{
+	const carom_body_state s = runs_state(from, index);
+	def->position = s.position;
+	def->velocity = s.velocity;
+	def->angle = s.angle;
+	def->angular_velocity = s.angular_velocity;
+}
+
+/* States set and bodies added between calls give what a new world with these bodies gives: nothing of what was known before stays. */
+static void changed_worlds_are_as_new_ones(void **unused)
+{
+	(void)unused;
+	enum { COUNT = 100, MORE = 40 };
+	carom_body_def bodies[COUNT + MORE];
+	carom_world_def def = runs_room(8.0f, 8.0f);
+	scenery_random random = {17};
+	carom_error error;
+	scenery_bodies(&random, SCENERY_MIXED, COUNT + MORE, 1.2f, 3.0f, bodies);
+	def.gravity.y = -1.0f;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = runs_world(&def, device, bodies, COUNT);
+		if (!world)
+			continue;
+		carom_body_def now[COUNT + MORE];
+		runs_step(world, 30);
+		for (uint32_t i = 0; i < COUNT + MORE; i++) {
+			now[i] = bodies[i];
+			now[i].position.x *= 0.97f; /* elsewhere: what is near whom has changed */
+			if (i < COUNT) {
+				const carom_body_state s = {now[i].position, now[i].angle, {-now[i].velocity.x, now[i].velocity.y}, now[i].angular_velocity};
+				scenery_check(carom_world_set_states(world, i, 1, &s, &error), &error);
+				copy_body(world, i, &now[i]);
+			}
+		}
+		scenery_check(carom_world_add(world, now + COUNT, MORE, NULL, &error), &error);
+		carom_world *fresh = runs_world(&def, device, now, COUNT + MORE);
+		assert_int_equal(runs_step(world, 30).hits, runs_step(fresh, 30).hits);
+		assert_true(runs_hash(world) == runs_hash(fresh));
+		carom_world_destroy(fresh);
+		carom_world_destroy(world);
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(crowds_keep_energy_and_momentum),
+		cmocka_unit_test(twenty_thousand_circles),
+		cmocka_unit_test(little_or_nothing_in_a_room),
+		cmocka_unit_test(changed_worlds_are_as_new_ones),
+	};
+	return cmocka_run_group_tests_name("events_crowds", tests, NULL, NULL);
+}

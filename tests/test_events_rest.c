@@ -1,0 +1,189 @@
+/* The step events where hits would have no end: collapse, rest, what is squeezed. And crowds that must keep what they have. On every device. */
+#include <math.h>
+
+#include "layout.h"
+#include "runs.h"
+
+#define GRAVITY 10.0
+
+static carom_body_def fixed(carom_body_def def)
+{
+	def.is_static = true;
+	return def;
+}
+
+static void nothing_overlaps(carom_world *world, double size)
+{
+	runs_near(runs_measure(world).max_penetration, 0.0, size * (double)SLOP);
+}
+
+static double energy_of(carom_world *world)
+{
+	const carom_measure measure = runs_measure(world);
+	return measure.kinetic_energy + measure.potential_energy;
+}
+
+/* Steps one by one: energy grows by no more than rounding, and by the speed that CONTRACT gives in a microcollision, MICRO of what
+ * gravity makes in a step: half of it squared for each hit, of a body of `mass` at most. */
+static carom_report run_down(carom_world *world, uint64_t steps, double mass)
+{
+	const double micro = (double)MICRO * GRAVITY * (double)carom_world_get_def(world)->time_step, begun = runs_seconds();
+	carom_report sum = {0};
+	double energy = energy_of(world);
+	const double scale = fabs(energy) + mass * GRAVITY;
+	for (uint64_t i = 0; i < steps; i++) {
+		const carom_report report = runs_step(world, 1);
+		const double now = energy_of(world), allowed = 0.5 * mass * micro * micro * (double)report.hits + 1e-5 * scale;
+		if (!(now - energy <= allowed))
+			fail_msg("step %llu: energy grew from %.9g to %.9g J, allowed are %.3g", (unsigned long long)i, energy, now, allowed);
+		energy = now;
+		sum.hits += report.hits;
+		sum.held += report.held;
+	}
+	assert_true(runs_seconds() - begun < 20.0);
+	return sum;
+}
+
+/* ---- Rest */
+
+/* A ball or a box on the floor of a room or on a static body, with restitution 0.5 and 0: it lies there in the end. */
+static void bodies_come_to_rest(void **unused)
+{
+	(void)unused;
+	for (int kind = 0; kind < 8; kind++) {
+		carom_world_def def = kind & 1 ? runs_room(5.0f, 5.0f) : runs_def();
+		const carom_body_def body = kind & 2 ? scenery_box(0.0f, -3.0f, 0.0f, 0.0f, 1.0f, 1.0f) : scenery_circle(0.0f, -3.0f, 0.0f, 0.0f, 0.5f);
+		const carom_body_def bodies[2] = {body, fixed(scenery_box(0.0f, -5.5f, 0.0f, 0.0f, 8.0f, 1.0f))};
+		def.gravity.y = -(float)GRAVITY;
+		def.restitution = kind & 4 ? 0.0f : 0.5f;
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = runs_world(&def, device, bodies, kind & 1 ? 1 : 2);
+			if (!world)
+				continue;
+			const carom_report sum = run_down(world, 180, 1.0);
+			const carom_body_state state = runs_state(world, 0);
+			/* a bounce of a microcollision is v^2 / 2 g high, and a hit may be a slop early */
+			const double micro = (double)MICRO * GRAVITY / 60.0, high = micro * micro / (2.0 * GRAVITY) + 12.0 * (double)SLOP;
+			runs_near((double)state.position.y, -4.5 + 0.5 * high, 0.5 * high + 5.5 * (double)SLOP);
+			runs_near((double)state.velocity.y, 0.0, 2.0 * micro);
+			runs_near((double)state.angular_velocity, 0.0, 1e-2);
+			assert_true(sum.hits > 1 && sum.held == 0);
+			nothing_overlaps(world, 12.0);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* 1e-5 m of room on either side: slow, as many hits as the way has; fast, too many: it is held, and stays between the two. */
+static void squeezed_ball(void **unused)
+{
+	(void)unused;
+	static const struct {
+		float speed, restitution;
+		bool is_held;
+	} cases[] = {{1.0f, 1.0f, false}, {100.0f, 1.0f, true}, {100.0f, 0.5f, false}, {100.0f, 0.0f, false}};
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		carom_world_def def = runs_def();
+		const carom_body_def bodies[3] = {scenery_circle(0.0f, 0.0f, cases[i].speed, 0.0f, 0.5f),
+			fixed(scenery_box(1.00001f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f)), fixed(scenery_box(-1.00001f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f))};
+		def.restitution = cases[i].restitution;
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = runs_world(&def, device, bodies, 3);
+			if (!world)
+				continue;
+			const carom_report sum = run_down(world, 10, 1.0);
+			print_message("speed %g, restitution %g: %llu hits, held %llu times\n", (double)cases[i].speed, (double)cases[i].restitution,
+				(unsigned long long)sum.hits, (unsigned long long)sum.held);
+			assert_true((sum.held > 0) == cases[i].is_held);
+			assert_true(fabs((double)runs_state(world, 0).position.x) < 1e-5 + 3.0 * (double)SLOP);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* Fifty balls in a row are run into by a heavy one: inelastic collapse. Momentum stays, energy goes. */
+static void row_collapses(void **unused)
+{
+	(void)unused;
+	enum { COUNT = 50 };
+	static const float restitutions[] = {0.0f, 0.2f, 0.5f, 0.9f};
+	for (int i = 0; i < 4; i++) {
+		carom_world_def def = runs_def();
+		carom_body_def bodies[COUNT];
+		uint64_t first = 0;
+		for (int k = 0; k < COUNT; k++)
+			bodies[k] = scenery_circle((float)k * 1.01f, 0.0f, k == 0 ? 5.0f : 0.0f, 0.0f, 0.5f);
+		bodies[0].mass = 50.0f;
+		def.restitution = restitutions[i];
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			const carom_measure before = runs_measure(world);
+			const carom_report sum = run_down(world, runs_affordable(120), 50.0);
+			print_message("restitution %g: %llu hits, held %llu times\n", (double)restitutions[i], (unsigned long long)sum.hits, (unsigned long long)sum.held);
+			runs_near(runs_measure(world).momentum_x / before.momentum_x, 1.0, 1e-5);
+			for (uint32_t k = 1; k < COUNT; k++)
+				assert_true(runs_state(world, k).position.x > runs_state(world, k - 1).position.x + 0.99f);
+			/* Bodies with the same speed don't hit, but each step rounds their places by half a unit, the same way again and again; nothing
+			 * parts what does not approach. So they sink in by a unit a step, 2^-23 of the place (70 m at most), beside the slop. */
+			runs_near(runs_measure(world).max_penetration, 0.0, 70.0 * (2.0 * (double)SLOP + (double)runs_affordable(120) * 0x1p-23));
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* Three simulated seconds of bodies that fall onto one another: nobody leaves the room or sinks in, and they do come to rest. */
+static void small_heap(void **unused)
+{
+	(void)unused;
+	enum { COUNT = 30 };
+	for (int shapes = SCENERY_MIXED; shapes <= SCENERY_POLYGONS; shapes++) {
+		carom_world_def def = runs_room(3.0f, 4.0f);
+		carom_body_def bodies[COUNT];
+		scenery_random random = {21};
+		uint64_t first = 0;
+		scenery_bodies(&random, (scenery_shapes)shapes, COUNT, 0.9f, 1.0f, bodies);
+		for (int i = 0; i < COUNT; i++) {
+			bodies[i].is_static = false;
+			bodies[i].radius *= 0.7f;
+			bodies[i].density = 1.0f;
+		}
+		def.gravity.y = -(float)GRAVITY;
+		def.restitution = 0.3f;
+		SCENERY_EACH_DEVICE(device) {
+			if (device->storage == CAROM_STORAGE_IMAGE)
+				continue; /* the same kernels; it takes long */
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			const double begun = runs_seconds();
+			const carom_report sum = run_down(world, runs_affordable(180), 0.5);
+			const carom_measure measure = runs_measure(world);
+			print_message("heap: %llu hits, held %llu times, %.3g J left, %.3g m deep, %.2f s\n", (unsigned long long)sum.hits,
+				(unsigned long long)sum.held, measure.kinetic_energy, measure.max_penetration, runs_seconds() - begun);
+			/* A jammed body is in thousands of events a step, and each rounds its place: it may sink in by more than the slop, but a hundredth of
+			 * what the bodies measure is nothing that goes through a floor. */
+			assert_true(measure.max_penetration < 5e-3);
+			assert_true(runs_affordable(180) < 180 || measure.kinetic_energy < 0.5);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(bodies_come_to_rest),
+		cmocka_unit_test(squeezed_ball),
+		cmocka_unit_test(row_collapses),
+		cmocka_unit_test(small_heap),
+	};
+	return cmocka_run_group_tests_name("events_rest", tests, NULL, NULL);
+}
