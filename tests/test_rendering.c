@@ -225,7 +225,7 @@ static void large_pictures_are_drawn_in_parts(void **state)
 static void a_picture_needs_no_textures_of_pairs(void **state)
 {
 	(void)state;
-	carom_world_def def = carom_default_world_def();
+	carom_world_def def = scenery_first_impact();
 	carom_world *world = scenery_world(&def, &scenery_devices[0]);
 	carom_body_def *bodies = calloc(200000, sizeof *bodies);
 	carom_error error;

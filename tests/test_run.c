@@ -231,7 +231,7 @@ static void a_stall_tells_what_was_done(void **unused)
 	(void)unused;
 	SCENERY_EACH_DEVICE(device)
 	{
-		carom_world_def def = carom_default_world_def();
+		carom_world_def def = scenery_first_impact();
 		const carom_body_def ball = scenery_circle(0.0f, 1.0f, 0.0f, 0.0f, 0.5f);
 		carom_report report = {0};
 		carom_body_state state;
@@ -292,7 +292,7 @@ static void memory_is_known_beforehand(void **unused)
 	static const char *const reductions[] = {"classic", "four_six", "tiled"};
 	for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
 		for (size_t k = 0; k < 6; k++) {
-			carom_world_def def = carom_default_world_def();
+			carom_world_def def = scenery_first_impact();
 			def.pipeline.reduce = reductions[k / 2];
 			def.pipeline.toi = k % 2 ? "bisection" : "separating";
 			def.iterations = 3;
@@ -301,6 +301,12 @@ static void memory_is_known_beforehand(void **unused)
 				fail_msg("%zu bodies, %s: said to take %llu bytes, take %llu", counts[i], reductions[k / 2],
 					(unsigned long long)said, (unsigned long long)is);
 		}
+	}
+	for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+		carom_world_def def = carom_default_world_def();
+		const uint64_t said = carom_world_memory(&def, counts[i], 4 * counts[i]), is = memory_taken(&def, counts[i]);
+		if (!(said > 0.95 * (double)is && said < 1.25 * (double)is))
+			fail_msg("%zu bodies, events: said to take %llu bytes, take %llu", counts[i], (unsigned long long)said, (unsigned long long)is);
 	}
 	carom_world_def unknown = carom_default_world_def();
 	unknown.pipeline.toi = "guess";
@@ -355,7 +361,7 @@ static void too_many_bodies(void **unused)
 		bodies[i] = scenery_circle((float)(i % 256), (float)(i / 256), 0.0f, 0.0f, 0.25f);
 	for (size_t i = 0; i < scenery_device_count + 1; i++) { /* the last is a CPU with boundless memory */
 		const scenery_device *device = &scenery_devices[i % scenery_device_count];
-		carom_world_def def = carom_default_world_def();
+		carom_world_def def = scenery_first_impact();
 		carom_world *world = scenery_world(&def, device);
 		if (!world)
 			continue;

@@ -21,6 +21,7 @@ carom_status bench_world_def(
 	if (subject->place == PLACE_CPU)
 		common.device = "cpu";
 	*def = carom_default_world_def();
+	def->pipeline.step = "first_impact"; /* the tables are the paper's */
 	def->iterations = subject->iterations;
 	return apply_options(&common, def, error);
 }
@@ -70,6 +71,7 @@ carom_status bench_path_create(const struct bench_part *part, uint32_t bodies, s
 	carom_world_def def = carom_default_world_def();
 	carom_world *world = NULL;
 	def.device = "cpu";
+	def.pipeline.step = "first_impact";
 	path->stops = part->subjects[0].work == WORK_PICTURES ? 1 : STOPS;
 	path->states = malloc(path->stops * bodies * sizeof *path->states);
 	carom_status status = path->states ? CAROM_OK : no_memory(error);

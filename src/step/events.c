@@ -21,6 +21,7 @@
 	} while (0)
 
 #define WINDOW 1536       /* 1/256 of a time step: longer lists are longer, too */
+#define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
 #define MOST_ROUNDS 64
 #define MOST_IDLE 256     /* batches that end no step: something is wrong */
 #define GOOD_LISTS 8      /* made in a row that were good to the end: the next may be used a step longer */
@@ -77,7 +78,7 @@ static carom_status run(carom_world *world, carom_error *error)
 /* A cluster may lose a number to another: there are some more than bodies. NUMBERS_SPARE of them are the device's to make ready. */
 static uint64_t numbers_of(uint64_t capacity)
 {
-	return capacity + NUMBERS_SPARE;
+	return capacity + (capacity < NUMBERS_SPARE ? capacity : NUMBERS_SPARE);
 }
 
 /* A texture of so many ints or records, folded into rows. */
@@ -194,19 +195,23 @@ static void choose_cells(carom_events *events, uint32_t capacity)
 	}
 }
 
+/* Neighbours have the room that they begin with: what more they need depends on how crowded it is. */
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count)
 {
-	const uint64_t n = carom_capacity(body_count);
+	const uint64_t n = carom_capacity(body_count), records = 2 * SLOT_WIDTH + 1, lists = 2 + 2 + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
+	carom_events cells = {0};
 	(void)pipeline;
 	(void)def;
-	return n * (16 * (2 * SLOT_WIDTH + 1 + WORK_WIDTH) + 4 * (2 + MEMBER_WIDTH + 3 + SPAN_WIDTH + 2 * CELL_WIDTH + 16 + 1)) + 4 * STATUS_WIDTH;
+	choose_cells(&cells, (uint32_t)n);
+	return n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1)) +
+		4 * (CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
-	*events = (carom_events){.room = 16 * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = WINDOW, .steps_a_list = 2, .rounds = 2};
+	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = WINDOW, .steps_a_list = 2, .rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));
