@@ -222,6 +222,7 @@ static void bodies_fly_apart(void **unused)
 	carom_body_def bodies[COUNT];
 	scenery_random random = {5};
 	uint64_t first = 0;
+	def.time_step = 0.25f;
 	scenery_bodies(&random, SCENERY_MIXED, COUNT, 1.2f, 3.0f, bodies);
 	for (int i = 0; i < COUNT; i++) {
 		bodies[i].is_static = false;
