@@ -263,7 +263,7 @@ static carom_status (*real_create)(
 static carom_status counting_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height,
 	const float fill[4], carom_texture **texture, carom_error *error)
 {
-	taken += (uint64_t)width * height * (format == TEXELS_FLOAT ? 16 : 4);
+	taken += (uint64_t)width * height * (format == TEXELS_FLOAT || format == TEXELS_RECORD ? 16 : 4);
 	return real_create(device, format, width, height, fill, texture, error);
 }
 
