@@ -205,8 +205,8 @@ check: all $(TEST_PROGRAMS)
 # ---- The demo: scene, options of `carom run`, what the picture shows
 
 define DEMO
-triangles_1024 | --steps 400 --inset -2,-2,4,4 | 1,024 triangles after 400 hits, a part of them enlarged
-circles_1024   | --steps 400 --inset -2,-2,4,4 | 1,024 circles after 400 hits, a part of them enlarged
+triangles_1024 | --set step=first_impact --steps 400 --inset -2,-2,4,4 | 1,024 triangles after 400 hits, a part of them enlarged
+circles_1024   | --time 2 --inset -2,-2,4,4 | 1,024 circles after two seconds, a part of them enlarged
 mixed          | --time 2                      | circles and polygons in one room after two seconds
 billiard_break | --time 1                      | a billiard break one second after the cue ball was struck
 newtons_cradle | --time 1                      | Newton's cradle after one second: what went in on one side went out on the other

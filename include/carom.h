@@ -144,9 +144,9 @@ CAROM_API carom_body_def carom_default_body_def(void);
 
 /* The names of the chosen alternatives; NULL takes the default. */
 typedef struct carom_pipeline {
-	const char *step;    /* first_impact */
+	const char *step;    /* events (default), first_impact [2] */
 	const char *aabb;    /* tight (default), loose [2.1] */
-	const char *overlap; /* all_pairs [2.1] */
+	const char *overlap; /* all_pairs [2.1]; aabb, overlap and reduce are of first_impact alone */
 	const char *inside;  /* naive (default), orourke: the test that toi bisection makes [2.1] */
 	const char *toi;     /* circle_quadratic (default), separating, bisection [2.1, 4.1] */
 	const char *walls;   /* half_planes */
@@ -198,14 +198,14 @@ CAROM_API void carom_device_list_destroy(carom_device_info *devices);
 /* ---- Worlds ------------------------------------------------------------------------------------------------- */
 
 typedef enum carom_storage {
-	CAROM_STORAGE_AUTO,   /* images where the device has them */
+	CAROM_STORAGE_AUTO,   /* images where the device has them, but buffers for the step events on CPUs */
 	CAROM_STORAGE_IMAGE,  /* OpenCL image2d */
 	CAROM_STORAGE_BUFFER, /* OpenCL buffers of the same layout */
 } carom_storage;
 
 /* What a world is made from. Start from carom_default_world_def(). */
 typedef struct carom_world_def {
-	float time_step;       /* s, > 0, the longest a step may last; default 1/60 */
+	float time_step;       /* s, > 0: how long a step of events lasts, and the longest of first_impact; default 1/60 */
 	carom_vec2 gravity;    /* m/s^2; default (0, 0) */
 	float restitution;     /* 0..1, of the walls and of bodies that have none of their own; default 1 */
 	bool has_room;         /* four walls that nothing leaves: bodies must start inside; default none */
@@ -253,9 +253,10 @@ typedef struct carom_report {
 	double advanced;  /* s, simulated */
 } carom_report;
 
-/* Runs `steps` steps of the pipeline. A step of first_impact lasts until the first hit and at most `time_step` [2.2].
- * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED: time can't get on, and the state is the
- * one at which it stood still. */
+/* Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of first_impact lasts until the
+ * first hit and at most `time_step` [2.2].
+ * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED (first_impact alone): time can't get on, and the
+ * state is the one at which it stood still. */
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
 /* Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. In a world without
  * bodies nothing runs, and no time passes. */

@@ -102,6 +102,11 @@ uint64_t runs_affordable(uint64_t steps)
 	return build && strstr(build, "sanitize") ? (steps + 9) / 10 : steps;
 }
 
+void runs_enough(bool enough)
+{
+	assert_true(enough || runs_affordable(10) < 10);
+}
+
 double runs_seconds(void)
 {
 	struct timespec now;

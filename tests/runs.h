@@ -27,6 +27,8 @@ void runs_same_hash(uint64_t *first, uint64_t hash, const scenery_device *device
 
 /* So many steps, or a tenth under the sanitizers, which are ten times slower. */
 uint64_t runs_affordable(uint64_t steps);
+/* Was enough seen? Not asked under the sanitizers, where runs are short. */
+void runs_enough(bool enough);
 
 /* Seconds on a clock on the wall. */
 double runs_seconds(void);

@@ -104,7 +104,7 @@ static void run_as_foretold(const scene *s, const carom_world_def *def, const ca
 		if (!worlds[d])
 			continue;
 		report(&sums[d], s, device);
-		assert_true(sums[d].hits > runs_affordable(10));
+		runs_enough(sums[d].hits > 10);
 		carom_world_destroy(worlds[d]);
 	}
 	forecast_destroy(&f);
@@ -140,7 +140,7 @@ static void follow(const scene *s, const carom_world_def *def, const carom_body_
 			fail_msg("%s, step %llu: the bits differ from device to device", s->name, (unsigned long long)i);
 	}
 	report(&sum, s, device);
-	assert_true(sum.hits > runs_affordable(20));
+	runs_enough(sum.hits > 20);
 	forecast_destroy(&f);
 }
 
