@@ -2,6 +2,7 @@
 #ifndef CAROM_CPU_QUEUE_HPP
 #define CAROM_CPU_QUEUE_HPP
 
+#include "cpu/heap.hpp"
 #include "cpu/reach.hpp"
 #include "cpu/sieve.hpp"
 
@@ -89,9 +90,9 @@ public:
 template <typename T> class Queue
 {
 public:
-	Queue(const Clusters<T> &all, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round)
-		: clusters(all), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs), leader(number), round(in_round),
-		  head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE))
+	Queue(const Clusters<T> &all, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round, std::vector<int32_t> &room)
+		: clusters(all), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs), heap(all.members, work_of, room),
+		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE))
 	{
 	}
 
@@ -99,8 +100,10 @@ public:
 	{
 		if (head < 0)
 			return;
-		for (int32_t m = head; m >= 0; m = members[m].link)
+		for (int32_t m = head; m >= 0; m = members[m].link) {
 			look(m);
+			heap.add(m);
+		}
 		while (answer_first()) {
 		}
 		count();
@@ -110,7 +113,7 @@ private:
 	/* Answers the first event; false when there is none left, or the cluster has to be given up. */
 	bool answer_first()
 	{
-		const int32_t id = first();
+		const int32_t id = heap.first();
 		const T *next = work[id].next;
 		const int32_t other = static_cast<int32_t>(next[NEXT_PARTNER]);
 		finished = !(next[NEXT_TIME] <= 1);
@@ -122,7 +125,7 @@ private:
 			if (other_id < 0)
 				return false;
 			if (members[other_id].events != members[id].seen) {
-				look(id); /* what it saw is over */
+				look_again(id); /* what it saw is over */
 				return true;
 			}
 		}
@@ -130,25 +133,21 @@ private:
 			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
 			return false;
 		}
-		look(id);
+		look_again(id);
 		if (other_id >= 0)
-			look(other_id);
+			look_again(other_id);
 		return true;
+	}
+
+	void look_again(int32_t id)
+	{
+		look(id);
+		heap.update(id);
 	}
 
 	static bool before(const T *a, const T *b)
 	{
 		return std::lexicographical_compare(a, a + 3, b, b + 3);
-	}
-
-	int32_t first() const
-	{
-		int32_t least = head;
-		for (int32_t m = members[head].link; m >= 0; m = members[m].link) {
-			if (before(work[m].next, work[least].next))
-				least = m;
-		}
-		return least;
 	}
 
 	/* The number of a body that is to be hit, claimed if it is nobody's; -1 if it is another cluster's. */
@@ -184,6 +183,7 @@ private:
 		__atomic_store_n(&clusters.parents[s], clusters.active[leader], __ATOMIC_RELEASE);
 		members[id].link = members[head].link;
 		members[head].link = id;
+		heap.add(id);
 		return id;
 	}
 
@@ -378,6 +378,7 @@ private:
 	Work<T> *const work;
 	const Box<T> *const boxes;
 	int32_t *const need;
+	Heap<T> heap;
 	const int32_t leader, round, head;
 	bool finished = false;
 };

@@ -49,7 +49,8 @@ static_assert(sizeof(Slot<float>) == SLOT_WIDTH * 4 * sizeof(float) && sizeof(Wo
 
 /* The numbers of a member. */
 struct Member {
-	int32_t unused, owner, link, head, events, rapid, seen, round, hits, more_unused[3];
+	int32_t place; /* in the cluster's heap */
+	int32_t owner, link, head, events, rapid, seen, round, hits, unused[3];
 
 	void reset()
 	{

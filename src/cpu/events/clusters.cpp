@@ -84,10 +84,11 @@ template <typename T> static void resolve(const Job<T> &job)
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(9));
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(10));
 	job.pool.run(clusters.status[STATUS_SEEDS], 16, [&](int32_t begin, int32_t end) {
+		static thread_local std::vector<int32_t> room;
 		for (int32_t id = begin; id < end; id++) {
 			const Member &member = clusters.members[id];
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
-				Queue<T>(clusters, work, boxes, job.list(11), id, round).run();
+				Queue<T>(clusters, work, boxes, job.list(11), id, round, room).run();
 		}
 	});
 }
