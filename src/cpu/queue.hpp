@@ -207,16 +207,13 @@ private:
 		next[NEXT_COLUMN] = next[NEXT_PARTNER] = static_cast<T>(-1 - wall);
 		members[id].seen = 0;
 		Sieve<T> sieve(disc);
-		const auto meet = [&](int32_t other) { look_at(id, way, other, -1, Trajectory<T>(slots[other])); };
+		const auto meet = [&](int32_t other) { look_at(id, way, other); };
 		for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
 			const int32_t other = clusters.neighbours[k], other_id = own_number(other);
-			if (other_id >= 0) {
-				const Work<T> &at = work[other_id];
-				if (!stay_apart(disc, Disc<T>(slots[other], at.place, at.time, at.held > 0, clusters.length)))
-					look_at(id, way, other, other_id, at.trajectory(slots[other]));
-				continue;
-			}
-			sieve.add(other, slots[other], clusters.length);
+			if (other_id >= 0)
+				sieve.add(other, slots[other], work[other_id], clusters.length);
+			else
+				sieve.add(other, slots[other], clusters.length);
 			if (sieve.is_full())
 				sieve.sift(meet);
 		}
@@ -224,9 +221,10 @@ private:
 	}
 
 	/* The member's next event is the one with this body, if that comes before. */
-	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, int32_t other_id, const Trajectory<T> &other_way)
+	void look_at(int32_t id, const Trajectory<T> &way, int32_t other)
 	{
-		const int32_t s = clusters.active[id], index = slots[s].body(), other_index = slots[other].body();
+		const int32_t s = clusters.active[id], index = slots[s].body(), other_id = own_number(other), other_index = slots[other].body();
+		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
 		const T event[4] = {clusters.pair_time(s, way, other, other_way), static_cast<T>(std::max(index, other_index)),
 			static_cast<T>(std::min(index, other_index)), static_cast<T>(other)};
 		T *next = work[id].next;
