@@ -15,8 +15,10 @@ bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(nee
 {
 	body b = body_of(slots, s, k, length);
 	float rest = 1.0f - k.time, pad = ((0.125f * rest) * rest) * span(b.a) + (span(b.x) + b.radius) * (4.0f * SLOP);
-	float2 end = place(b.x, b.v, b.a, rest), at = (float2)(CHANNEL(SLOT_LOAD(slots, s, SLOT_PLACE), LINEAR_X), CHANNEL(SLOT_LOAD(slots, s, SLOT_PLACE), LINEAR_Y));
-	float2 low = (float2)(smaller(b.x.x, end.x) - pad, smaller(b.x.y, end.y) - pad), high = (float2)(larger(b.x.x, end.x) + pad, larger(b.x.y, end.y) + pad);
+	float4 start = SLOT_LOAD(slots, s, SLOT_PLACE);
+	float2 end = place(b.x, b.v, b.a, rest), at = (float2)(CHANNEL(start, LINEAR_X), CHANNEL(start, LINEAR_Y));
+	float2 low = (float2)(smaller(b.x.x, end.x) - pad, smaller(b.x.y, end.y) - pad);
+	float2 high = (float2)(larger(b.x.x, end.x) + pad, larger(b.x.y, end.y) + pad);
 	float4 box = work[WORK_WIDTH * id + WORK_BOX], most = reach[s];
 	box = (float4)(smaller(box.x, low.x), smaller(box.y, low.y), larger(box.z, high.x), larger(box.w, high.y));
 	work[WORK_WIDTH * id + WORK_BOX] = box;
@@ -63,8 +65,8 @@ rules_of_hit event_rules(float restitution, bool rapid)
 }
 
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. False if a body leaves its reach. */
-bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need), float4 rules,
-	int s, int id, int other_id, float4 next, float length)
+bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work),
+	LIST_OUT(need), float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER);
 	float u = CHANNEL(next, NEXT_TIME), total;

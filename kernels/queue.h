@@ -17,7 +17,8 @@ disc disc_of_trajectory(RECORD_IN(slots), int s, trajectory k, float length)
 }
 
 /* The first event of a member, by what is known now. */
-void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader, float length)
+void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id,
+	int leader, float length)
 {
 	int s = active[id], wall, body_index = slot_body(slots, s), seen = 0;
 	trajectory k = work_load(work, id);
@@ -141,8 +142,8 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 }
 
 /* Do two changed bodies of different clusters get in each other's way? */
-bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id, int other, int other_id,
-	float length)
+bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id,
+	int other, int other_id, float length)
 {
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
 	if (members[MEMBER(id, MEMBER_EVENTS)] > 1 || members[MEMBER(other_id, MEMBER_EVENTS)] > 1) {

@@ -14,7 +14,8 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 		activate(status, members, active, owners, s, domain.z);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
 		int other = neighbours[i];
-		if (boxes_apart(disc_k, slots, other, length) || stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
+		if (boxes_apart(disc_k, slots, other, length)
+			|| stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
 			continue;
 		if (!(pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length) <= 1.0f))
 			continue;

@@ -9,7 +9,8 @@ bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_IN(status), float4 bo
 	float common = as_float(status[STATUS_PACE]) * (step / as_float(status[STATUS_WINDOW]));
 	float way = larger(REACH_FACTOR * speed * step, DRIFT_FACTOR * common) + CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 	float x = CHANNEL(at, LINEAR_X), y = CHANNEL(at, LINEAR_Y);
-	return x - way < CHANNEL(box, AABB_MIN_X) || y - way < CHANNEL(box, AABB_MIN_Y) || x + way > CHANNEL(box, AABB_MAX_X) || y + way > CHANNEL(box, AABB_MAX_Y);
+	return x - way < CHANNEL(box, AABB_MIN_X) || y - way < CHANNEL(box, AABB_MIN_Y) || x + way > CHANNEL(box, AABB_MAX_X)
+		|| y + way > CHANNEL(box, AABB_MAX_Y);
 }
 
 __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), RECORD_IN(work),

@@ -194,7 +194,8 @@ static void close_device(carom_device *device)
 }
 
 static const carom_device_class cl_class = {
-	close_device, carom_cl_create_texture, carom_cl_destroy_texture, carom_cl_upload, carom_cl_download, has_kernel, run_stage, flush, read_profile, count_reads};
+	close_device, carom_cl_create_texture, carom_cl_destroy_texture, carom_cl_upload, carom_cl_download,
+	has_kernel, run_stage, flush, read_profile, count_reads};
 
 /* On a CPU a texel of an image is a call out of line: there the step events, which is not the paper's, takes buffers by itself. */
 static bool prefers_buffers(const cl_device *d, const carom_device_def *def, cl_device_id device)

@@ -23,6 +23,7 @@
 #define WINDOW 1536       /* 1/256 of a time step: longer lists are longer, too */
 #define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
 #define MOST_ROUNDS 64
+#define LAST_ROUND (1 << 30)
 #define MOST_IDLE 256     /* batches that end no step: something is wrong */
 #define GOOD_LISTS 8      /* made in a row that were good to the end: the next may be used a step longer */
 #define SHARE 16          /* slots for one work-item of those that share what is active */
@@ -96,9 +97,21 @@ static carom_status send_status(carom_world *world, const int32_t *status, carom
 	return world->device->kind->upload(world->device, world->textures[ROLE_STATUS].front, 1, status, error);
 }
 
+static carom_status unload(carom_world *world, carom_error *error)
+{
+	TRY(carom_run(world, STAGE_UNLOAD, (int32_t)world->body_count, 1, 0, 0, error));
+	carom_swap(world, ROLE_LINEAR);
+	carom_swap(world, ROLE_ROTATIONAL);
+	return CAROM_OK;
+}
+
 static carom_status begin(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
+	if (world->events.loaded && world->events.round > LAST_ROUND) { /* numbers of rounds begin anew */
+		TRY(unload(world, error));
+		world->events.loaded = false;
+	}
 	world->events.ahead = world->events.loaded; /* not yet, but a batch follows */
 	if (world->events.loaded)
 		return CAROM_OK;
@@ -113,14 +126,6 @@ static carom_status begin(carom_world *world, carom_error *error)
 	world->events.ahead = true;
 	world->events.since = UINT32_MAX / 2;
 	world->events.round = 0;
-	return CAROM_OK;
-}
-
-static carom_status unload(carom_world *world, carom_error *error)
-{
-	TRY(carom_run(world, STAGE_UNLOAD, (int32_t)world->body_count, 1, 0, 0, error));
-	carom_swap(world, ROLE_LINEAR);
-	carom_swap(world, ROLE_ROTATIONAL);
 	return CAROM_OK;
 }
 
@@ -211,7 +216,8 @@ static carom_status prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
-	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = WINDOW, .steps_a_list = 2, .rounds = 2};
+	*events = (carom_events){
+		.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = WINDOW, .steps_a_list = 2, .rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));
