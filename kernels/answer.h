@@ -69,18 +69,21 @@ bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reac
 	LIST_OUT(need), float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER);
-	float u = CHANNEL(next, NEXT_TIME), total;
+	float u = CHANNEL(next, NEXT_TIME), total = 0.0f;
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
 	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
-	float4 j;
+	float4 j = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	bool pause = CHANNEL(next, NEXT_PARTNER) != (float)other;
 	k = moved(slots, s, k, u, length);
 	body b = body_of(slots, s, k, length);
-	if (wall) {
+	if (wall && !pause) {
 		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), is_rapid(members, id, was, u));
 		j = wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &total);
-	} else {
+	} else if (!wall) {
 		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
 		o = moved(slots, other, o, u, length);
+	}
+	if (!wall && !pause) {
 		body c = body_of(slots, other, o, length);
 		bool rapid = is_rapid(members, id, was, u), other_rapid = is_rapid(members, other_id, other_was, u);
 		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rapid || other_rapid);

@@ -5,14 +5,17 @@
 
 /* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. Those whose discs stay apart
  * need not be asked. */
-float pair_time(TEX_IN(vertices), RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length)
+float pair_time(TEX_IN(vertices), RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length,
+	bool *pause)
 {
 	float t0 = larger(k.time, o.time), rest = 1.0f - t0;
 	k = moved(slots, s, k, t0, length);
 	o = moved(slots, other, o, t0, length);
 	body a = body_of(slots, s, k, length), b = body_of(slots, other, o, length);
 	bool in_order = slot_body(slots, s) > slot_body(slots, other);
-	float hit = CHANNEL(in_order ? pair_first(TEX(vertices), a, b, rules) : pair_first(TEX(vertices), b, a, rules), HITTIMES_HIT);
+	float4 found = in_order ? pair_first(TEX(vertices), a, b, rules) : pair_first(TEX(vertices), b, a, rules);
+	float hit = CHANNEL(found, HITTIMES_HIT);
+	*pause = !(CHANNEL(found, HITTIMES_DONE) > 0.0f);
 	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;
 }
 
@@ -26,11 +29,13 @@ bool near_walls(body k, float4 room)
 }
 
 /* When the trajectory hits which wall first. */
-float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, int *which)
+float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, int *which,
+	bool *pause)
 {
 	float4 room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	float rest = 1.0f - k.time, first = NO_HIT;
 	*which = 0;
+	*pause = false;
 	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f))
 		return NO_HIT;
 	body b = body_of(slots, s, k, length);
@@ -44,6 +49,7 @@ float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rul
 		if (u < first || (u == first && u <= 1.0f)) { /* of equal ones the least column: the last wall */
 			first = u;
 			*which = wall;
+			*pause = !(done > 0.0f);
 		}
 	}
 	return first;

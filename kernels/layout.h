@@ -162,7 +162,7 @@
 #define NEXT_TIME 0 /* part of the step, NO_HIT if there is none */
 #define NEXT_ROW 1  /* bodies: the larger index, the less; or the body and -1 - wall */
 #define NEXT_COLUMN 2
-#define NEXT_PARTNER 3 /* its slot, or -1 - wall */
+#define NEXT_PARTNER 3 /* its slot, or -1 - wall; a half farther from 0 if the event is only a pause of the search */
 #define WORK_BOX 3 /* record: AABB's channels, of all the way in this step */
 
 /* So many numbers more than bodies, since a cluster loses one where another claims the body first. */

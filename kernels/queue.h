@@ -23,20 +23,21 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 	int s = active[id], wall, body_index = slot_body(slots, s), seen = 0;
 	trajectory k = work_load(work, id);
 	disc disc_k = disc_of_trajectory(slots, s, k, length);
+	bool pause;
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
-	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall);
+	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
-		first = (float4)(t, (float)body_index, -1.0f - (float)wall, -1.0f - (float)wall);
+		first = (float4)(t, (float)body_index, -1.0f - (float)wall, -1.0f - (float)wall - (pause ? 0.5f : 0.0f));
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_END)]; i++) {
 		int other = neighbours[i], other_id;
 		trajectory o = trajectory_seen(slots, members, owners, work, other, leader, &other_id);
 		if (stay_apart(disc_k, disc_of_trajectory(slots, other, o, length)))
 			continue;
-		t = pair_time(TEX(vertices), slots, rules, s, k, other, o, length);
+		t = pair_time(TEX(vertices), slots, rules, s, k, other, o, length, &pause);
 		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
 			continue;
 		int partner = slot_body(slots, other);
-		float4 next = (float4)(t, (float)max(body_index, partner), (float)min(body_index, partner), (float)other);
+		float4 next = (float4)(t, (float)max(body_index, partner), (float)min(body_index, partner), (float)other + (pause ? 0.5f : 0.0f));
 		if (event_before(next, first)) {
 			first = next;
 			seen = other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
@@ -146,11 +147,12 @@ bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global c
 	int other, int other_id, float length)
 {
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
+	bool pause;
 	if (members[MEMBER(id, MEMBER_EVENTS)] > 1 || members[MEMBER(other_id, MEMBER_EVENTS)] > 1) {
 		float4 a = work[WORK_WIDTH * id + WORK_BOX], b = work[WORK_WIDTH * other_id + WORK_BOX];
 		float reach = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
 		return !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y);
 	}
 	return !stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length))
-		&& pair_time(TEX(vertices), slots, rules, s, k, other, o, length) <= 1.0f;
+		&& pair_time(TEX(vertices), slots, rules, s, k, other, o, length, &pause) <= 1.0f;
 }

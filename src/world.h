@@ -47,6 +47,7 @@ typedef struct carom_events {
 	uint32_t since;        /* steps handed over since the last making */
 	uint32_t good;         /* makings since one died before its time */
 	int32_t round;         /* its number */
+	bool in_batch;         /* where one begins: the one before broke off, and left the lists as they were */
 	uint32_t idle;         /* batches in a row that ended no step */
 } carom_events;
 

@@ -18,7 +18,7 @@ static const struct {
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xd55aeedac8dd3c51},
 	{"scenes/mixed.json", 0xabc67be1b5beed04, 0xc49df74f4943a43b},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0x90d87d1af5f057db},
-	{"scenes/thin_wall.json", 0xc9f2ff84907e5b29, 0xee44f8ae37f6a377},
+	{"scenes/thin_wall.json", 0xc9f2ff84907e5b29, 0x1aef9ad47325def4},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0xe246083bb7a278f6},
 	{"scenes/triangles_256.json", 0x45105d59c465c072, 0xa73d0786c04dfff1},
 };

@@ -4,20 +4,21 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 	LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	int s = get_global_id(0), wall;
+	bool pause;
 	float length = step_length(TEX(uniforms), TEX(clock));
 	if (s >= domain.x || !(length > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
 	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
-	if (wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall) <= 1.0f)
+	if (wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall, &pause) <= 1.0f)
 		activate(status, members, active, owners, s, domain.z);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
 		int other = neighbours[i];
 		if (boxes_apart(disc_k, slots, other, length)
 			|| stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
 			continue;
-		if (!(pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length) <= 1.0f))
+		if (!(pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length, &pause) <= 1.0f))
 			continue;
 		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
 		if (changes)

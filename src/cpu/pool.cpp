@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 
 namespace carom::cpu {
 
@@ -44,6 +45,7 @@ void Pool::run(int32_t rows, int32_t chunk, const Work &work)
 		job = &work;
 		chunk_size = chunk;
 		left = rows;
+		failed = false;
 		jobs++;
 	}
 	wake.notify_all();
@@ -51,6 +53,8 @@ void Pool::run(int32_t rows, int32_t chunk, const Work &work)
 	std::unique_lock<std::mutex> lock(mutex);
 	job = nullptr; /* who wakes only now is not waited for */
 	idle.wait(lock, [this] { return busy == 0; });
+	if (failed)
+		throw std::bad_alloc();
 }
 
 void Pool::take_chunks(const Work &work)
@@ -59,7 +63,11 @@ void Pool::take_chunks(const Work &work)
 		int32_t end = left.fetch_sub(chunk_size);
 		if (end <= 0)
 			return;
-		work(std::max(end - chunk_size, 0), end);
+		try {
+			work(std::max(end - chunk_size, 0), end);
+		} catch (const std::exception &) {
+			failed = true;
+		}
 	}
 }
 

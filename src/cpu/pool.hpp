@@ -15,7 +15,7 @@ namespace carom::cpu {
 class Pool
 {
 public:
-	/* Rows `begin` to `end` - 1, on any thread; must not throw. */
+	/* Rows `begin` to `end` - 1, on any thread; may throw where memory ends: then run does, when all threads are done. */
 	using Work = std::function<void(int32_t begin, int32_t end)>;
 
 	/* `threads` counts the caller too; 0: one a core. Where the system gives fewer there are fewer. */
@@ -42,6 +42,7 @@ private:
 	bool closing = false;
 	int32_t chunk_size = 0;
 	std::atomic<int32_t> left{0}; /* rows that nobody has taken */
+	std::atomic<bool> failed{false};
 };
 
 }

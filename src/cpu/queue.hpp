@@ -202,9 +202,11 @@ private:
 		const Disc<T> disc(slots[s], way.place, way.time, way.held > 0, clusters.length);
 		T *next = work[id].next;
 		int32_t wall;
-		next[NEXT_TIME] = clusters.wall_time(s, way, &wall);
+		const auto at_wall = clusters.wall_time(s, way, &wall);
+		next[NEXT_TIME] = at_wall.time;
 		next[NEXT_ROW] = static_cast<T>(index);
-		next[NEXT_COLUMN] = next[NEXT_PARTNER] = static_cast<T>(-1 - wall);
+		next[NEXT_COLUMN] = static_cast<T>(-1 - wall);
+		next[NEXT_PARTNER] = next[NEXT_COLUMN] - (at_wall.is_pause ? T(0.5) : T(0));
 		members[id].seen = 0;
 		Sieve<T> sieve(disc);
 		const auto meet = [&](int32_t other) { look_at(id, way, other); };
@@ -225,8 +227,9 @@ private:
 	{
 		const int32_t s = clusters.active[id], index = slots[s].body(), other_id = own_number(other), other_index = slots[other].body();
 		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
-		const T event[4] = {clusters.pair_time(s, way, other, other_way), static_cast<T>(std::max(index, other_index)),
-			static_cast<T>(std::min(index, other_index)), static_cast<T>(other)};
+		const auto found = clusters.pair_time(s, way, other, other_way);
+		const T event[4] = {found.time, static_cast<T>(std::max(index, other_index)),
+			static_cast<T>(std::min(index, other_index)), static_cast<T>(other) + (found.is_pause ? T(0.5) : T(0))};
 		T *next = work[id].next;
 		if (!(event[NEXT_TIME] <= 1 && before(event, next)))
 			return;
@@ -248,19 +251,21 @@ private:
 		const int32_t s = clusters.active[id], other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]);
 		const T u = work[id].next[NEXT_TIME];
 		Trajectory<T> way = work[id].trajectory(slots[s]);
-		const bool changes = !(way.held > 0);
-		bool rapid = is_rapid(id, way, u), stays = true;
+		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
+		bool rapid = !pause && is_rapid(id, way, u), stays = true;
 		clusters.move(slots[s], way, u);
-		Impact hit;
+		Impact hit{};
 		if (other < 0) {
-			hit = wall_impact(s, way, -1 - other, rapid);
+			if (!pause)
+				hit = wall_impact(s, way, -1 - other, rapid);
 		} else {
 			Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
 			const bool other_changes = other_id >= 0 && !(other_way.held > 0);
-			const bool other_rapid = is_rapid(other_id, other_way, u);
+			const bool other_rapid = !pause && is_rapid(other_id, other_way, u);
 			clusters.move(slots[other], other_way, u);
 			const bool is_row = slots[s].body() > slots[other].body();
-			hit = is_row ? pair_impact(s, way, other, other_way, rapid || other_rapid) : pair_impact(other, other_way, s, way, rapid || other_rapid);
+			if (!pause)
+				hit = is_row ? pair_impact(s, way, other, other_way, rapid || other_rapid) : pair_impact(other, other_way, s, way, rapid || other_rapid);
 			if (other_changes)
 				stays = push(other, other_id, other_way, hit, !is_row);
 			if (changes)

@@ -160,8 +160,14 @@ public:
 		}
 	}
 
-	/* When the two hit; NO_HIT if they don't. */
-	T pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way) const
+	/* A hit, or only a pause of the search for one. */
+	struct Found {
+		T time; /* NO_HIT if there is none */
+		bool is_pause;
+	};
+
+	/* When the two hit. */
+	Found pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way) const
 	{
 		const T t0 = larger(way.time, other_way.time), rest = 1 - t0;
 		this->move(slots[s], way, t0);
@@ -171,24 +177,25 @@ public:
 		fill(in_order ? a : b, slots[s], way);
 		fill(in_order ? b : a, slots[other], other_way);
 		if (a.is_static() && b.is_static())
-			return NO_HIT;
-		const T hit = functions.pair_time(Pair<T>(a, b, inside), rules);
-		return hit <= rest ? smaller(t0 + hit, T(1)) : T(NO_HIT);
+			return {NO_HIT, false};
+		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside), rules);
+		return {found.hit <= rest ? smaller(t0 + found.hit, T(1)) : T(NO_HIT), !(found.done > 0)};
 	}
 
 	/* When the body hits which wall first. */
-	T wall_time(int32_t s, const Trajectory<T> &way, int32_t *which) const
+	Found wall_time(int32_t s, const Trajectory<T> &way, int32_t *which) const
 	{
-		T first = NO_HIT;
+		Found first{NO_HIT, false};
 		*which = 0;
 		if (!has_room || slots[s].is_static() || way.held > 0 || stays_inside(s, way))
 			return first;
 		Convex<T> convex;
 		fill(convex, slots[s], way);
 		for (int32_t k = 0; k < wall_count; k++) {
-			const T t = functions.wall_time(convex, wall(k)), u = t <= 1 - way.time ? smaller(way.time + t, T(1)) : T(NO_HIT);
-			if (u <= 1 && u <= first)
-				first = u, *which = k;
+			const HitTime<T> found = functions.wall_time(convex, wall(k));
+			const T u = found.hit <= 1 - way.time ? smaller(way.time + found.hit, T(1)) : T(NO_HIT);
+			if (u <= 1 && u <= first.time)
+				first = {u, !(found.done > 0)}, *which = k;
 		}
 		return first;
 	}

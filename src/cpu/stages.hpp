@@ -29,6 +29,7 @@ template <typename T> struct Transform {
 
 /* What the step events asks of alternatives, as functions; null where an alternative has none. */
 template <typename T> struct Pair;
+template <typename T> struct HitTime;
 template <typename T> struct Wall;
 template <typename T> struct Collision;
 template <typename T> struct Impulses;
@@ -36,8 +37,8 @@ template <typename T> struct SearchRules {
 	T epsilon, iterations;
 };
 template <typename T> struct Functions {
-	T (*pair_time)(const Pair<T> &pair, const SearchRules<T> &rules) = nullptr; /* part of the step, or NO_HIT */
-	T (*wall_time)(const Convex<T> &body, const Wall<T> &wall) = nullptr;
+	HitTime<T> (*pair_time)(const Pair<T> &pair, const SearchRules<T> &rules) = nullptr;
+	HitTime<T> (*wall_time)(const Convex<T> &body, const Wall<T> &wall) = nullptr;
 	Impulses<T> (*impulses)(const Collision<T> &collision) = nullptr;
 };
 

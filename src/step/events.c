@@ -113,6 +113,9 @@ static carom_status begin(carom_world *world, carom_error *error)
 		world->events.loaded = false;
 	}
 	world->events.ahead = world->events.loaded; /* not yet, but a batch follows */
+	if (world->events.in_batch)
+		world->events.since = UINT32_MAX / 2;
+	world->events.in_batch = true;
 	if (world->events.loaded)
 		return CAROM_OK;
 	status[STATUS_ROOM] = (int32_t)world->events.room;
@@ -184,6 +187,7 @@ static carom_status finish(carom_world *world, carom_error *error)
 		TRY(adapt(world, status, error));
 	if (status[STATUS_STALE])
 		world->events.since = UINT32_MAX / 2;
+	world->events.in_batch = false;
 	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_RETRIES] = status[STATUS_IDLE] = status[STATUS_AGAIN] = 0;
 	return send_status(world, status, error);
 }

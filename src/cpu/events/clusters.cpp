@@ -5,7 +5,7 @@ namespace carom::cpu {
 template <typename T> static void seek_pair(const Clusters<T> &clusters, int32_t s, int32_t other, int32_t round)
 {
 	const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
-	if (!(clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot)) <= 1))
+	if (!(clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot)).time <= 1))
 		return;
 	if (!slot.is_static())
 		clusters.activate(s, round);
@@ -20,7 +20,7 @@ template <typename T> static void look_around(const Clusters<T> &clusters, int32
 	const Slot<T> &slot = clusters.slots[s];
 	Sieve<T> sieve(Disc<T>(slot, slot.place, 0, false, clusters.length));
 	int32_t wall;
-	if (clusters.wall_time(s, Trajectory<T>(slot), &wall) <= 1)
+	if (clusters.wall_time(s, Trajectory<T>(slot), &wall).time <= 1)
 		clusters.activate(s, round);
 	const auto meet = [&](int32_t other) { seek_pair(clusters, s, other, round); };
 	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].half; k++) {
@@ -103,7 +103,7 @@ template <typename T> static bool ways_meet(const Clusters<T> &clusters, const W
 		return a.box[0] - reach <= b.box[2] && a.box[2] + reach >= b.box[0] && a.box[1] - reach <= b.box[3] && a.box[3] + reach >= b.box[1];
 	}
 	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
-	return !stay_apart(disc, other_disc) && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)) <= 1;
+	return !stay_apart(disc, other_disc) && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
 }
 
 template <typename T> static void check_one(const Clusters<T> &clusters, const Work<T> *work, int32_t id, int32_t round)

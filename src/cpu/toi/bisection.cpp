@@ -50,9 +50,9 @@ template <typename T> static HitTime<T> find(const Pair<T> &pair, const SearchRu
 	return overlap_at(pair, T(1)) ? bisect(pair, T(0), T(1), rules) : no_hit<T>();
 }
 
-template <typename T> static T time(const Pair<T> &pair, const SearchRules<T> &rules)
+template <typename T> static HitTime<T> time(const Pair<T> &pair, const SearchRules<T> &rules)
 {
-	return find(pair, rules).hit;
+	return find(pair, rules);
 }
 
 template <typename T> static SearchRules<T> rules_of(const Job<T> &job)

@@ -28,9 +28,9 @@ template <typename T> static void circle_quadratic(const Job<T> &job)
 	find_hits(job, find<T>);
 }
 
-template <typename T> static T time(const Pair<T> &pair, const SearchRules<T> &)
+template <typename T> static HitTime<T> time(const Pair<T> &pair, const SearchRules<T> &)
 {
-	return find<T>(pair).hit;
+	return find<T>(pair);
 }
 
 extern const Stage toi_circle_quadratic;

@@ -8,9 +8,9 @@ template <typename T> static void separating(const Job<T> &job)
 	find_hits(job, separating_search<T>);
 }
 
-template <typename T> static T time(const Pair<T> &pair, const SearchRules<T> &)
+template <typename T> static HitTime<T> time(const Pair<T> &pair, const SearchRules<T> &)
 {
-	return separating_search(pair).hit;
+	return separating_search(pair);
 }
 
 extern const Stage toi_separating;

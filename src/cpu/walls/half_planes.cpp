@@ -1,4 +1,5 @@
 #include "cpu/room.hpp"
+#include "cpu/toi.hpp"
 
 #include <algorithm>
 
@@ -59,9 +60,10 @@ template <typename T> static WallHit<T> body_hit(const Convex<T> &convex, const 
 	return convex.is_circle() ? circle_hit(convex, wall, stillness) : polygon_hit(convex, wall, wall_slop(convex), stillness);
 }
 
-template <typename T> static T time(const Convex<T> &convex, const Wall<T> &wall)
+template <typename T> static HitTime<T> time(const Convex<T> &convex, const Wall<T> &wall)
 {
-	return body_hit(convex, wall).time;
+	const WallHit<T> hit = body_hit(convex, wall);
+	return {hit.time, hit.time, hit.done, hit.time};
 }
 
 template <typename T> struct GroupHit {
