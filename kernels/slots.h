@@ -12,7 +12,7 @@ typedef struct trajectory {
 	float held;   /* 1: it does not move until the step ends */
 } trajectory;
 
-INLINE trajectory trajectory_start(RECORD_IN(slots), int s)
+trajectory trajectory_start(RECORD_IN(slots), int s)
 {
 	float4 turn_record = SLOT_LOAD(slots, s, SLOT_TURN);
 	trajectory k;
@@ -102,7 +102,7 @@ typedef struct disc {
 	float far; /* how large coordinates are */
 } disc;
 
-INLINE disc disc_of(RECORD_IN(slots), int s, float4 place_record, float time, bool held, float length)
+disc disc_of(RECORD_IN(slots), int s, float4 place_record, float time, bool held, float length)
 {
 	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
 	disc d;

@@ -37,12 +37,13 @@
 #define BYTES_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = convert_uchar4(texel))
 #endif
 
-/* Lists of ints are buffers on every device; what is LIST_OUT may be read, too. */
-#define LIST_IN(t) __global const int *restrict t
-#define LIST_OUT(t) __global int *restrict t
+/* Lists of ints are buffers on every device; what is LIST_OUT may be read, too. (Not restrict: Oclgrind lacks what that becomes when a function
+ * is inlined.) */
+#define LIST_IN(t) __global const int *t
+#define LIST_OUT(t) __global int *t
 /* Records, four floats, likewise. */
-#define RECORD_IN(t) __global const float4 *restrict t
-#define RECORD_OUT(t) __global float4 *restrict t
+#define RECORD_IN(t) __global const float4 *t
+#define RECORD_OUT(t) __global float4 *t
 
 /* TEX_SENT reads what OpenGL would send with a draw call, as attributes of a vertex or as uniforms [3]: it is not counted. */
 #define TEX_LOAD(t, x, y) (COUNT(t) TEX_SENT(t, x, y))

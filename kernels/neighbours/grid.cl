@@ -6,7 +6,8 @@ __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(statu
 		return;
 	float window = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP) * ((float)domain.w / 256.0f);
 	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = 0;
-	status[STATUS_ACTIVE] = status[STATUS_NEIGHBOURS] = status[STATUS_NODES] = status[STATUS_LEVELS] = status[STATUS_PLACED] = 0;
+	status[STATUS_ACTIVE] = status[STATUS_NEIGHBOURS] = status[STATUS_NODES] = status[STATUS_PLACED] = 0;
+	status[STATUS_LEVELS] = 1;
 	status[STATUS_HITS] = status[STATUS_HELD] = 0;
 	status[STATUS_BUILDS]++;
 	pace_choose(slots, domain.z, window, status);
@@ -22,7 +23,7 @@ __kernel void neighbours_reach(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need)
 	int cell = cell_index(cell_of((float2)(at.x, at.y), level_side(status, level)), level, domain.z, domain.w);
 	spans[SPAN(s, SPAN_CELL)] = cell;
 	atomic_inc(&cells[CELL_WIDTH * cell + CELL_COUNT]);
-	if (!(status[STATUS_LEVELS] & (1 << level)))
+	if (level > 0) /* most are of level 0, which counts as there */
 		atomic_or(&status[STATUS_LEVELS], 1 << level);
 }
 
