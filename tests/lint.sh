@@ -55,6 +55,9 @@ report "Eigen is included only in src/cpu" "$(includes '(Eigen|unsupported)/' in
 report "png.h is included only in src/png.c" "$(includes 'png\.h' include src tools | grep -v '^src/png\.c:')"
 report "jansson.h is included only in src/scene_*" \
 	"$(includes 'jansson' include src tools | grep -vE '^src/scene_(read|write|json)\.[ch]:')"
+report "Box2D is included only in tools/carom_peer_box2d.cpp" "$(includes 'box2d/' include src tools tests | grep -v '^tools/carom_peer_box2d')"
+report "Chipmunk is included only in tools/carom_peer_chipmunk.c" \
+	"$(includes 'chipmunk/' include src tools tests | grep -v '^tools/carom_peer_chipmunk')"
 report "cairo.h is included only in tools/carom_plot*" "$(includes 'cairo' include src tools tests | grep -v '^tools/carom_plot')"
 
 inner=$(sources src kernels | grep -E '\.h(pp)?$' | sed 's|.*/||' | sort -u | tr '\n' '|' | sed 's/\./\\./g; s/|$//')
