@@ -35,7 +35,7 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 {
 	if (status[STATUS_ROUND] != domain.z)
 		return;
-	int count = status[STATUS_ACTIVE];
+	int count = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	if (get_global_id(0) == 0)
 		status[STATUS_SEEDS] = count;
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
@@ -70,7 +70,7 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 {
 	if (status[STATUS_ROUND] < domain.z)
 		return;
-	int count = status[STATUS_ACTIVE];
+	int count = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	float length = step_length(TEX(uniforms), TEX(clock));
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {

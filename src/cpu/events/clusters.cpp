@@ -52,7 +52,7 @@ template <typename T> static void muster(const Job<T> &job)
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(4));
 	if (status[STATUS_ROUND] != round)
 		return;
-	status[STATUS_SEEDS] = status[STATUS_ACTIVE];
+	status[STATUS_SEEDS] = std::min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	for (int32_t id = 0; id < status[STATUS_SEEDS]; id++) {
 		Member &member = members[id];
 		if (active[id] < 0 || members[member.owner].round != round)
@@ -130,7 +130,7 @@ template <typename T> static void check(const Job<T> &job)
 	const int32_t round = job.domain[2];
 	if (clusters.status[STATUS_ROUND] < round)
 		return;
-	job.pool.run(clusters.status[STATUS_ACTIVE], 64, [&](int32_t begin, int32_t end) {
+	job.pool.run(std::min(clusters.status[STATUS_ACTIVE], clusters.status[STATUS_NUMBERS]), 64, [&](int32_t begin, int32_t end) {
 		for (int32_t id = begin; id < end; id++)
 			check_one(clusters, work, id, round);
 	});
