@@ -15,13 +15,6 @@
 /* Of all layers: their indices are floats. There are fewer vertices and shapes. */
 #define MOST_EDGES (1ul << 24)
 
-#define TRY(call)                      \
-	do {                               \
-		carom_status status_ = (call); \
-		if (status_)                   \
-			return status_;            \
-	} while (0)
-
 /* ---- Shapes */
 
 /* Places the layer's vertices and makes its shapes, behind those that there are. */

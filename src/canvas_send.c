@@ -10,13 +10,6 @@
 #include "status.h"
 #include "world.h"
 
-#define TRY(call)                      \
-	do {                               \
-		carom_status status_ = (call); \
-		if (status_)                   \
-			return status_;            \
-	} while (0)
-
 int32_t carom_parts_of(uint32_t whole, uint32_t part)
 {
 	return (int32_t)((whole + part - 1) / part);

@@ -17,6 +17,14 @@ extern "C" {
 /* Fills in *error (unless NULL), the rest of it zero, and returns `status`: `return carom_fail(error, CAROM_IO, "...", ...)`. */
 carom_status carom_fail(carom_error *error, carom_status status, const char *format, ...) CAROM_PRINTF(3, 4);
 
+/* Returns what the call does, if that is an error. */
+#define TRY(call)                      \
+	do {                               \
+		carom_status status_ = (call); \
+		if (status_)                   \
+			return status_;            \
+	} while (0)
+
 #ifdef __cplusplus
 }
 #endif

@@ -13,13 +13,6 @@
 #include "step/step.h"
 #include "world.h"
 
-#define TRY(call)                      \
-	do {                               \
-		carom_status status_ = (call); \
-		if (status_)                   \
-			return status_;            \
-	} while (0)
-
 #define WINDOW 1536       /* 1/256 of a time step: longer lists are longer, too */
 #define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
 #define MOST_ROUNDS 64

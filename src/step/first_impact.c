@@ -7,13 +7,6 @@
 #include "step/step.h"
 #include "world.h"
 
-#define TRY(call)                      \
-	do {                               \
-		carom_status status_ = (call); \
-		if (status_)                   \
-			return status_;            \
-	} while (0)
-
 /* How many passes bisection takes when each halves an interval `iterations` times [2.1, table 1]. */
 static int extra_passes(const carom_pipeline *pipeline, const carom_world_def *def)
 {

@@ -15,7 +15,7 @@ typedef struct carom_step {
 	/* The next three may be NULL. Before and after a batch of runs; the device may be at work while the first is called. */
 	carom_status (*begin)(struct carom_world *world, carom_error *error);
 	carom_status (*finish)(struct carom_world *world, carom_error *error);
-	/* Brings the textures of the state up to date, of a step that keeps the state elsewhere (world->ahead). */
+	/* Brings the textures of the state up to date, of a step that keeps the state elsewhere (world->events.ahead). */
 	carom_status (*unload)(struct carom_world *world, carom_error *error);
 	/* Bytes of what prepare creates. */
 	uint64_t (*memory)(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count);
