@@ -280,6 +280,9 @@ carom_status carom_textures_update(carom_world *world, carom_error *error)
 	status = carom_textures_hold(world, error);
 	if (status || world->prepared)
 		return status;
+	status = carom_textures_fetch(world, error); /* or preparing, where it fails, would lose the state */
+	if (status)
+		return status;
 	status = world->step->prepare(world, error);
 	if (status)
 		carom_textures_destroy(world);

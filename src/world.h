@@ -41,12 +41,11 @@ typedef struct carom_events {
 	bool ahead;            /* the textures of the state are older than the slots */
 	uint32_t room, node_room; /* ints of Neighbours, nodes of Nodes */
 	uint32_t columns, rows;   /* of cells */
-	uint32_t window;       /* 1/256 of a time step that the lists are to last */
 	uint32_t steps_a_list; /* steps handed over between two makings of the lists */
 	uint32_t rounds;       /* handed over a step */
 	uint32_t since;        /* steps handed over since the last making */
 	uint32_t good;         /* makings since one died before its time */
-	int32_t round;         /* its number */
+	int32_t round;         /* number of the last one handed over */
 	bool in_batch;         /* where one begins: the one before broke off, and left the lists as they were */
 	uint32_t idle;         /* batches in a row that ended no step */
 } carom_events;

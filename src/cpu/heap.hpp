@@ -9,6 +9,12 @@
 
 namespace carom::cpu {
 
+/* Is the event (time, row, column) before the other? */
+template <typename T> bool event_before(const T *a, const T *b)
+{
+	return std::lexicographical_compare(a, a + 3, b, b + 3);
+}
+
 /* A binary heap of numbers, the one with the first event on top, that knows where each is. */
 template <typename T> class Heap
 {
@@ -31,7 +37,7 @@ public:
 private:
 	bool is_before(int32_t a, int32_t b) const
 	{
-		return std::lexicographical_compare(work[a].next, work[a].next + 3, work[b].next, work[b].next + 3);
+		return event_before(work[a].next, work[b].next);
 	}
 
 	void put(size_t place, int32_t id)

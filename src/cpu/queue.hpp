@@ -8,6 +8,16 @@
 
 namespace carom::cpu {
 
+/* A body that no event has changed yet. */
+template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<T> &slot)
+{
+	work.keep(Trajectory<T>(slot));
+	work.next[NEXT_TIME] = NO_HIT;
+	work.box[0] = work.box[2] = slot.place[LINEAR_X];
+	work.box[1] = work.box[3] = slot.place[LINEAR_Y];
+	member.events = member.rapid = member.hits = 0;
+}
+
 /* What the threads that run clusters share. A number belongs to one cluster; only its thread changes what it numbers, but for what is
  * reached by the atomic functions here. */
 template <typename T> class Clusters : public Bodies<T>
@@ -67,16 +77,6 @@ public:
 			__atomic_store_n(&members[leader].head, -1, __ATOMIC_RELAXED);
 		}
 		__atomic_store_n(&status[STATUS_ROUND], round + 1, __ATOMIC_RELAXED);
-	}
-
-	void begin(Work<T> &work, int32_t id, int32_t s) const
-	{
-		const T *place = this->slots[s].place;
-		work.keep(Trajectory<T>(this->slots[s]));
-		work.next[NEXT_TIME] = NO_HIT;
-		work.box[0] = work.box[2] = place[LINEAR_X];
-		work.box[1] = work.box[3] = place[LINEAR_Y];
-		members[id].events = members[id].rapid = members[id].hits = 0;
 	}
 
 	const Span *const spans;
@@ -145,11 +145,6 @@ private:
 		heap.update(id);
 	}
 
-	static bool before(const T *a, const T *b)
-	{
-		return std::lexicographical_compare(a, a + 3, b, b + 3);
-	}
-
 	/* The number of a body that is to be hit, claimed if it is nobody's; -1 if it is another cluster's. */
 	int32_t member(int32_t s)
 	{
@@ -173,7 +168,7 @@ private:
 			return -1;
 		}
 		clusters.active[id] = s;
-		clusters.begin(work[id], id, s);
+		begin_anew(members[id], work[id], slots[s]);
 		members[id].owner = leader;
 		if (!clusters.take(s, id)) {
 			clusters.active[id] = -1;
@@ -231,7 +226,7 @@ private:
 		const T event[4] = {found.time, static_cast<T>(std::max(index, other_index)),
 			static_cast<T>(std::min(index, other_index)), static_cast<T>(other) + (found.is_pause ? T(0.5) : T(0))};
 		T *next = work[id].next;
-		if (!(event[NEXT_TIME] <= 1 && before(event, next)))
+		if (!(event[NEXT_TIME] <= 1 && event_before(event, next)))
 			return;
 		std::copy(event, event + 4, next);
 		members[id].seen = other_id >= 0 ? members[other_id].events : 0;

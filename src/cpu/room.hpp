@@ -16,7 +16,8 @@ template <typename T> struct Wall {
 	T height(const Vec<T> &x) const { return inner(n, x) - offset; }
 };
 
-template <typename T> Wall<T> room_wall(const State<T> &state, int32_t wall)
+/* `state` is what knows the room: a State, or another. */
+template <typename T, template <typename> class Rules> Wall<T> room_wall(const Rules<T> &state, int32_t wall)
 {
 	switch (wall) {
 	case 0: return {{1, 0}, state.room(ROOM_MIN_X)};

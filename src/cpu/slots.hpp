@@ -200,15 +200,7 @@ public:
 		return first;
 	}
 
-	Wall<T> wall(int32_t k) const
-	{
-		switch (k) {
-		case 0: return {{1, 0}, room(ROOM_MIN_X)};
-		case 1: return {{0, 1}, room(ROOM_MIN_Y)};
-		case 2: return {{-1, 0}, -room(ROOM_MAX_X)};
-		default: return {{0, -1}, -room(ROOM_MAX_Y)};
-		}
-	}
+	Wall<T> wall(int32_t k) const { return room_wall(*this, k); }
 
 	Slot<T> *const slots;
 	const Functions<T> &functions;

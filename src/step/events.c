@@ -5,9 +5,6 @@
  * work-item runs to the end of the step. Clusters that get into each other's way are united and run again, in rounds.
  * A step that can't be done as it was handed over (lists too old or too small, more rounds needed) changes nothing, and
  * those behind it in the batch go on with it: nobody waits. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "layout.h"
 #include "status.h"
 #include "step/step.h"
@@ -31,7 +28,7 @@ static carom_status find_neighbours(carom_world *world, int32_t count, carom_err
 {
 	carom_events *events = &world->events;
 	const int32_t columns = (int32_t)events->columns, rows = (int32_t)events->rows;
-	TRY(carom_run(world, STAGE_PACE, 1, 1, count, (int32_t)events->window, error));
+	TRY(carom_run(world, STAGE_PACE, 1, 1, count, WINDOW, error));
 	TRY(carom_run(world, STAGE_REACH, count, 1, columns, rows, error));
 	TRY(carom_run(world, STAGE_CELLS, rows, 1, columns, 0, error));
 	TRY(carom_run(world, STAGE_SORT, count, 1, 0, 0, error));
@@ -69,7 +66,7 @@ static carom_status run(carom_world *world, carom_error *error)
 	return carom_run(world, STAGE_DRIFT, count, 1, 0, 0, error);
 }
 
-/* A cluster may lose a number to another: there are some more than bodies. NUMBERS_SPARE of them are the device's to make ready. */
+/* A cluster may lose a number to another: there are some more than bodies. */
 static uint64_t numbers_of(uint64_t capacity)
 {
 	return capacity + (capacity < NUMBERS_SPARE ? capacity : NUMBERS_SPARE);
@@ -134,6 +131,7 @@ static uint32_t enough(int32_t wanted)
 static carom_status grow(carom_world *world, int32_t *status, carom_error *error)
 {
 	carom_events *events = &world->events;
+	world->prepared = false; /* if that fails, the next call begins with lists of the first size */
 	if (status[STATUS_NEIGHBOURS] > status[STATUS_ROOM]) {
 		events->room = enough(status[STATUS_NEIGHBOURS]);
 		TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
@@ -145,6 +143,7 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 		status[STATUS_NODE_ROOM] = (int32_t)events->node_room;
 	}
 	events->since = UINT32_MAX / 2;
+	world->prepared = true;
 	return CAROM_OK;
 }
 
@@ -214,7 +213,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
 	*events = (carom_events){
-		.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .window = WINDOW, .steps_a_list = 2, .rounds = 2};
+		.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 2, .rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));

@@ -63,12 +63,7 @@ template <typename T> static void muster(const Job<T> &job)
 		const int32_t root = owners[root_slot];
 		status[STATUS_HITS] -= member.hits;
 		status[STATUS_HELD] -= member.events > 0 && work[id].held > 0;
-		member.events = member.rapid = member.hits = 0;
-		const Slot<T> &slot = slots[active[id]];
-		work[id].keep(Trajectory<T>(slot));
-		work[id].next[NEXT_TIME] = NO_HIT;
-		work[id].box[0] = work[id].box[2] = slot.place[LINEAR_X];
-		work[id].box[1] = work[id].box[3] = slot.place[LINEAR_Y];
+		begin_anew(member, work[id], slots[active[id]]);
 		member.owner = root;
 		member.link = members[root].head;
 		members[root].head = id;
