@@ -121,3 +121,21 @@ carom_body_def scenery_box(float x, float y, float vx, float vy, float width, fl
 	def.velocity = (carom_vec2){vx, vy};
 	return def;
 }
+
+carom_world *scenery_crowd(const scenery_device *device, uint64_t seed, uint32_t threads)
+{
+	carom_world_def def = carom_default_world_def();
+	carom_body_def bodies[SCENERY_CROWD];
+	scenery_random random = {seed};
+	carom_error error;
+	def.has_room = true;
+	def.room_min = (carom_vec2){-5.0f, -5.0f};
+	def.room_max = (carom_vec2){5.0f, 5.0f};
+	def.gravity = (carom_vec2){0.5f, -1.0f};
+	def.threads = threads;
+	scenery_bodies(&random, SCENERY_MIXED, SCENERY_CROWD, 1.25f, 3.0f, bodies);
+	carom_world *world = scenery_world(&def, device);
+	if (world)
+		scenery_check(carom_world_add(world, bodies, SCENERY_CROWD, NULL, &error), &error);
+	return world;
+}

@@ -45,6 +45,10 @@ float scenery_uniform(scenery_random *random, float low, float high);
 typedef enum scenery_shapes { SCENERY_MIXED, SCENERY_CIRCLES, SCENERY_POLYGONS } scenery_shapes;
 void scenery_bodies(scenery_random *random, scenery_shapes shapes, size_t count, float pitch, float speed, carom_body_def *defs);
 
+/* SCENERY_CROWD of them in a room, in which much is hit; NULL where there is no such device. */
+enum { SCENERY_CROWD = 40 };
+carom_world *scenery_crowd(const scenery_device *device, uint64_t seed, uint32_t threads);
+
 /* One body, moving with (vx, vy). */
 carom_body_def scenery_circle(float x, float y, float vx, float vy, float radius);
 carom_body_def scenery_box(float x, float y, float vx, float vy, float width, float height);

@@ -7,54 +7,17 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "scenery.h"
+#include "runs.h"
 #include "world.h"
-
-enum { CROWD = 40 };
-
-/* A crowd in a room, in which much is hit; NULL where there is no such device. */
-static carom_world *crowd_on(const scenery_device *device, uint64_t seed, uint32_t threads)
-{
-	carom_world_def def = carom_default_world_def();
-	carom_body_def bodies[CROWD];
-	scenery_random random = {seed};
-	carom_error error;
-	def.has_room = true;
-	def.room_min = (carom_vec2){-5.0f, -5.0f};
-	def.room_max = (carom_vec2){5.0f, 5.0f};
-	def.gravity = (carom_vec2){0.5f, -1.0f};
-	def.threads = threads;
-	scenery_bodies(&random, SCENERY_MIXED, CROWD, 1.25f, 3.0f, bodies);
-	carom_world *world = scenery_world(&def, device);
-	if (world)
-		scenery_check(carom_world_add(world, bodies, CROWD, NULL, &error), &error);
-	return world;
-}
-
-static carom_report step(carom_world *world, uint64_t steps)
-{
-	carom_report report;
-	carom_error error;
-	scenery_check(carom_world_step(world, steps, &report, &error), &error);
-	return report;
-}
-
-static uint64_t hash_of(carom_world *world)
-{
-	uint64_t hash = 0;
-	carom_error error;
-	scenery_check(carom_world_hash(world, &hash, &error), &error);
-	return hash;
-}
 
 /* The hash after so many steps of a crowd of its own; 0 where there is no such device. */
 static uint64_t run_crowd(const scenery_device *device, uint64_t seed, uint32_t threads, uint64_t steps)
 {
-	carom_world *world = crowd_on(device, seed, threads);
+	carom_world *world = scenery_crowd(device, seed, threads);
 	uint64_t hash = 0;
 	if (world) {
-		assert_int_equal(step(world, steps).steps, steps);
-		hash = hash_of(world);
+		assert_int_equal(runs_step(world, steps).steps, steps);
+		hash = runs_hash(world);
 	}
 	carom_world_destroy(world);
 	return hash;
@@ -89,18 +52,18 @@ static void stopped_and_resumed(void **unused)
 	(void)unused;
 	SCENERY_EACH_DEVICE(device)
 	{
-		carom_world *first = crowd_on(device, 8, 0), *second = crowd_on(device, 8, 0);
-		carom_body_state states[CROWD];
+		carom_world *first = scenery_crowd(device, 8, 0), *second = scenery_crowd(device, 8, 0);
+		carom_body_state states[SCENERY_CROWD];
 		carom_error error;
 		if (!first)
 			continue;
-		const uint64_t hits = step(first, 500).hits;
-		scenery_check(carom_world_get_states(first, 0, CROWD, states, &error), &error);
-		scenery_check(carom_world_set_states(second, 0, CROWD, states, &error), &error);
-		assert_true(hash_of(first) == hash_of(second));
-		assert_true(hits > 100 && step(second, 500).hits == step(first, 500).hits);
-		assert_true(hash_of(first) == hash_of(second));
-		assert_true(hash_of(first) == run_crowd(device, 8, 0, 1000));
+		const uint64_t hits = runs_step(first, 500).hits;
+		scenery_check(carom_world_get_states(first, 0, SCENERY_CROWD, states, &error), &error);
+		scenery_check(carom_world_set_states(second, 0, SCENERY_CROWD, states, &error), &error);
+		assert_true(runs_hash(first) == runs_hash(second));
+		assert_true(hits > 100 && runs_step(second, 500).hits == runs_step(first, 500).hits);
+		assert_true(runs_hash(first) == runs_hash(second));
+		assert_true(runs_hash(first) == run_crowd(device, 8, 0, 1000));
 		carom_world_destroy(first);
 		carom_world_destroy(second);
 	}
@@ -112,7 +75,7 @@ static void images_and_buffers(void **unused)
 	uint64_t hashes[3] = {0};
 	SCENERY_EACH_DEVICE(device)
 	{
-		carom_world *world = crowd_on(device, 9, 0);
+		carom_world *world = scenery_crowd(device, 9, 0);
 		carom_device_info info;
 		carom_error error;
 		if (!world)
@@ -120,8 +83,8 @@ static void images_and_buffers(void **unused)
 		scenery_check(carom_world_get_device(world, &info, &error), &error);
 		assert_true(info.is_opencl == !strcmp(device->name, "opencl"));
 		assert_true(info.uses_images == (device->storage == CAROM_STORAGE_IMAGE));
-		step(world, 700);
-		hashes[device - scenery_devices] = hash_of(world);
+		runs_step(world, 700);
+		hashes[device - scenery_devices] = runs_hash(world);
 		carom_world_destroy(world);
 	}
 	assert_true(!hashes[1] || hashes[1] == hashes[0]);
@@ -184,20 +147,20 @@ static void steps_cut_short(void **unused)
 	{
 		const uint64_t whole = run_crowd(device, 12, 0, 600);
 		watch all = {.stop_at = UINT64_MAX, .stop_after = INFINITY}, some = {.stop_at = 200, .stop_after = INFINITY};
-		carom_world *world = crowd_on(device, 12, 0), *cut = crowd_on(device, 12, 0);
+		carom_world *world = scenery_crowd(device, 12, 0), *cut = scenery_crowd(device, 12, 0);
 		if (!world)
 			continue;
 		carom_world_set_progress(world, look, &all);
-		assert_int_equal(step(world, 600).steps, 600);
-		assert_true(all.calls >= 2 && all.last.steps == 600 && hash_of(world) == whole);
+		assert_int_equal(runs_step(world, 600).steps, 600);
+		assert_true(all.calls >= 2 && all.last.steps == 600 && runs_hash(world) == whole);
 		carom_world_set_progress(cut, look, &some);
-		const carom_report report = step(cut, 600);
+		const carom_report report = runs_step(cut, 600);
 		assert_true(
 			report.steps >= 200 && report.steps < 600 && report.steps == some.last.steps && report.hits == some.last.hits);
 		assert_true(carom_world_time(cut) == report.advanced);
 		carom_world_set_progress(cut, NULL, NULL);
-		assert_int_equal(step(cut, 600 - report.steps).steps, 600 - report.steps);
-		assert_true(hash_of(cut) == whole);
+		assert_int_equal(runs_step(cut, 600 - report.steps).steps, 600 - report.steps);
+		assert_true(runs_hash(cut) == whole);
 		carom_world_destroy(world);
 		carom_world_destroy(cut);
 	}
@@ -209,7 +172,7 @@ static void an_advance_cut_short(void **unused)
 	SCENERY_EACH_DEVICE(device)
 	{
 		watch some = {.stop_at = UINT64_MAX, .stop_after = 0.5};
-		carom_world *world = crowd_on(device, 13, 0);
+		carom_world *world = scenery_crowd(device, 13, 0);
 		carom_report report, rest;
 		carom_error error;
 		if (!world)
@@ -283,6 +246,43 @@ static uint64_t memory_taken(const carom_world_def *def, size_t count)
 	scenery_check(carom_textures_update(world, &error), &error);
 	carom_world_destroy(world);
 	return taken;
+}
+
+static carom_status failing_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height,
+	const float fill[4], carom_texture **texture, carom_error *error)
+{
+	(void)device, (void)format, (void)width, (void)height, (void)fill, (void)texture, (void)error;
+	return CAROM_OUT_OF_MEMORY;
+}
+
+/* A list of neighbours that can't grow is an error; the state is that of before, and with more memory the run goes on. */
+static void a_list_that_cannot_grow_loses_nothing(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+	{
+		carom_world *world = scenery_crowd(device, 3, 0), *other = scenery_crowd(device, 3, 0);
+		if (!world)
+			continue;
+		const carom_device_class *kind = world->device->kind;
+		carom_device_class failing = *kind;
+		carom_error error;
+		failing.create = failing_create;
+		scenery_check(carom_textures_update(world, &error), &error);
+		const uint64_t before = runs_hash(world);
+		world->events.room = 1;
+		world->device->kind = &failing;
+		assert_int_equal(carom_world_step(world, 5, NULL, &error), CAROM_OUT_OF_MEMORY);
+		assert_true(runs_hash(world) == before);
+		assert_int_equal(carom_world_step(world, 5, NULL, &error), CAROM_OUT_OF_MEMORY);
+		assert_true(runs_hash(world) == before);
+		world->device->kind = kind;
+		runs_step(world, 5);
+		runs_step(other, 5);
+		assert_true(runs_hash(world) == runs_hash(other));
+		carom_world_destroy(world);
+		carom_world_destroy(other);
+	}
 }
 
 static void memory_is_known_beforehand(void **unused)
@@ -387,6 +387,7 @@ int main(void)
 		cmocka_unit_test(an_advance_cut_short),
 		cmocka_unit_test(a_stall_tells_what_was_done),
 		cmocka_unit_test(memory_is_known_beforehand),
+		cmocka_unit_test(a_list_that_cannot_grow_loses_nothing),
 		cmocka_unit_test(too_many_bodies),
 	};
 	return cmocka_run_group_tests_name("run", tests, NULL, NULL);

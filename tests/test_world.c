@@ -3,51 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenery.h"
+#include "runs.h"
 #include "world.h"
-
-enum { CROWD = 40 };
 
 static void assert_fails(carom_status status, const carom_error *error, carom_status expected, const char *said)
 {
 	if (status != expected || error->status != expected || strncmp(error->text, said, strlen(said)) != 0)
 		fail_msg(
 			"expected %s: \"%s ...\", got %s: \"%s\"", carom_status_name(expected), said, carom_status_name(status), error->text);
-}
-
-/* A crowd in a room, in which much is hit; NULL where there is no such device. */
-static carom_world *crowd_on(const scenery_device *device, uint64_t seed, uint32_t threads)
-{
-	carom_world_def def = carom_default_world_def();
-	carom_body_def bodies[CROWD];
-	scenery_random random = {seed};
-	carom_error error;
-	def.has_room = true;
-	def.room_min = (carom_vec2){-5.0f, -5.0f};
-	def.room_max = (carom_vec2){5.0f, 5.0f};
-	def.gravity = (carom_vec2){0.5f, -1.0f};
-	def.threads = threads;
-	scenery_bodies(&random, SCENERY_MIXED, CROWD, 1.25f, 3.0f, bodies);
-	carom_world *world = scenery_world(&def, device);
-	if (world)
-		scenery_check(carom_world_add(world, bodies, CROWD, NULL, &error), &error);
-	return world;
-}
-
-static carom_report step(carom_world *world, uint64_t steps)
-{
-	carom_report report;
-	carom_error error;
-	scenery_check(carom_world_step(world, steps, &report, &error), &error);
-	return report;
-}
-
-static uint64_t hash_of(carom_world *world)
-{
-	uint64_t hash = 0;
-	carom_error error;
-	scenery_check(carom_world_hash(world, &hash, &error), &error);
-	return hash;
 }
 
 static void get_states(carom_world *world, size_t count, carom_body_state *states)
@@ -67,28 +30,28 @@ static void set_states(carom_world *world, size_t count, const carom_body_state 
 static void bodies_out_of_range(void **unused)
 {
 	(void)unused;
-	carom_world *world = crowd_on(&scenery_devices[0], 1, 0);
+	carom_world *world = scenery_crowd(&scenery_devices[0], 1, 0);
 	carom_body_state states[2] = {{{7.0f, 7.0f}, 7.0f, {7.0f, 7.0f}, 7.0f}}, untouched[2];
 	carom_body_info info, same;
 	carom_error error = {0};
 	memcpy(untouched, states, sizeof states);
 	memset(&info, 0x5A, sizeof info);
 	same = info;
-	assert_fails(carom_world_get_states(world, CROWD, 1, states, &error), &error, CAROM_INVALID_ARGUMENT,
+	assert_fails(carom_world_get_states(world, SCENERY_CROWD, 1, states, &error), &error, CAROM_INVALID_ARGUMENT,
 		"bodies 40 to 41: the world has 40");
 	assert_fails(carom_world_get_states(world, 39, 2, states, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 39 to 41: ");
 	assert_fails(carom_world_get_states(world, 1, SIZE_MAX, states, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 1 to ");
 	assert_fails(carom_world_set_states(world, 41, 0, states, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 41 to 41: ");
-	assert_fails(carom_world_get_body(world, CROWD, &info, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 40 to 41: ");
+	assert_fails(carom_world_get_body(world, SCENERY_CROWD, &info, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 40 to 41: ");
 	assert_fails(carom_world_get_body(world, UINT32_MAX, &info, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 4294967295 to ");
 	assert_fails(
-		carom_world_set_force(world, CROWD, (carom_vec2){0, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 40 to 41: ");
+		carom_world_set_force(world, SCENERY_CROWD, (carom_vec2){0, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 40 to 41: ");
 	assert_memory_equal(states, untouched, sizeof states);
 	assert_memory_equal(&info, &same, sizeof info);
-	scenery_check(carom_world_get_states(world, CROWD, 0, NULL, &error), &error);
-	scenery_check(carom_world_set_states(world, CROWD, 0, NULL, &error), &error);
+	scenery_check(carom_world_get_states(world, SCENERY_CROWD, 0, NULL, &error), &error);
+	scenery_check(carom_world_set_states(world, SCENERY_CROWD, 0, NULL, &error), &error);
 	scenery_check(carom_world_add(world, NULL, 0, NULL, &error), &error);
-	assert_int_equal(carom_world_body_count(world), CROWD);
+	assert_int_equal(carom_world_body_count(world), SCENERY_CROWD);
 	assert_fails(
 		carom_world_add(world, NULL, (size_t)1 << 22, NULL, &error), &error, CAROM_LIMIT, "a world holds at most 4194304 bodies");
 	carom_world_destroy(world);
@@ -98,19 +61,19 @@ static void bodies_out_of_range(void **unused)
 static void assert_state_refused(carom_world *world, const carom_body_state *bad, const char *said)
 {
 	carom_body_state states[2];
-	const uint64_t hash = hash_of(world);
+	const uint64_t hash = runs_hash(world);
 	carom_error error = {0};
 	get_states(world, 1, states);
 	states[0].position.x += 0.25f;
 	states[1] = *bad;
 	assert_fails(carom_world_set_states(world, 0, 2, states, &error), &error, CAROM_INVALID_ARGUMENT, said);
-	assert_true(hash_of(world) == hash);
+	assert_true(runs_hash(world) == hash);
 }
 
 static void states_out_of_range(void **unused)
 {
 	(void)unused;
-	carom_world *world = crowd_on(&scenery_devices[0], 1, 0);
+	carom_world *world = scenery_crowd(&scenery_devices[0], 1, 0);
 	const carom_body_state good = {{0.0f, 0.0f}, 0.0f, {0.0f, 0.0f}, 0.0f};
 	for (size_t i = 0; i < sizeof good / sizeof(float); i++) {
 		carom_body_state bad = good;
@@ -140,7 +103,7 @@ static void static_bodies_keep_still(void **unused)
 	assert_fails(carom_world_set_states(world, 0, 1, &state, &error), &error, CAROM_INVALID_ARGUMENT, "body 0 is static");
 	assert_fails(
 		carom_world_set_force(world, 0, (carom_vec2){1, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "body 0 is static");
-	step(world, 5);
+	runs_step(world, 5);
 	get_states(world, 1, &state);
 	assert_true(state.position.x == 3.0f && state.position.y == 4.0f && state.angle == 1.0f);
 	carom_world_destroy(world);
@@ -191,11 +154,11 @@ static void angles_near_pi_come_back(void **unused)
 		carom_error error;
 		scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
 		for (int k = 0; k < 3; k++) {
-			step(world, 1);
-			const uint64_t hash = hash_of(world);
+			runs_step(world, 1);
+			const uint64_t hash = runs_hash(world);
 			get_states(world, 1, &state);
 			set_states(world, 1, &state);
-			assert_true(hash_of(world) == hash);
+			assert_true(runs_hash(world) == hash);
 		}
 		carom_world_destroy(world);
 	}
@@ -216,7 +179,7 @@ static void a_force_acts_from_now_on(void **unused)
 			continue;
 		body.mass = 2.0f;
 		scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
-		step(world, 60);
+		runs_step(world, 60);
 		scenery_check(carom_world_set_force(world, 0, (carom_vec2){4.0f, -2.0f}, 0.5f, &error), &error);
 		assert_fails(carom_world_set_force(world, 0, (carom_vec2){NAN, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT,
 			"the force and torque");
@@ -224,7 +187,7 @@ static void a_force_acts_from_now_on(void **unused)
 			carom_world_set_force(world, 0, (carom_vec2){0, 0}, INFINITY, &error), &error, CAROM_INVALID_ARGUMENT, "the force");
 		scenery_check(carom_world_get_body(world, 0, &info, &error), &error);
 		assert_true(info.force.x == 4.0f && info.force.y == -2.0f && info.torque == 0.5f);
-		step(world, 60);
+		runs_step(world, 60);
 		get_states(world, 1, &state);
 		assert_true(fabsf(state.velocity.x - 2.0f) < 1e-5f && fabsf(state.velocity.y + 1.0f) < 1e-5f);
 		assert_true(fabsf(state.angular_velocity - 0.5f) < 1e-5f && fabsf(state.position.x - 1.0f) < 1e-5f);
@@ -250,7 +213,7 @@ static void an_empty_world_steps(void **unused)
 		report.steps = 9;
 		scenery_check(carom_world_advance(world, 1.0, &report, &error), &error);
 		assert_true(report.steps == 0 && report.advanced == 0.0 && carom_world_time(world) == 0.0);
-		assert_true(hash_of(world) == 14695981039346656037u); /* FNV-1a of nothing */
+		assert_true(runs_hash(world) == 14695981039346656037u); /* FNV-1a of nothing */
 		carom_world_destroy(world);
 	}
 }
@@ -259,17 +222,17 @@ static void times_out_of_range(void **unused)
 {
 	(void)unused;
 	static const double bad[] = {-1e-9, -INFINITY, INFINITY, NAN, 1e300};
-	carom_world *world = crowd_on(&scenery_devices[0], 2, 0);
-	const uint64_t hash = hash_of(world);
+	carom_world *world = scenery_crowd(&scenery_devices[0], 2, 0);
+	const uint64_t hash = runs_hash(world);
 	carom_report report = {9, 9, 9, 9.0};
 	carom_error error = {0};
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
 		assert_fails(carom_world_advance(world, bad[i], &report, &error), &error, CAROM_INVALID_ARGUMENT, "seconds: found ");
 	scenery_check(carom_world_advance(world, 0.0, &report, &error), &error);
-	assert_true(report.steps == 0 && report.hits == 0 && report.advanced == 0.0 && hash_of(world) == hash);
+	assert_true(report.steps == 0 && report.hits == 0 && report.advanced == 0.0 && runs_hash(world) == hash);
 	report.steps = 9;
 	scenery_check(carom_world_step(world, 0, &report, &error), &error);
-	assert_true(report.steps == 0 && hash_of(world) == hash && carom_world_time(world) == 0.0);
+	assert_true(report.steps == 0 && runs_hash(world) == hash && carom_world_time(world) == 0.0);
 	scenery_check(carom_world_advance(world, 0.505, &report, &error), &error);
 	assert_true(fabs(report.advanced - 0.505) < 1e-9 && fabs(carom_world_time(world) - 0.505) < 1e-9 && report.steps >= 31);
 	carom_world_destroy(world);
@@ -282,8 +245,8 @@ static void growing_keeps_the_bits(void **unused)
 	const carom_body_def more[30] = {scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1e-3f)};
 	SCENERY_EACH_DEVICE(device)
 	{
-		carom_world *grown = crowd_on(device, 3, 0), *made = crowd_on(device, 3, 0);
-		carom_body_state before[CROWD], states[CROWD + 30];
+		carom_world *grown = scenery_crowd(device, 3, 0), *made = scenery_crowd(device, 3, 0);
+		carom_body_state before[SCENERY_CROWD], states[SCENERY_CROWD + 30];
 		carom_body_def late[30];
 		uint32_t first = 0;
 		carom_error error;
@@ -293,16 +256,16 @@ static void growing_keeps_the_bits(void **unused)
 			late[i] = more[0];
 			late[i].position = (carom_vec2){-4.9f + 0.01f * (float)i, -4.9f};
 		}
-		step(grown, 150);
-		get_states(grown, CROWD, before);
+		runs_step(grown, 150);
+		get_states(grown, SCENERY_CROWD, before);
 		scenery_check(carom_world_add(grown, late, 30, &first, &error), &error);
-		get_states(grown, CROWD + 30, states);
-		assert_int_equal(first, CROWD);
+		get_states(grown, SCENERY_CROWD + 30, states);
+		assert_int_equal(first, SCENERY_CROWD);
 		assert_memory_equal(states, before, sizeof before);
 		scenery_check(carom_world_add(made, late, 30, NULL, &error), &error);
-		set_states(made, CROWD + 30, states);
-		assert_true(step(grown, 100).hits == step(made, 100).hits);
-		assert_true(hash_of(grown) == hash_of(made));
+		set_states(made, SCENERY_CROWD + 30, states);
+		assert_true(runs_step(grown, 100).hits == runs_step(made, 100).hits);
+		assert_true(runs_hash(grown) == runs_hash(made));
 		carom_world_destroy(grown);
 		carom_world_destroy(made);
 	}
