@@ -224,7 +224,6 @@
 #define STATUS_WINDOW 21    /* float bits, s: how long the lists are to last */
 #define STATUS_BUILDS 18    /* since the host asked: how often lists were made, */
 #define STATUS_STEPS 19     /* steps done, */
-#define STATUS_RETRIES 20   /* begun again with other lists, */
 #define STATUS_NUMBERS 24  /* there are for bodies that events change */
 #define STATUS_IDLE 22      /* not begun for want of lists, */
 #define STATUS_AGAIN 23     /* and not done since they needed more rounds */

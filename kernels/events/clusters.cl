@@ -75,7 +75,8 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
-		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || members[MEMBER(owner, MEMBER_ROUND)] > domain.z)
+		/* of a pair one at least was done in this round, and finds the other */
+		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || members[MEMBER(owner, MEMBER_ROUND)] != domain.z)
 			continue;
 		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
 			int other = neighbours[k], other_id = owners[other];

@@ -26,10 +26,8 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 	status[STATUS_AGAIN] += good && !left && again;
 	if (done || left)
 		status[STATUS_ACTIVE] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
-	if (left) {
+	if (left)
 		status[STATUS_STALE] = 1;
-		status[STATUS_RETRIES]++;
-	}
 	TEX_STORE(now, CLOCK_HIT, 0, hit);
 	TEX_STORE(now, CLOCK_STEP, 0, step);
 	TEX_STORE(now, CLOCK_TIME, 0, time);

@@ -20,6 +20,14 @@ template <typename T> struct Body {
 	T angular_velocity_at(T t) const { return w + t * b; }
 };
 
+/* The k-th vertex of a polygon whose first texel is `first`, in its frame. */
+template <typename T> Vec<T> vertex_at(const Texels<T> &vertices, int32_t first, int32_t k)
+{
+	const int32_t texel = first + k / 2;
+	return k % 2 ? Vec<T>(vertices.of(texel, VERTICES_X1), vertices.of(texel, VERTICES_Y1))
+				 : Vec<T>(vertices.of(texel, VERTICES_X0), vertices.of(texel, VERTICES_Y0));
+}
+
 /* A body with its vertices at hand. */
 template <typename T> struct Convex : Body<T> {
 	Eigen::Matrix<T, 2, Eigen::Dynamic, Eigen::ColMajor | Eigen::DontAlign, 2, CAROM_MAX_VERTICES> vertices;
@@ -89,12 +97,8 @@ public:
 		Convex<T> convex;
 		static_cast<Body<T> &>(convex) = this->body(i);
 		convex.vertices.resize(2, convex.count);
-		for (int32_t k = 0; k < convex.count; k++) {
-			int32_t texel = convex.first + k / 2;
-			bool second = k % 2 == 1;
-			convex.vertices(0, k) = vertices.of(texel, second ? VERTICES_X1 : VERTICES_X0);
-			convex.vertices(1, k) = vertices.of(texel, second ? VERTICES_Y1 : VERTICES_Y0);
-		}
+		for (int32_t k = 0; k < convex.count; k++)
+			convex.vertices.col(k) = vertex_at(vertices, convex.first, k);
 		return convex;
 	}
 

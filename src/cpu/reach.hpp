@@ -86,9 +86,7 @@ template <typename T> Box<T> static_box(const Slot<T> &slot, const Texels<T> &ve
 	Box<T> box{x, y, x, y};
 	const Vec<T> rotation = rotation_of(slot.turn[TURN_ANGLE]);
 	for (int32_t k = 0; count > 1 && k < count; k++) {
-		const Vec<T> local(vertices.of(first + k / 2, k % 2 ? VERTICES_X1 : VERTICES_X0),
-			vertices.of(first + k / 2, k % 2 ? VERTICES_Y1 : VERTICES_Y0));
-		const Vec<T> v = turn(rotation, local);
+		const Vec<T> v = turn(rotation, vertex_at(vertices, first, k));
 		box = {std::min(box.min_x, x + v.x()), std::min(box.min_y, y + v.y()), std::max(box.max_x, x + v.x()), std::max(box.max_y, y + v.y())};
 	}
 	return {box.min_x - grow, box.min_y - grow, box.max_x + grow, box.max_y + grow};

@@ -153,11 +153,8 @@ public:
 	{
 		static_cast<Body<T> &>(convex) = this->body(slot, way);
 		convex.vertices.resize(2, convex.count);
-		for (int32_t k = 0; convex.count > 1 && k < convex.count; k++) {
-			const int32_t texel = convex.first + k / 2;
-			convex.vertices(0, k) = vertices.of(texel, k % 2 ? VERTICES_X1 : VERTICES_X0);
-			convex.vertices(1, k) = vertices.of(texel, k % 2 ? VERTICES_Y1 : VERTICES_Y0);
-		}
+		for (int32_t k = 0; convex.count > 1 && k < convex.count; k++)
+			convex.vertices.col(k) = vertex_at(vertices, convex.first, k);
 	}
 
 	/* A hit, or only a pause of the search for one. */

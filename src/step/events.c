@@ -180,7 +180,7 @@ static carom_status finish(carom_world *world, carom_error *error)
 	if (status[STATUS_STALE])
 		world->events.since = UINT32_MAX / 2;
 	world->events.in_batch = false;
-	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_RETRIES] = status[STATUS_IDLE] = status[STATUS_AGAIN] = 0;
+	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = 0;
 	return send_status(world, status, error);
 }
 

@@ -33,7 +33,6 @@ template <typename T> static void settle(const Job<T> &job)
 	status[STATUS_STEPS] += done;
 	status[STATUS_AGAIN] += again;
 	status[STATUS_IDLE] += !good && length > 0;
-	status[STATUS_RETRIES] += left;
 	if (left)
 		status[STATUS_STALE] = 1;
 	if (done || left)
