@@ -41,15 +41,15 @@ CAROM_API const char *carom_version(void);
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
 /* name, sentence */
-#define CAROM_STATUS_LIST(X)                                              \
-	X(OK, "no error")                                                     \
-	X(INVALID_ARGUMENT, "an argument is outside its range")               \
-	X(INVALID_SCENE, "the scene is not valid")                            \
-	X(UNKNOWN_NAME, "no alternative or device of that name")              \
-	X(OUT_OF_MEMORY, "there is not enough memory")                        \
-	X(LIMIT, "the device can't hold what the step needs")                 \
-	X(DEVICE, "the device failed")                                        \
-	X(IO, "a file could not be read or written")                          \
+#define CAROM_STATUS_LIST(X)                                 \
+	X(OK, "no error")                                        \
+	X(INVALID_ARGUMENT, "an argument is outside its range")  \
+	X(INVALID_SCENE, "the scene is not valid")               \
+	X(UNKNOWN_NAME, "no alternative or device of that name") \
+	X(OUT_OF_MEMORY, "there is not enough memory")           \
+	X(LIMIT, "the device can't hold what the step needs")    \
+	X(DEVICE, "the device failed")                           \
+	X(IO, "a file could not be read or written")             \
 	X(STALLED, "simulated time can't get on")
 
 typedef enum carom_status {
@@ -61,10 +61,10 @@ typedef enum carom_status {
 /* Filled in by a function that fails; untouched by one that succeeds. */
 typedef struct carom_error {
 	carom_status status;
-	int line, column;      /* of the scene file, from 1; 0 where there is none */
-	int opencl_code;       /* the OpenCL error code, 0 where there is none */
-	char text[1024];       /* what was found, where, and what is allowed; one line, no full stop at the end */
-	char build_log[4096];  /* the head of the OpenCL compiler's log, empty where there is none */
+	int line, column;     /* of the scene file, from 1; 0 where there is none */
+	int opencl_code;      /* the OpenCL error code, 0 where there is none */
+	char text[1024];      /* what was found, where, and what is allowed; one line, no full stop at the end */
+	char build_log[4096]; /* the head of the OpenCL compiler's log, empty where there is none */
 } carom_error;
 
 /* "CAROM_OK", ...; for a value that is no status "CAROM_?" */
@@ -82,9 +82,9 @@ typedef struct carom_vec2 {
 #define CAROM_MAX_VERTICES 64
 
 typedef enum carom_shape {
-	CAROM_CIRCLE,   /* a disc of `radius` */
-	CAROM_POLYGON,  /* the convex polygon of `vertices`, either way round */
-	CAROM_REGULAR,  /* `sides` vertices on a circle of `radius`, the first on the body's +x axis */
+	CAROM_CIRCLE,  /* a disc of `radius` */
+	CAROM_POLYGON, /* the convex polygon of `vertices`, either way round */
+	CAROM_REGULAR, /* `sides` vertices on a circle of `radius`, the first on the body's +x axis */
 } carom_shape;
 
 #define CAROM_COLOR_AUTO 0xFF000000u /* a colour of the palette, by the body's index */
@@ -133,9 +133,9 @@ typedef struct carom_body_info {
 	carom_vec2 force;           /* N */
 	float torque;               /* N m */
 	bool is_static;
-	carom_vec2 recentred_by;    /* m: the centre of mass of the vertices as they were given; (0, 0) if none was moved */
-	uint32_t color;             /* 0xRRGGBB, or CAROM_COLOR_AUTO */
-	const char *name;           /* NULL for none */
+	carom_vec2 recentred_by; /* m: the centre of mass of the vertices as they were given; (0, 0) if none was moved */
+	uint32_t color;          /* 0xRRGGBB, or CAROM_COLOR_AUTO */
+	const char *name;        /* NULL for none */
 } carom_body_info;
 
 CAROM_API carom_body_def carom_default_body_def(void);
@@ -154,7 +154,7 @@ typedef struct carom_pipeline {
 	const char *impulse; /* pair_exact (default), accumulate [2.3] */
 	/* of pictures alone; all give the same */
 	const char *transforms; /* index (default): where bodies are is read on the device; to_cpu: it is read back and sent [3] */
-	const char *vertices; /* sent are option1: body and ordinal, option2: first vertex and ordinal, option3 (default): coordinates [3] */
+	const char *vertices;   /* sent are option1: body and ordinal, option2: first vertex and ordinal, option3 (default): coordinates [3] */
 } carom_pipeline;
 
 /* Chooses `alternative` for `slot`, both by name. CAROM_UNKNOWN_NAME lists the known ones. */
@@ -177,9 +177,9 @@ CAROM_API bool carom_stage_list(size_t index, carom_stage_info *info);
 typedef struct carom_device_info {
 	char platform[128], name[256], version[128];
 	bool is_opencl;
-	bool works;              /* Carom can run on it */
-	bool is_default;         /* `auto` takes this one */
-	bool exact;              /* divides and takes roots correctly rounded: the same bits as every other exact device */
+	bool works;      /* Carom can run on it */
+	bool is_default; /* `auto` takes this one */
+	bool exact;      /* divides and takes roots correctly rounded: the same bits as every other exact device */
 	bool has_images;
 	uint32_t compute_units;  /* CPU cores of the fallback */
 	uint32_t clock_mhz;      /* 0 where unknown */
@@ -205,13 +205,13 @@ typedef enum carom_storage {
 
 /* What a world is made from. Start from carom_default_world_def(). */
 typedef struct carom_world_def {
-	float time_step;       /* s, > 0: how long a step of events lasts, and the longest of first_impact; default 1/60 */
-	carom_vec2 gravity;    /* m/s^2; default (0, 0) */
-	float restitution;     /* 0..1, of the walls and of bodies that have none of their own; default 1 */
-	bool has_room;         /* four walls that nothing leaves: bodies must start inside; default none */
+	float time_step;               /* s, > 0: how long a step of events lasts, and the longest of first_impact; default 1/60 */
+	carom_vec2 gravity;            /* m/s^2; default (0, 0) */
+	float restitution;             /* 0..1, of the walls and of bodies that have none of their own; default 1 */
+	bool has_room;                 /* four walls that nothing leaves: bodies must start inside; default none */
 	carom_vec2 room_min, room_max; /* m, room_min < room_max */
-	float epsilon;         /* part of a step, 2^-22..0.5: the accuracy of toi bisection [2.1]; default 2^-18 */
-	uint32_t iterations;   /* bisections a pass, >= 1 [2.1, `iter`]; 0 (the default) for all in one pass */
+	float epsilon;                 /* part of a step, 2^-22..0.5: the accuracy of toi bisection [2.1]; default 2^-18 */
+	uint32_t iterations;           /* bisections a pass, >= 1 [2.1, `iter`]; 0 (the default) for all in one pass */
 	carom_pipeline pipeline;
 	const char *device;    /* auto (default), cpu, opencl, or part of a platform's or device's name, in any case; NULL: the
 	                          environment's CAROM_DEVICE, else auto */
@@ -247,10 +247,10 @@ CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index,
 
 /* What a call of carom_world_step or carom_world_advance did. */
 typedef struct carom_report {
-	uint64_t steps;   /* steps done */
-	uint64_t hits;    /* hits resolved */
-	uint64_t held;    /* how often a body was held until the end of a step of events, since it was hit too often in it */
-	double advanced;  /* s, simulated */
+	uint64_t steps;  /* steps done */
+	uint64_t hits;   /* hits resolved */
+	uint64_t held;   /* how often a body was held until the end of a step of events, since it was hit too often in it */
+	double advanced; /* s, simulated */
 } carom_report;
 
 /* Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of first_impact lasts until the
@@ -294,11 +294,11 @@ CAROM_API bool carom_world_profile(carom_world *world, size_t index, carom_kerne
 
 /* What is measured of a state, in double precision on the host. Static bodies do not count. */
 typedef struct carom_measure {
-	double kinetic_energy;   /* J */
-	double potential_energy; /* J, of gravity, 0 at the origin */
+	double kinetic_energy;         /* J */
+	double potential_energy;       /* J, of gravity, 0 at the origin */
 	double momentum_x, momentum_y; /* kg m/s */
-	double angular_momentum; /* kg m^2/s about the origin */
-	double max_penetration;  /* m: the deepest overlap of two bodies or of a body and a wall, 0 if none */
+	double angular_momentum;       /* kg m^2/s about the origin */
+	double max_penetration;        /* m: the deepest overlap of two bodies or of a body and a wall, 0 if none */
 } carom_measure;
 
 CAROM_API carom_status carom_world_measure(carom_world *world, carom_measure *measure, carom_error *error);
@@ -348,7 +348,7 @@ typedef struct carom_render_def {
 	uint32_t width, height; /* pixels, 1..16384; default 1280 x 720 */
 	bool has_camera;        /* default false: the room, or where there is none the bodies, fill the picture */
 	carom_camera camera;
-	bool has_inset;         /* default false */
+	bool has_inset; /* default false */
 	carom_inset inset;
 } carom_render_def;
 

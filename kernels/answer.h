@@ -65,8 +65,8 @@ rules_of_hit event_rules(float restitution, bool rapid)
 }
 
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. False if a body leaves its reach. */
-bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work),
-	LIST_OUT(need), float4 rules, int s, int id, int other_id, float4 next, float length)
+bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need), float4 rules,
+	int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER);
 	float u = CHANNEL(next, NEXT_TIME), total = 0.0f;

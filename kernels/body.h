@@ -71,8 +71,7 @@ float step_length(TEX_IN(uniforms), TEX_IN(clock))
 float2 vertex_load(TEX_IN(vertices), int first, int j)
 {
 	float4 two = ROW_LOAD(vertices, first + (j >> 1));
-	return (j & 1) ? (float2)(CHANNEL(two, VERTICES_X1), CHANNEL(two, VERTICES_Y1))
-	               : (float2)(CHANNEL(two, VERTICES_X0), CHANNEL(two, VERTICES_Y0));
+	return (j & 1) ? (float2)(CHANNEL(two, VERTICES_X1), CHANNEL(two, VERTICES_Y1)) : (float2)(CHANNEL(two, VERTICES_X0), CHANNEL(two, VERTICES_Y0));
 }
 
 /* How far a body's way bends out of the box about its two ends, with the distance that counts as touching. */

@@ -5,8 +5,7 @@
 
 /* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. Those whose discs stay apart
  * need not be asked. */
-float pair_time(TEX_IN(vertices), RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length,
-	bool *pause)
+float pair_time(TEX_IN(vertices), RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length, bool *pause)
 {
 	float t0 = larger(k.time, o.time), rest = 1.0f - t0;
 	k = moved(slots, s, k, t0, length);
@@ -29,8 +28,7 @@ bool near_walls(body k, float4 room)
 }
 
 /* When the trajectory hits which wall first. */
-float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, int *which,
-	bool *pause)
+float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, int *which, bool *pause)
 {
 	float4 room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	float rest = 1.0f - k.time, first = NO_HIT;

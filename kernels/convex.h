@@ -2,28 +2,28 @@
 
 /* Body B seen from body A at one time; lengths in metres, rates in metres a step. */
 typedef struct pose {
-	float2 d, v;     /* centre of B minus centre of A; its velocity */
-	float2 ra, rb;   /* rotations */
-	float wa, wb;    /* angular velocities */
+	float2 d, v;   /* centre of B minus centre of A; its velocity */
+	float2 ra, rb; /* rotations */
+	float wa, wb;  /* angular velocities */
 } pose;
 
 /* A direction n fixed to the reference body, whose points have n . q <= offset, q from its centre. The other body, the
  * incident one, has its deepest vertex at n . q = offset + gap. */
 typedef struct axis {
-	bool swapped;  /* the reference is B */
-	bool corner;   /* from a corner (or a circle), not from a face */
-	int face;      /* of the reference, where it is a face */
-	int deepest;   /* vertex of the incident body */
-	float2 n;      /* in the reference's frame */
+	bool swapped; /* the reference is B */
+	bool corner;  /* from a corner (or a circle), not from a face */
+	int face;     /* of the reference, where it is a face */
+	int deepest;  /* vertex of the incident body */
+	float2 n;     /* in the reference's frame */
 	float offset, gap;
 } axis;
 
 typedef struct contact {
-	float2 n;          /* from the reference to the incident body, world directions */
+	float2 n; /* from the reference to the incident body, world directions */
 	bool swapped;
-	int count;         /* of points */
+	int count;             /* of points */
 	float2 ref[2], inc[2]; /* levers: the points from the two bodies' centres; of a circle 0, where its normal passes */
-	float rate[2];     /* the speed at which they part, along n */
+	float rate[2];         /* the speed at which they part, along n */
 } contact;
 
 pose pose_at(body a, body b, float t)

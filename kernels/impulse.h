@@ -61,7 +61,7 @@ float4 pair_push(TEX_IN(vertices), body a, body b, float t, rules_of_hit rules, 
 	contact c = contact_at(TEX(vertices), a, b, p, best_axis(TEX(vertices), a, b, p), slop);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
 	float2 j = c.swapped ? contact_impulses(b, a, c, rules.restitution, stillness, micro)
-	                     : contact_impulses(a, b, c, rules.restitution, stillness, micro);
+						 : contact_impulses(a, b, c, rules.restitution, stillness, micro);
 	*total = j.x + j.y;
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;

@@ -8,7 +8,7 @@
 #define ROW_SIZE (1 << ROW_LOG2)
 
 /* Linear [2]: state */
-#define LINEAR_X 0  /* m */
+#define LINEAR_X 0 /* m */
 #define LINEAR_Y 1
 #define LINEAR_VX 2 /* m/s */
 #define LINEAR_VY 3
@@ -49,25 +49,25 @@
 #define ROOM_MIN_Y 1
 #define ROOM_MAX_X 2
 #define ROOM_MAX_Y 3
-#define UNIFORMS_RULES 2 /* texel */
-#define RULES_EPSILON 0    /* accuracy of the bisection, part of a step */
-#define RULES_ITERATIONS 1 /* bisections a pass */
-#define RULES_HAS_ROOM 2   /* 0 or 1 */
+#define UNIFORMS_RULES 2    /* texel */
+#define RULES_EPSILON 0     /* accuracy of the bisection, part of a step */
+#define RULES_ITERATIONS 1  /* bisections a pass */
+#define RULES_HAS_ROOM 2    /* 0 or 1 */
 #define RULES_RESTITUTION 3 /* of the walls */
 
 /* Clock: how far the simulation is; four texels in a row, ping-pong */
 #define CLOCK_WIDTH 4
-#define CLOCK_HIT 0 /* texel: the first hit of the step */
-#define HIT_TIME 0  /* part of the step, NO_HIT if there is none */
-#define HIT_ROW 1   /* body A */
-#define HIT_COLUMN 2 /* body B, or -1 - wall */
-#define HIT_DONE 3  /* 1: a hit; 0: only a pause, the search goes on in the next step */
-#define CLOCK_STEP 1 /* texel */
+#define CLOCK_HIT 0     /* texel: the first hit of the step */
+#define HIT_TIME 0      /* part of the step, NO_HIT if there is none */
+#define HIT_ROW 1       /* body A */
+#define HIT_COLUMN 2    /* body B, or -1 - wall */
+#define HIT_DONE 3      /* 1: a hit; 0: only a pause, the search goes on in the next step */
+#define CLOCK_STEP 1    /* texel */
 #define STEP_LENGTH 0   /* s that the step could last */
 #define STEP_ADVANCED 1 /* s that it lasted */
 #define STEP_STALLED 2  /* steps in a row that did not get on */
 #define STEP_ENDED 3    /* 1 once time has stalled */
-#define CLOCK_TIME 2 /* texel: sums of two floats, high and low part */
+#define CLOCK_TIME 2    /* texel: sums of two floats, high and low part */
 #define TIME_ELAPSED 0
 #define TIME_ELAPSED_LOW 1
 #define TIME_REMAINING 2
@@ -92,13 +92,13 @@
  * its pairs in HitTimes say NO_HIT from earlier steps. First byte, bits: */
 #define TILE 8
 #define TILE_COLUMNS (TILE / OVERLAP_COLUMNS) /* texels of Overlap in a tile's row */
-#define TILES_NOW 1         /* a pair overlaps in this step */
-#define TILES_BEFORE 2      /* one did in the step before: HitTimes holds something old */
-#define TILES_LONG_BEFORE 4 /* one did two steps ago: so does the Overlap that is overwritten */
-#define OVERLAP_GROUP 4     /* tiles, one above the other, that a work-item of the overlap slot does */
+#define TILES_NOW 1                           /* a pair overlaps in this step */
+#define TILES_BEFORE 2                        /* one did in the step before: HitTimes holds something old */
+#define TILES_LONG_BEFORE 4                   /* one did two steps ago: so does the Overlap that is overwritten */
+#define OVERLAP_GROUP 4                       /* tiles, one above the other, that a work-item of the overlap slot does */
 
 /* HitTimes [2.1], row i, column j < i; what is not written in a step is NO_HIT from the steps before */
-#define HITTIMES_MIN 0  /* the interval that encloses the hit */
+#define HITTIMES_MIN 0 /* the interval that encloses the hit */
 #define HITTIMES_MAX 1
 #define HITTIMES_DONE 2 /* 1: found or rejected; 0: go on searching */
 #define HITTIMES_HIT 3  /* part of the step, in [0, 1], or NO_HIT */
@@ -129,18 +129,18 @@
 /* Slots: four records a slot. Which body it is, is a number below 2^22. */
 #define SLOT_WIDTH 4
 #define SLOT_PLACE 0 /* record: the channels of Linear */
-#define SLOT_TURN 1 /* record */
+#define SLOT_TURN 1  /* record */
 #define TURN_ANGLE 0
 #define TURN_VELOCITY 1
 #define TURN_RADIUS 2
 #define TURN_RESTITUTION 3
-#define SLOT_MASS 2 /* record */
-#define MASS_INVERSE 0         /* 1 / kg; 0 for a static body */
+#define SLOT_MASS 2    /* record */
+#define MASS_INVERSE 0 /* 1 / kg; 0 for a static body */
 #define MASS_INVERSE_INERTIA 1
-#define MASS_FIRST 2           /* GEOMETRY_FIRST, GEOMETRY_COUNT */
+#define MASS_FIRST 2 /* GEOMETRY_FIRST, GEOMETRY_COUNT */
 #define MASS_COUNT 3
 #define SLOT_PUSH 3 /* record */
-#define PUSH_X 0 /* m/s^2: gravity and force; 0 for a static body */
+#define PUSH_X 0    /* m/s^2: gravity and force; 0 for a static body */
 #define PUSH_Y 1
 #define PUSH_TORQUE 2 /* rad/s^2 */
 #define PUSH_BODY 3   /* index of the body */
@@ -153,7 +153,7 @@
 /* Work: four records a number */
 #define WORK_WIDTH 4
 #define WORK_PLACE 0 /* record: as SLOT_PLACE, at WORK_TIME */
-#define WORK_TURN 1 /* record */
+#define WORK_TURN 1  /* record */
 #define WORK_ANGLE 0
 #define WORK_VELOCITY 1
 #define WORK_TIME 2 /* part of the step */
@@ -163,7 +163,7 @@
 #define NEXT_ROW 1  /* bodies: the larger index, the less; or the body and -1 - wall */
 #define NEXT_COLUMN 2
 #define NEXT_PARTNER 3 /* its slot, or -1 - wall; a half farther from 0 if the event is only a pause of the search */
-#define WORK_BOX 3 /* record: AABB's channels, of all the way in this step */
+#define WORK_BOX 3     /* record: AABB's channels, of all the way in this step */
 
 /* So many numbers more than bodies, since a cluster loses one where another claims the body first. */
 #define NUMBERS_SPARE 4096
@@ -174,7 +174,7 @@
 #define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
 #define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
 #define MEMBER_EVENTS 4 /* of the body in this step */
-#define MEMBER_RAPID 5   /* of these, rapid ones */
+#define MEMBER_RAPID 5  /* of these, rapid ones */
 #define MEMBER_SEEN 6   /* events of the partner when NEXT was found */
 #define MEMBER_HITS 8   /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
@@ -203,33 +203,33 @@
 
 /* Status: ints, and some floats in their bits */
 #define STATUS_WIDTH 32
-#define STATUS_STALE 0      /* 1: the lists of neighbours are to be made anew before the next step */
-#define STATUS_SMALL 1      /* 1: Neighbours or Nodes has too little room for them */
-#define STATUS_UNDER_WAY 2  /* 1: a step is, with clusters to do again */
-#define STATUS_COMMIT 3     /* 1: the step is done */
-#define STATUS_LEFT 4       /* 1: a body would leave its reach: the step begins again, with other lists */
-#define STATUS_ROUND 5      /* the last round that has clusters to do; rounds are numbered on and on */
-#define STATUS_ACTIVE 6     /* numbers given */
-#define STATUS_SEEDS 7      /* of these when the round began */
-#define STATUS_HITS 8       /* of the step */
-#define STATUS_HELD 9       /* bodies, of the step */
+#define STATUS_STALE 0       /* 1: the lists of neighbours are to be made anew before the next step */
+#define STATUS_SMALL 1       /* 1: Neighbours or Nodes has too little room for them */
+#define STATUS_UNDER_WAY 2   /* 1: a step is, with clusters to do again */
+#define STATUS_COMMIT 3      /* 1: the step is done */
+#define STATUS_LEFT 4        /* 1: a body would leave its reach: the step begins again, with other lists */
+#define STATUS_ROUND 5       /* the last round that has clusters to do; rounds are numbered on and on */
+#define STATUS_ACTIVE 6      /* numbers given */
+#define STATUS_SEEDS 7       /* of these when the round began */
+#define STATUS_HITS 8        /* of the step */
+#define STATUS_HELD 9        /* bodies, of the step */
 #define STATUS_NEIGHBOURS 10 /* ints wanted in Neighbours */
-#define STATUS_NODES 11     /* nodes wanted */
-#define STATUS_ROOM 12      /* ints there are in Neighbours */
+#define STATUS_NODES 11      /* nodes wanted */
+#define STATUS_ROOM 12       /* ints there are in Neighbours */
 #define STATUS_NODE_ROOM 13
-#define STATUS_LEVELS 14    /* bits: levels that have bodies */
-#define STATUS_PLACED 15    /* slots that have got their place */
-#define STATUS_PACE 16      /* float bits, m: what the slower bodies may go before the lists are stale */
-#define STATUS_CELL 17      /* float bits, m: the side of a cell of level 0 */
-#define STATUS_WINDOW 21    /* float bits, s: how long the lists are to last */
-#define STATUS_BUILDS 18    /* since the host asked: how often lists were made, */
-#define STATUS_STEPS 19     /* steps done, */
-#define STATUS_NUMBERS 24  /* there are for bodies that events change */
-#define STATUS_IDLE 22      /* not begun for want of lists, */
-#define STATUS_AGAIN 23     /* and not done since they needed more rounds */
+#define STATUS_LEVELS 14  /* bits: levels that have bodies */
+#define STATUS_PLACED 15  /* slots that have got their place */
+#define STATUS_PACE 16    /* float bits, m: what the slower bodies may go before the lists are stale */
+#define STATUS_CELL 17    /* float bits, m: the side of a cell of level 0 */
+#define STATUS_WINDOW 21  /* float bits, s: how long the lists are to last */
+#define STATUS_BUILDS 18  /* since the host asked: how often lists were made, */
+#define STATUS_STEPS 19   /* steps done, */
+#define STATUS_NUMBERS 24 /* there are for bodies that events change */
+#define STATUS_IDLE 22    /* not begun for want of lists, */
+#define STATUS_AGAIN 23   /* and not done since they needed more rounds */
 
-/* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before, are elastic once the body had RAPID_MOST of
- * them in the step (the TC model, late).
+/* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
+ * are elastic once the body had RAPID_MOST of them in the step (the TC model, late).
  * Bodies that are pushed together, and meet more slowly than MICRO of what the push makes of their speed in a step, part with that speed
  * (microcollisions). A body that is in more than HOLD_LIMIT events of one step is held until its end. */
 #define RAPID 0.0009765625f
@@ -257,7 +257,7 @@
 #define ORIGIN_LEFT_LOW 1
 #define ORIGIN_TOP 2
 #define ORIGIN_TOP_LOW 3
-#define VIEW_SCALE 1 /* texel */
+#define VIEW_SCALE 1   /* texel */
 #define SCALE_PIXELS 0 /* a metre */
 #define SCALE_LINE 1   /* pixels: the breadth of thin lines */
 #define SCALE_WIDTH 2  /* pixels: of the picture */
@@ -267,7 +267,7 @@
 #define BOX_Y0 1
 #define BOX_X1 2 /* the first pixel outside */
 #define BOX_Y1 3
-#define VIEW_FIRST 3 /* texel */
+#define VIEW_FIRST 3  /* texel */
 #define FIRST_SHAPE 0 /* where this view's shapes and edges begin */
 #define FIRST_EDGE 1
 
@@ -279,12 +279,12 @@
 
 /* Draws: what the host knows of a body to draw; two texels a body, in the order in which they are drawn */
 #define DRAWS_WIDTH 2
-#define DRAW_PARTS 0 /* texel */
+#define DRAW_PARTS 0   /* texel */
 #define PARTS_VERTEX 0 /* the first in Stream and Placed */
 #define PARTS_COUNT 1  /* of vertices */
 #define PARTS_EDGE 2   /* the first: a polygon has `count`, a circle 1 and LINE_EDGES of its radius line */
 #define PARTS_SHAPE 3  /* a polygon has one, a circle two */
-#define DRAW_INK 1 /* texel, the channels of SHAPE_INK */
+#define DRAW_INK 1     /* texel, the channels of SHAPE_INK */
 
 /* Marks: what is drawn below the bodies: boxes of whole pixels, and lines; two texels a mark */
 #define MARKS_WIDTH 2
@@ -297,7 +297,7 @@
 #define SHAPES_WIDTH 3
 #define SHAPE_BOX 0 /* texel: the pixels that it may touch; none: it is not seen, and the rest is not written */
 #define SHAPE_INK 1 /* texel */
-#define INK_FILL 0    /* 0xRRGGBB as a number */
+#define INK_FILL 0  /* 0xRRGGBB as a number */
 #define INK_OUTLINE 1
 #define INK_WIDTH 2   /* pixels, of the outline */
 #define INK_OPACITY 3 /* 0..1 */
@@ -315,7 +315,7 @@
 
 /* Frame: the part of the picture that is drawn at once; two texels in a row */
 #define FRAME_WIDTH 2
-#define FRAME_BOX 0 /* texel */
+#define FRAME_BOX 0   /* texel */
 #define FRAME_TILES 1 /* texel */
 #define TILES_COLUMNS 0
 #define TILES_ROWS 1
@@ -326,8 +326,8 @@
 #define BIN_CHUNK 256 /* shapes that a work-item sorts */
 
 /* How a picture looks */
-#define SEEN 1e15f        /* pixels: squares of what is farther away would not fit in a float */
-#define FARTHEST 1000000  /* pixels: beyond any picture, and far from an int's end */
+#define SEEN 1e15f          /* pixels: squares of what is farther away would not fit in a float */
+#define FARTHEST 1000000    /* pixels: beyond any picture, and far from an int's end */
 #define LEAST_OPACITY 0.15f /* of a dot far smaller than a pixel: it still shows on the ground */
 #define LINE_OPACITY 0.75f  /* at least, of a line however thin: of a body of five pixels or more */
 #define SHOW_ANGLE 4.0f     /* pixels of radius: a circle that is smaller has no room for its radius line */
@@ -335,15 +335,15 @@
 #define DISC_AREA 3.14159265f
 
 /* Numerical rules */
-#define SLOP 9.5367431640625e-7f     /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
-#define APPROACH 9.5367431640625e-7f /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
-#define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
-#define CREEP_MOST 0.000244140625f   /* 2^-12 and 2^-20 of a step: from a contact that does not approach a search goes on for */
-#define CREEP_LEAST 9.5367431640625e-7f /* the time in which the bodies move by no more than the slop, between these two */
+#define SLOP 9.5367431640625e-7f         /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
+#define APPROACH 9.5367431640625e-7f     /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
+#define SEARCH_LIMIT 64                  /* steps of one search for a hit; what is not found by then pauses */
+#define CREEP_MOST 0.000244140625f       /* 2^-12 and 2^-20 of a step: from a contact that does not approach a search goes on for */
+#define CREEP_LEAST 9.5367431640625e-7f  /* the time in which the bodies move by no more than the slop, between these two */
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */
-#define STALL_LIMIT 4096             /* of those in a row, and 16 a body, are a stall */
+#define STALL_LIMIT 4096                 /* of those in a row, and 16 a body, are a stall */
 #define STALL_LIMIT_BODY 16
-#define SINGULAR 0.000244140625f     /* 2^-12: two contacts nearer to one another than this, by the determinant, count as one */
+#define SINGULAR 0.000244140625f /* 2^-12: two contacts nearer to one another than this, by the determinant, count as one */
 
 /* Sine and cosine: pi/2 in three parts, and minimax polynomials on [-pi/4, pi/4] (Cephes) */
 #define LARGEST_TURN 1073741824.0f /* 2^30: a larger number of quarter turns has no fraction left, and counts as 0 */

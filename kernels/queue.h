@@ -17,8 +17,8 @@ disc disc_of_trajectory(RECORD_IN(slots), int s, trajectory k, float length)
 }
 
 /* The first event of a member, by what is known now. */
-void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id,
-	int leader, float length)
+void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
+	float length)
 {
 	int s = active[id], wall, body_index = slot_body(slots, s), seen = 0;
 	trajectory k = work_load(work, id);
@@ -58,8 +58,8 @@ int first_member(LIST_OUT(members), RECORD_OUT(work), int head)
 }
 
 /* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
-int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners),
-	LIST_OUT(parents), int s, int leader, int head)
+int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int s,
+	int leader, int head)
 {
 	int id = atomic_inc(&status[STATUS_ACTIVE]);
 	if (id >= status[STATUS_NUMBERS]) {
@@ -97,9 +97,8 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 		atomic_add(&status[STATUS_HELD], held);
 }
 
-void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need),
-	LIST_OUT(owners), LIST_OUT(parents), int leader, int round,
-	float length)
+void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), LIST_OUT(owners),
+	LIST_OUT(parents), int leader, int round, float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	int head = int_load(members, MEMBER(leader, MEMBER_HEAD));
@@ -143,8 +142,8 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 }
 
 /* Do two changed bodies of different clusters get in each other's way? */
-bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id,
-	int other, int other_id, float length)
+bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id, int other,
+	int other_id, float length)
 {
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
 	bool pause;

@@ -66,8 +66,7 @@ void put_shape(TEX_OUT(shapes), int shape, float4 box, float4 ink, int first, in
 }
 
 /* From `from` along a unit vector, with square ends. */
-void put_line(SHAPES_OUT, int shape, int edge, float2 from, float2 along, float reach, float breadth, float color, float opacity,
-	float4 clip)
+void put_line(SHAPES_OUT, int shape, int edge, float2 from, float2 along, float reach, float breadth, float color, float opacity, float4 clip)
 {
 	float half_breadth = 0.5f * breadth, x = half_breadth * magnitude(along.y), y = half_breadth * magnitude(along.x);
 	float2 to = (float2)(from.x + along.x * reach, from.y + along.y * reach);

@@ -8,8 +8,8 @@
 typedef struct trajectory {
 	float4 place; /* as in Linear */
 	float angle, velocity;
-	float time;   /* part of the step */
-	float held;   /* 1: it does not move until the step ends */
+	float time; /* part of the step */
+	float held; /* 1: it does not move until the step ends */
 } trajectory;
 
 trajectory trajectory_start(RECORD_IN(slots), int s)

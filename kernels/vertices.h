@@ -1,14 +1,13 @@
 /* The vertex shader [3]: what its three options share. */
 
-#define PLACES_IN                                                                                                     \
-	TEX_IN(stream), TEX_IN(linear), TEX_IN(rotational), TEX_IN(transforms), TEX_IN(geometry), TEX_IN(vertices), TEX_IN(view)
+#define PLACES_IN TEX_IN(stream), TEX_IN(linear), TEX_IN(rotational), TEX_IN(transforms), TEX_IN(geometry), TEX_IN(vertices), TEX_IN(view)
 
 /* The vertex of that ordinal of the body whose vertices begin at `first`. */
 float2 local_vertex(TEX_IN(vertices), int first, int ordinal)
 {
 	float4 two = ROW_LOAD(vertices, first + (ordinal >> 1));
 	return (ordinal & 1) ? (float2)(CHANNEL(two, VERTICES_X1), CHANNEL(two, VERTICES_Y1))
-	                     : (float2)(CHANNEL(two, VERTICES_X0), CHANNEL(two, VERTICES_Y0));
+						 : (float2)(CHANNEL(two, VERTICES_X0), CHANNEL(two, VERTICES_Y0));
 }
 
 /* To where the body is, and on to pixels. */

@@ -179,7 +179,8 @@ static carom_status place_polygon(const carom_body_def *def, size_t index, point
 	if (!flaw && !(fabs(area) > 1e-6 * size * size))
 		flaw = "has no area";
 	if (flaw) {
-		snprintf(found, sizeof found, "the polygon %s; it must be convex, with %d to %d vertices in order", flaw, CAROM_MIN_VERTICES, CAROM_MAX_VERTICES);
+		snprintf(found, sizeof found, "the polygon %s; it must be convex, with %d to %d vertices in order", flaw, CAROM_MIN_VERTICES,
+			CAROM_MAX_VERTICES);
 		return fail(error, index, "vertices", found);
 	}
 	/* what rounding to floats left over when a centred polygon was written down is no offset */
@@ -261,6 +262,7 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world *world
 	body->is_static = def->is_static;
 	status = def->shape == CAROM_CIRCLE ? make_circle(def, body) : make_polygon(def, index, body, vertices, error);
 	if (!status && !is_computable(body))
-		status = fail(error, index, "mass", "the mass or moment of inertia is no float to compute with: the body is too small, too large, too light or too heavy");
+		status = fail(error, index, "mass",
+			"the mass or moment of inertia is no float to compute with: the body is too small, too large, too light or too heavy");
 	return status;
 }

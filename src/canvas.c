@@ -18,8 +18,8 @@
 /* ---- Shapes */
 
 /* Places the layer's vertices and makes its shapes, behind those that there are. */
-static carom_status draw_layer(carom_world *world, const carom_picture *picture, const carom_layer *layer, uint32_t *shapes,
-	uint32_t *edges, carom_error *error)
+static carom_status draw_layer(carom_world *world, const carom_picture *picture, const carom_layer *layer, uint32_t *shapes, uint32_t *edges,
+	carom_error *error)
 {
 	const carom_canvas *canvas = &world->canvas;
 	const int32_t marks = (int32_t)layer->mark_count, items = marks + (int32_t)canvas->body_count;
@@ -73,8 +73,7 @@ static carom_status hold_picture(carom_world *world, uint32_t width, uint32_t he
 static carom_status draw_block(carom_world *world, uint32_t shapes, int32_t columns, int32_t rows, carom_error *error)
 {
 	const uint32_t *room = world->canvas.room;
-	const int32_t chunks = carom_parts_of(shapes, BIN_CHUNK), row_room = (int32_t)room[ROLE_ROW_LIST],
-				  tile_room = (int32_t)room[ROLE_TILE_LIST];
+	const int32_t chunks = carom_parts_of(shapes, BIN_CHUNK), row_room = (int32_t)room[ROLE_ROW_LIST], tile_room = (int32_t)room[ROLE_TILE_LIST];
 	if (chunks)
 		TRY(carom_run(world, STAGE_BIN_COUNT, chunks, 1, (int32_t)shapes, 0, error));
 	TRY(carom_run(world, STAGE_BIN_SUM, rows, 1, chunks, 0, error));
@@ -94,8 +93,7 @@ static carom_status check_lists(carom_world *world, int32_t rows, bool *again, c
 	carom_status status;
 	if (!totals)
 		return carom_canvas_no_memory(world, error);
-	status = world->device->kind->download(
-		world->device, world->textures[ROLE_BIN_TOTALS].front, carom_row_count(2 * (uint32_t)rows), totals, error);
+	status = world->device->kind->download(world->device, world->textures[ROLE_BIN_TOTALS].front, carom_row_count(2 * (uint32_t)rows), totals, error);
 	for (int32_t r = 0; r < rows; r++) {
 		in_rows += totals[2 * r];
 		in_tiles += totals[2 * r + 1];
@@ -108,8 +106,7 @@ static carom_status check_lists(carom_world *world, int32_t rows, bool *again, c
 }
 
 /* Draws a block into a picture of its size; again where a list was too short, for nothing is left out. */
-static carom_status draw_pixels(
-	carom_world *world, carom_pixels block, uint32_t ground, uint32_t shapes, uint8_t *pixels, carom_error *error)
+static carom_status draw_pixels(carom_world *world, carom_pixels block, uint32_t ground, uint32_t shapes, uint8_t *pixels, carom_error *error)
 {
 	const uint32_t width = (uint32_t)(block.x1 - block.x0), height = (uint32_t)(block.y1 - block.y0);
 	const int32_t columns = carom_parts_of(width, PIXEL_TILE), rows = carom_parts_of(height, PIXEL_TILE);
@@ -132,11 +129,10 @@ static carom_status draw_pixels(
 }
 
 /* A block that is not as wide as the picture goes through memory of its own. */
-static carom_status draw_part(
-	carom_world *world, const carom_picture *picture, carom_pixels block, uint32_t shapes, uint8_t *pixels, carom_error *error)
+static carom_status draw_part(carom_world *world, const carom_picture *picture, carom_pixels block, uint32_t shapes, uint8_t *pixels,
+	carom_error *error)
 {
-	const size_t pitch = 4 * (size_t)picture->width, row = 4 * (size_t)(block.x1 - block.x0),
-				 rows = (size_t)(block.y1 - block.y0);
+	const size_t pitch = 4 * (size_t)picture->width, row = 4 * (size_t)(block.x1 - block.x0), rows = (size_t)(block.y1 - block.y0);
 	uint8_t *to = pixels + (size_t)block.y0 * pitch + 4 * (size_t)block.x0, *part;
 	carom_status status;
 	if (row == pitch)

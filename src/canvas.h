@@ -46,8 +46,8 @@ carom_status carom_canvas_hold(carom_world *world, carom_role role, uint64_t ite
 carom_status carom_canvas_send_bodies(carom_world *world, carom_error *error);
 /* What a picture needs: where bodies are if the pipeline has that sent, the views and their marks, the block to draw. */
 carom_status carom_canvas_send_transforms(carom_world *world, carom_error *error);
-carom_status carom_canvas_send_view(carom_world *world, const carom_picture *picture, const carom_layer *layer,
-	uint32_t first_shape, uint32_t first_edge, carom_error *error);
+carom_status carom_canvas_send_view(carom_world *world, const carom_picture *picture, const carom_layer *layer, uint32_t first_shape,
+	uint32_t first_edge, carom_error *error);
 carom_status carom_canvas_send_marks(carom_world *world, const carom_layer *layer, carom_error *error);
 carom_status carom_canvas_send_frame(carom_world *world, carom_pixels block, uint32_t ground, carom_error *error);
 

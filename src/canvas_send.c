@@ -29,8 +29,7 @@ carom_status carom_canvas_hold(carom_world *world, carom_role role, uint64_t ite
 	if (items <= world->canvas.room[role] && world->canvas.room[role])
 		return CAROM_OK;
 	if (items > 1u << 30)
-		return carom_fail(
-			error, CAROM_LIMIT, "the picture needs a texture of %llu texels: draw a smaller one", (unsigned long long)items);
+		return carom_fail(error, CAROM_LIMIT, "the picture needs a texture of %llu texels: draw a smaller one", (unsigned long long)items);
 	room = room_for(items);
 	carom_textures_drop(world, role);
 	world->canvas.room[role] = 0;
@@ -185,11 +184,10 @@ static void fill_box(carom_pixels box, float *texel)
 	texel[BOX_Y1] = (float)box.y1;
 }
 
-carom_status carom_canvas_send_view(carom_world *world, const carom_picture *picture, const carom_layer *layer,
-	uint32_t first_shape, uint32_t first_edge, carom_error *error)
+carom_status carom_canvas_send_view(carom_world *world, const carom_picture *picture, const carom_layer *layer, uint32_t first_shape,
+	uint32_t first_edge, carom_error *error)
 {
-	float texels[4 * TILE] = {0}, *origin = texels + 4 * VIEW_ORIGIN, *scale = texels + 4 * VIEW_SCALE,
-					 *first = texels + 4 * VIEW_FIRST;
+	float texels[4 * TILE] = {0}, *origin = texels + 4 * VIEW_ORIGIN, *scale = texels + 4 * VIEW_SCALE, *first = texels + 4 * VIEW_FIRST;
 	origin[ORIGIN_LEFT] = single(layer->left);
 	origin[ORIGIN_LEFT_LOW] = single(layer->left - (double)origin[ORIGIN_LEFT]);
 	origin[ORIGIN_TOP] = single(layer->top);

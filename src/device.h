@@ -13,8 +13,8 @@ typedef struct carom_device carom_device;
 typedef struct carom_texture carom_texture; /* each kind of device has its own */
 
 typedef enum carom_texel_format {
-	TEXELS_FLOAT, /* four floats */
-	TEXELS_BYTE,  /* four bytes */
+	TEXELS_FLOAT,  /* four floats */
+	TEXELS_BYTE,   /* four bytes */
 	TEXELS_LIST,   /* one int; on every device a buffer: to kernels these are lists */
 	TEXELS_RECORD, /* four floats, the same: records. On the CPU the four lie side by side */
 } carom_texel_format;
@@ -34,8 +34,7 @@ typedef struct carom_device_class {
 	bool (*has)(const carom_device *device, carom_stage stage);
 	/* Runs a stage's kernel once over domain[0] x domain[1] work-items, after all that was run before; may return at once.
 	 * `textures` are those of the stage's definition. */
-	carom_status (*run)(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4],
-		carom_error *error);
+	carom_status (*run)(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error);
 	/* Hands all that was run to the device, without waiting. */
 	carom_status (*flush)(carom_device *device, carom_error *error);
 	/* Brings device->times up to date, after waiting. */
@@ -49,17 +48,17 @@ typedef struct carom_device_class {
 struct carom_device {
 	const carom_device_class *kind;
 	carom_device_info info;
-	carom_storage storage; /* what it really uses; BUFFER for the CPU */
+	carom_storage storage;                /* what it really uses; BUFFER for the CPU */
 	carom_kernel_time times[STAGE_COUNT]; /* where the def asked for a profile */
 };
 
 typedef struct carom_device_def {
-	const char *name;       /* auto, cpu, opencl, or part of a name; NULL: CAROM_DEVICE, else auto */
+	const char *name; /* auto, cpu, opencl, or part of a name; NULL: CAROM_DEVICE, else auto */
 	carom_storage storage;
-	uint32_t threads;       /* of the CPU device, 0 for one a core */
+	uint32_t threads;        /* of the CPU device, 0 for one a core */
 	carom_pipeline pipeline; /* resolved */
 	bool profile;
-	bool count_reads;       /* for tests; it takes much time */
+	bool count_reads; /* for tests; it takes much time */
 } carom_device_def;
 
 /* Opens the device of that name: CAROM_UNKNOWN_NAME lists what there is. */

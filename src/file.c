@@ -111,11 +111,9 @@ carom_status carom_file_commit(carom_file *file, carom_error *error)
 		number = errno;
 	file->stream = NULL;
 	if (number) {
-		status = fail_io(
-			error, file->path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
+		status = fail_io(error, file->path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
 	} else if (file->temporary && rename(file->temporary, file->path) != 0) {
-		status =
-			fail_io(error, file->path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
+		status = fail_io(error, file->path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
 	} else {
 		free(file->temporary);
 		file->temporary = NULL;

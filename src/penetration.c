@@ -276,8 +276,7 @@ static void build_grids(crowd *c)
 static void deepen_by_grid(double *deepest, const carom_placed *bodies, const carom_placed *body, const grid *g, uint32_t first)
 {
 	double reach = body->radius * ROUNDING + g->radius;
-	uint32_t left = cell_of(body->x - reach, g->x, g->cell, g->columns),
-			 right = cell_of(body->x + reach, g->x, g->cell, g->columns);
+	uint32_t left = cell_of(body->x - reach, g->x, g->cell, g->columns), right = cell_of(body->x + reach, g->x, g->cell, g->columns);
 	uint32_t low = cell_of(body->y - reach, g->y, g->cell, g->rows), high = cell_of(body->y + reach, g->y, g->cell, g->rows);
 	for (uint32_t row = low; row <= high; row++) {
 		const uint32_t *starts = g->starts + (size_t)row * g->columns;
@@ -305,8 +304,7 @@ static double search(const crowd *c, const carom_world_def *def)
 	return deepest;
 }
 
-carom_status carom_deepest_penetration(
-	carom_placed *bodies, size_t count, const carom_world_def *def, double *deepest, carom_error *error)
+carom_status carom_deepest_penetration(carom_placed *bodies, size_t count, const carom_world_def *def, double *deepest, carom_error *error)
 {
 	crowd c = {.bodies = bodies, .count = count};
 	carom_status status = CAROM_OK;

@@ -27,7 +27,6 @@ uint32_t carom_place_body(carom_placed *at, const carom_body_info *body, const c
 
 /* The deepest overlap of two bodies that are not both static, or of a body that is not static and a wall of the room; 0 if
  * nothing overlaps. Sets the bodies' levels. */
-carom_status carom_deepest_penetration(
-	carom_placed *bodies, size_t count, const carom_world_def *def, double *deepest, carom_error *error);
+carom_status carom_deepest_penetration(carom_placed *bodies, size_t count, const carom_world_def *def, double *deepest, carom_error *error);
 
 #endif

@@ -38,8 +38,7 @@ static bool write_pixels(png_structp png, png_infop info, FILE *stream, const ui
 	if (setjmp(png_jmpbuf(png)))
 		return false;
 	png_init_io(png, stream);
-	png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-		PNG_FILTER_TYPE_DEFAULT);
+	png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
 	/* Flat colours: without filters such a picture is a tenth smaller and written three times as fast. */
 	png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
 	png_set_compression_level(png, COMPRESSION_LEVEL);
@@ -51,8 +50,7 @@ static bool write_pixels(png_structp png, png_infop info, FILE *stream, const ui
 	return true;
 }
 
-static carom_status encode(
-	const char *path, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error)
+static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	struct complaint complaint = {0, ""};
@@ -63,8 +61,8 @@ static carom_status encode(
 	if (!info) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to write a PNG", path);
 	} else if (!write_pixels(png, info, stream, pixels, width, height)) {
-		status = carom_fail(error, CAROM_IO, "%s: can't be written: %s%s%s; free some space or write elsewhere", path,
-			complaint.text, complaint.number ? ": " : "", complaint.number ? strerror(complaint.number) : "");
+		status = carom_fail(error, CAROM_IO, "%s: can't be written: %s%s%s; free some space or write elsewhere", path, complaint.text,
+			complaint.number ? ": " : "", complaint.number ? strerror(complaint.number) : "");
 	}
 	png_destroy_write_struct(&png, &info);
 	return status;
@@ -78,8 +76,7 @@ carom_status carom_png_write(const char *path, const uint8_t *pixels, uint32_t w
 	if (!path || !pixels)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_png_write: no path or no pixels");
 	if (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE) {
-		return carom_fail(
-			error, CAROM_INVALID_ARGUMENT, "carom_png_write: %u x %u pixels; a side has 1 to %u", width, height, MAX_SIDE);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_png_write: %u x %u pixels; a side has 1 to %u", width, height, MAX_SIDE);
 	}
 	status = carom_file_create(path, &file, &stream, error);
 	if (status != CAROM_OK)

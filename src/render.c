@@ -38,33 +38,30 @@ static bool is_finite_point(carom_vec2 v)
 static carom_status check_camera(const carom_camera *camera, carom_error *error)
 {
 	if (!is_finite_point(camera->center))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "camera.center is (%g, %g): both must be finite",
-			(double)camera->center.x, (double)camera->center.y);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "camera.center is (%g, %g): both must be finite", (double)camera->center.x,
+			(double)camera->center.y);
 	if (!(camera->height > 0) || !isfinite(camera->height))
-		return carom_fail(
-			error, CAROM_INVALID_ARGUMENT, "camera.height is %g: it must be above 0 and finite", (double)camera->height);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "camera.height is %g: it must be above 0 and finite", (double)camera->height);
 	return CAROM_OK;
 }
 
 static carom_status check_inset(const carom_inset *inset, carom_error *error)
 {
 	if (!is_finite_point(inset->min))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "inset.min is (%g, %g): both must be finite", (double)inset->min.x,
-			(double)inset->min.y);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "inset.min is (%g, %g): both must be finite", (double)inset->min.x, (double)inset->min.y);
 	if (!(inset->size.x > 0 && inset->size.y > 0) || !is_finite_point(inset->size))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "inset.size is (%g, %g): both must be above 0 and finite",
-			(double)inset->size.x, (double)inset->size.y);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "inset.size is (%g, %g): both must be above 0 and finite", (double)inset->size.x,
+			(double)inset->size.y);
 	return CAROM_OK;
 }
 
-static carom_status check_arguments(
-	const carom_world *world, const carom_render_def *def, const uint8_t *pixels, carom_error *error)
+static carom_status check_arguments(const carom_world *world, const carom_render_def *def, const uint8_t *pixels, carom_error *error)
 {
 	if (!world || !def || !pixels)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "%s is NULL", !world ? "world" : !def ? "def" : "pixels");
 	if (def->width < 1 || def->width > MAX_SIDE || def->height < 1 || def->height > MAX_SIDE)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the picture is %u x %u pixels: both must be 1 to %d",
-			(unsigned)def->width, (unsigned)def->height, MAX_SIDE);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the picture is %u x %u pixels: both must be 1 to %d", (unsigned)def->width,
+			(unsigned)def->height, MAX_SIDE);
 	carom_status status = def->has_camera ? check_camera(&def->camera, error) : CAROM_OK;
 	if (status == CAROM_OK && def->has_inset)
 		status = check_inset(&def->inset, error);
@@ -91,8 +88,8 @@ static int32_t within(int32_t value, int32_t low, int32_t high)
 
 static carom_pixels clipped(carom_pixels box, carom_pixels clip)
 {
-	return (carom_pixels){within(box.x0, clip.x0, clip.x1), within(box.y0, clip.y0, clip.y1), within(box.x1, clip.x0, clip.x1),
-		within(box.y1, clip.y0, clip.y1)};
+	return (carom_pixels){
+		within(box.x0, clip.x0, clip.x1), within(box.y0, clip.y0, clip.y1), within(box.x1, clip.x0, clip.x1), within(box.y1, clip.y0, clip.y1)};
 }
 
 static void draw_box(carom_layer *layer, carom_pixels clip, carom_pixels box, uint32_t color)
@@ -115,9 +112,8 @@ static void draw_frame(carom_layer *layer, carom_pixels clip, carom_pixels box, 
 /* Whole pixels, so that the box is crisp. */
 static carom_pixels box_of(const carom_layer *view, const bounds *b)
 {
-	return (carom_pixels){nearest_pixel((b->min_x - view->left) * view->scale),
-		nearest_pixel((view->top - b->max_y) * view->scale), nearest_pixel((b->max_x - view->left) * view->scale),
-		nearest_pixel((view->top - b->min_y) * view->scale)};
+	return (carom_pixels){nearest_pixel((b->min_x - view->left) * view->scale), nearest_pixel((view->top - b->max_y) * view->scale),
+		nearest_pixel((b->max_x - view->left) * view->scale), nearest_pixel((view->top - b->min_y) * view->scale)};
 }
 
 static bounds room_of(const carom_world_def *def)
@@ -265,8 +261,7 @@ static carom_pixels place_panel(const carom_pixels *picture, const carom_inset *
 static void join_boxes(carom_layer *layer, carom_pixels a, carom_pixels b, double breadth, uint32_t color)
 {
 	for (int corner = 0; corner < 4; corner++) {
-		carom_mark line = {corner & 1 ? a.x1 : a.x0, corner & 2 ? a.y1 : a.y0, corner & 1 ? b.x1 : b.x0, corner & 2 ? b.y1 : b.y0,
-			breadth, color};
+		carom_mark line = {corner & 1 ? a.x1 : a.x0, corner & 2 ? a.y1 : a.y0, corner & 1 ? b.x1 : b.x0, corner & 2 ? b.y1 : b.y0, breadth, color};
 		bool outward_x = corner & 1 ? line.x1 > line.x0 : line.x1 < line.x0;
 		bool outward_y = corner & 2 ? line.y1 > line.y0 : line.y1 < line.y0;
 		if (outward_x != outward_y)
@@ -288,8 +283,8 @@ static void mark_detail(carom_layer *layer, const carom_layer *view, carom_pixel
 
 static void draw_inset(carom_layer *layer, const carom_layer *view, const carom_world_def *def, const carom_inset *inset)
 {
-	bounds b = {(double)inset->min.x, (double)inset->min.y, (double)inset->min.x + (double)inset->size.x,
-		(double)inset->min.y + (double)inset->size.y};
+	bounds b = {
+		(double)inset->min.x, (double)inset->min.y, (double)inset->min.x + (double)inset->size.x, (double)inset->min.y + (double)inset->size.y};
 	carom_pixels detail = box_of(view, &b), panel = place_panel(&view->clip, inset, detail);
 	double height = (b.max_x - b.min_x) * (panel.y1 - panel.y0) / (panel.x1 - panel.x0);
 	look_at(layer, (b.min_x + b.max_x) / 2, (b.min_y + b.max_y) / 2, height, panel, view->line);

@@ -77,8 +77,8 @@ void carom_scene_destroy(carom_scene *scene)
 static const char *outer_key(const carom_scene *scene, unsigned long index, const char *field)
 {
 	static const char *const shapes[] = {"circle.", "polygon.", "regular."};
-	bool of_shape = strncmp(field, "vertices", 8) == 0 || strncmp(field, "vertex_count", 12) == 0 ||
-					strncmp(field, "radius", 6) == 0 || strncmp(field, "sides", 5) == 0;
+	bool of_shape = strncmp(field, "vertices", 8) == 0 || strncmp(field, "vertex_count", 12) == 0 || strncmp(field, "radius", 6) == 0
+		|| strncmp(field, "sides", 5) == 0;
 	if (!of_shape || index >= scene->body_count || (unsigned)scene->bodies[index].shape > CAROM_REGULAR)
 		return "";
 	return shapes[scene->bodies[index].shape];

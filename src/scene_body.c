@@ -71,8 +71,8 @@ static const struct scene_field polygon_fields[] = {
 	SCENE_LAST_FIELD,
 };
 
-static carom_status read_shape(struct scene_reader *reader, const struct scene_place *place, const json_t *value,
-	struct body *body, carom_shape shape, const struct scene_field *fields)
+static carom_status read_shape(struct scene_reader *reader, const struct scene_place *place, const json_t *value, struct body *body,
+	carom_shape shape, const struct scene_field *fields)
 {
 	if (body->shape)
 		return scene_fail(reader, place->outer, "found \"%s\" and \"%s\"; allowed: one shape", body->shape, place->key);

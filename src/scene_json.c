@@ -96,8 +96,7 @@ static carom_status fail_syntax(const struct scene_reader *reader, const char *a
 		text += sizeof too_much - 1;
 	}
 	set_position(&position, reader->text, at);
-	carom_fail(reader->error, CAROM_INVALID_SCENE, "%s:%d:%d: not valid JSON: %s%s", reader->name, position.line, position.column,
-		instead, text);
+	carom_fail(reader->error, CAROM_INVALID_SCENE, "%s:%d:%d: not valid JSON: %s%s", reader->name, position.line, position.column, instead, text);
 	return finish(reader, &position);
 }
 
@@ -126,8 +125,7 @@ static const char *describe(const json_t *value, char *text, size_t size)
 	return text;
 }
 
-carom_status scene_fail_value(
-	const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed)
+carom_status scene_fail_value(const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed)
 {
 	char found[64];
 	return scene_fail(reader, place, "found %s; allowed: %s", describe(value, found, sizeof found), allowed);
@@ -275,8 +273,8 @@ carom_status scene_read_object(struct scene_reader *reader, const struct scene_p
 	return missing ? scene_fail(reader, place, "\"%s\" is missing", missing) : CAROM_OK;
 }
 
-carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-	size_t stride, scene_read_function *read, const struct scene_range *range)
+carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target, size_t stride,
+	scene_read_function *read, const struct scene_range *range)
 {
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < json_array_size(value); k++) {

@@ -34,8 +34,8 @@ struct scene_range {
 };
 
 /* Reads `value` into `target`, or fails and names `place`. */
-typedef carom_status scene_read_function(struct scene_reader *reader, const struct scene_place *place, const json_t *value,
-	void *target, const struct scene_range *range);
+typedef carom_status scene_read_function(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
+	const struct scene_range *range);
 
 /* Text that is read without a tree. */
 struct scene_text {
@@ -52,12 +52,15 @@ struct scene_field {
 	const char *key; /* "*": every key that no row before has */
 	scene_read_function *read;
 	scene_quick_function *quick; /* NULL: always from a tree */
-	size_t offset; /* in what the object is read into */
+	size_t offset;               /* in what the object is read into */
 	const struct scene_range *range;
 	bool required;
 };
 
-#define SCENE_LAST_FIELD {NULL, NULL, NULL, 0, NULL, false}
+#define SCENE_LAST_FIELD                 \
+	{                                    \
+		NULL, NULL, NULL, 0, NULL, false \
+	}
 
 extern const struct scene_range scene_any, scene_positive, scene_part;
 
@@ -71,11 +74,10 @@ scene_read_function scene_read_color;  /* into a uint32_t */
 carom_status scene_read_object(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
 	const struct scene_field *fields);
 /* Element k goes through `read` into `target` + k * stride. */
-carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
-	size_t stride, scene_read_function *read, const struct scene_range *range);
+carom_status scene_read_array(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target, size_t stride,
+	scene_read_function *read, const struct scene_range *range);
 
-scene_quick_function scene_quick_number, scene_quick_whole, scene_quick_pair, scene_quick_flag, scene_quick_string,
-	scene_quick_color;
+scene_quick_function scene_quick_number, scene_quick_whole, scene_quick_pair, scene_quick_flag, scene_quick_string, scene_quick_color;
 
 bool scene_quick_object(struct scene_text *text, void *target, const struct scene_field *fields);
 /* The character after spaces, or nothing. */
@@ -102,10 +104,8 @@ scene_read_function scene_read_body; /* adds it to the scene */
 /* The bodies that were cut out of the text, one by one. */
 carom_status scene_read_bodies(struct scene_reader *reader);
 
-carom_status scene_fail(const struct scene_reader *reader, const struct scene_place *place, const char *format, ...)
-	CAROM_PRINTF(3, 4);
-carom_status scene_fail_value(
-	const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed);
+carom_status scene_fail(const struct scene_reader *reader, const struct scene_place *place, const char *format, ...) CAROM_PRINTF(3, 4);
+carom_status scene_fail_value(const struct scene_reader *reader, const struct scene_place *place, const json_t *value, const char *allowed);
 carom_status scene_fail_memory(const struct scene_reader *reader);
 
 #endif

@@ -28,8 +28,8 @@ static size_t format_by_printf(float number, char *text)
 static uint64_t nine_digits(float number, int *decade)
 {
 	static const double bounds[] = {1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
-	static const uint64_t tens[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000, 10000000000u,
-		100000000000u, 1000000000000u};
+	static const uint64_t tens[] = {
+		1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000, 10000000000u, 100000000000u, 1000000000000u};
 	uint32_t bits;
 	int place = 0;
 	memcpy(&bits, &number, sizeof bits);
@@ -126,8 +126,8 @@ static const char *scan_exponent(const char *at, const char *end, int *exponent)
  * once, is what strtod gives. */
 const char *scene_scan_number(const char *at, const char *end, double *number)
 {
-	static const double tens[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17,
-		1e18, 1e19, 1e20, 1e21, 1e22};
+	static const double tens[] = {
+		1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 	uint64_t digits = 0;
 	int exponent = 0;
 	bool negative = at < end && *at == '-';

@@ -58,8 +58,8 @@ bool scene_quick_whole(struct scene_text *text, void *target, const struct scene
 bool scene_quick_pair(struct scene_text *text, void *target, const struct scene_range *range)
 {
 	carom_vec2 *pair = target;
-	return scene_quick_take(text, '[') && scene_quick_number(text, &pair->x, range) && scene_quick_take(text, ',') &&
-		   scene_quick_number(text, &pair->y, range) && scene_quick_take(text, ']');
+	return scene_quick_take(text, '[') && scene_quick_number(text, &pair->x, range) && scene_quick_take(text, ',')
+		&& scene_quick_number(text, &pair->y, range) && scene_quick_take(text, ']');
 }
 
 bool scene_quick_flag(struct scene_text *text, void *target, const struct scene_range *range)

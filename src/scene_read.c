@@ -9,8 +9,7 @@
 #define FORMAT "carom-scene/1"
 
 static const struct scene_range epsilon = {0x1p-22, 0.5, false, "a number from 2.4e-7 (2^-22) to 0.5"};
-static const struct scene_range iterations = {
-	0, UINT32_MAX, false, "a whole number from 1 to 4294967295, or 0 for all in one pass"};
+static const struct scene_range iterations = {0, UINT32_MAX, false, "a whole number from 1 to 4294967295, or 0 for all in one pass"};
 
 static carom_status read_format(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
 	const struct scene_range *range)
@@ -24,8 +23,8 @@ static carom_status read_format(struct scene_reader *reader, const struct scene_
 }
 
 /* In the head the bodies are cut out, unless "bodies" is written with escapes, which the cut does not look for. */
-static carom_status read_head_bodies(struct scene_reader *reader, const struct scene_place *place, const json_t *value,
-	void *target, const struct scene_range *range)
+static carom_status read_head_bodies(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
+	const struct scene_range *range)
 {
 	if (!scene_is_array(value))
 		return scene_fail_value(reader, place, value, "an array of bodies");

@@ -15,18 +15,18 @@ typedef enum carom_role {
 	ROLE_ROTATIONAL, /* pair */
 	ROLE_GEOMETRY,
 	ROLE_FORCES,
-	ROLE_VERTICES,   /* one texel two vertices */
-	ROLE_UNIFORMS,   /* UNIFORMS_WIDTH x 1 */
-	ROLE_CLOCK,      /* pair, CLOCK_WIDTH x 1 */
-	ROLE_AABB,       /* one texel a body */
-	ROLE_TILES,      /* pair of bytes, N / TILE x N / TILE */
-	ROLE_OVERLAP,    /* pair of bytes, N / OVERLAP_COLUMNS x N */
+	ROLE_VERTICES,       /* one texel two vertices */
+	ROLE_UNIFORMS,       /* UNIFORMS_WIDTH x 1 */
+	ROLE_CLOCK,          /* pair, CLOCK_WIDTH x 1 */
+	ROLE_AABB,           /* one texel a body */
+	ROLE_TILES,          /* pair of bytes, N / TILE x N / TILE */
+	ROLE_OVERLAP,        /* pair of bytes, N / OVERLAP_COLUMNS x N */
 	ROLE_OVERLAP_BEFORE, /* the back of Overlap, to read */
-	ROLE_HIT_TIMES,  /* N x N; a pair where toi takes several passes */
-	ROLE_TILE_HITS,  /* N / TILE x N / TILE */
-	ROLE_WALLS,      /* one texel WALLS_GROUP bodies */
-	ROLE_REDUCED,    /* pair: the level before and the level to make */
-	ROLE_IMPULSE,    /* 1 x 1 */
+	ROLE_HIT_TIMES,      /* N x N; a pair where toi takes several passes */
+	ROLE_TILE_HITS,      /* N / TILE x N / TILE */
+	ROLE_WALLS,          /* one texel WALLS_GROUP bodies */
+	ROLE_REDUCED,        /* pair: the level before and the level to make */
+	ROLE_IMPULSE,        /* 1 x 1 */
 	/* of the step events: records and lists, which a kernel may change in place wherever they stand */
 	ROLE_SLOTS,      /* pair of records, SLOT_WIDTH a slot: a slot is a body, sorted by place */
 	ROLE_NEED,       /* pair of lists, float bits: m, how far from its place a body needs to get */
@@ -74,20 +74,20 @@ typedef enum carom_stage {
 	STAGE_NO_COLLISION, /* (bodies) */
 	STAGE_COLLISION,    /* (bodies) */
 	/* the step events; "share": work-items that share what is active, `round` being the number of the round */
-	STAGE_LOAD,     /* (slots): the state into slots */
-	STAGE_PACE,     /* (1, 1, slots, window in 1/256 of a time step) */
-	STAGE_REACH,    /* (slots, 1, cells a row, rows) */
-	STAGE_CELLS,    /* (rows, 1, cells a row) */
-	STAGE_SORT,     /* (slots) */
-	STAGE_NEAR,     /* (slots, 1, cells a row, rows) */
-	STAGE_GATHER,   /* (slots) */
-	STAGE_SEEK,     /* (slots, 1, round) */
-	STAGE_MUSTER,   /* (share, 1, round) */
-	STAGE_RESOLVE,  /* (share, 1, round) */
-	STAGE_CHECK,    /* (share, 1, round) */
-	STAGE_SETTLE,   /* (1, 1, round) */
-	STAGE_DRIFT,    /* (slots) */
-	STAGE_UNLOAD,   /* (slots): the slots into the state */
+	STAGE_LOAD,    /* (slots): the state into slots */
+	STAGE_PACE,    /* (1, 1, slots, window in 1/256 of a time step) */
+	STAGE_REACH,   /* (slots, 1, cells a row, rows) */
+	STAGE_CELLS,   /* (rows, 1, cells a row) */
+	STAGE_SORT,    /* (slots) */
+	STAGE_NEAR,    /* (slots, 1, cells a row, rows) */
+	STAGE_GATHER,  /* (slots) */
+	STAGE_SEEK,    /* (slots, 1, round) */
+	STAGE_MUSTER,  /* (share, 1, round) */
+	STAGE_RESOLVE, /* (share, 1, round) */
+	STAGE_CHECK,   /* (share, 1, round) */
+	STAGE_SETTLE,  /* (1, 1, round) */
+	STAGE_DRIFT,   /* (slots) */
+	STAGE_UNLOAD,  /* (slots): the slots into the state */
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
 	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */

@@ -7,7 +7,7 @@
 #include "layout.h"
 #include "status.h"
 
-#define MAX_BODIES (1u << 22) /* body indices and counts are exact as floats, and to spare */
+#define MAX_BODIES (1u << 22)   /* body indices and counts are exact as floats, and to spare */
 #define MAX_VERTICES (6u << 22) /* of polygons: with those of circles they take 2^24 texels at most, and so do the indices of these */
 
 void *carom_array_grow(carom_array *array, size_t size)
@@ -265,10 +265,19 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 		return status;
 	body = &carom_world_bodies(world)[index];
 	*info = (carom_body_info){
-		.shape = body->shape, .radius = body->shape == CAROM_POLYGON ? body->bound : body->radius, .vertex_count = body->vertex_count,
+		.shape = body->shape,
+		.radius = body->shape == CAROM_POLYGON ? body->bound : body->radius,
+		.vertex_count = body->vertex_count,
 		.vertices = body->vertex_count > 1 ? (const carom_vec2 *)world->vertices.items + body->vertex_first : NULL,
-		.mass = body->mass, .inertia = body->inertia, .density = body->density, .restitution = body->restitution, .force = body->force,
-		.torque = body->torque, .is_static = body->is_static, .recentred_by = body->recentred_by, .color = body->color,
+		.mass = body->mass,
+		.inertia = body->inertia,
+		.density = body->density,
+		.restitution = body->restitution,
+		.force = body->force,
+		.torque = body->torque,
+		.is_static = body->is_static,
+		.recentred_by = body->recentred_by,
+		.color = body->color,
 		.name = body->name ? (const char *)world->names.items + body->name - 1 : NULL,
 	};
 	return CAROM_OK;

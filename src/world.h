@@ -9,14 +9,14 @@
 /* A body as it is kept: what carom_body_info tells, with offsets instead of pointers. */
 typedef struct carom_body {
 	carom_shape shape;
-	float radius;       /* as given; 0 for a polygon */
-	float bound;        /* of the circle about the centre of mass */
+	float radius;                        /* as given; 0 for a polygon */
+	float bound;                         /* of the circle about the centre of mass */
 	uint32_t vertex_first, vertex_count; /* in world->vertices; count 1 and none there for a circle */
 	float mass, inertia, density, restitution, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color;
 	bool is_static;
-	size_t name;        /* offset + 1 in world->names, 0 for none */
+	size_t name; /* offset + 1 in world->names, 0 for none */
 } carom_body;
 
 /* A growing array of bytes. */
@@ -37,55 +37,55 @@ typedef struct carom_pair {
 
 /* What the step events has on the device, and how it is driven: none of it changes a result. */
 typedef struct carom_events {
-	bool loaded;           /* the slots have the state, or are ahead of the textures */
-	bool ahead;            /* the textures of the state are older than the slots */
+	bool loaded;              /* the slots have the state, or are ahead of the textures */
+	bool ahead;               /* the textures of the state are older than the slots */
 	uint32_t room, node_room; /* ints of Neighbours, nodes of Nodes */
 	uint32_t columns, rows;   /* of cells */
-	uint32_t steps_a_list; /* steps handed over between two makings of the lists */
-	uint32_t rounds;       /* handed over a step */
-	uint32_t since;        /* steps handed over since the last making */
-	uint32_t good;         /* makings since one died before its time */
-	int32_t round;         /* number of the last one handed over */
-	bool in_batch;         /* where one begins: the one before broke off, and left the lists as they were */
-	uint32_t idle;         /* batches in a row that ended no step */
+	uint32_t steps_a_list;    /* steps handed over between two makings of the lists */
+	uint32_t rounds;          /* handed over a step */
+	uint32_t since;           /* steps handed over since the last making */
+	uint32_t good;            /* makings since one died before its time */
+	int32_t round;            /* number of the last one handed over */
+	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */
+	uint32_t idle;            /* batches in a row that ended no step */
 } carom_events;
 
 /* What there is on the device for pictures; all zero while none has been drawn. */
 typedef struct carom_canvas {
-	uint32_t room[ROLE_COUNT]; /* texels or ints that a texture of rendering holds */
-	uint32_t width, height;    /* of Picture */
-	size_t body_count;         /* of the bodies that Stream and Draws are of */
+	uint32_t room[ROLE_COUNT];        /* texels or ints that a texture of rendering holds */
+	uint32_t width, height;           /* of Picture */
+	size_t body_count;                /* of the bodies that Stream and Draws are of */
 	uint32_t vertices, edges, shapes; /* that these have */
 } carom_canvas;
 
 struct carom_world {
-	carom_world_def def;       /* as given, its pipeline too */
-	carom_pipeline pipeline;   /* resolved */
-	char device_name[128];     /* what def.device points to */
+	carom_world_def def;     /* as given, its pipeline too */
+	carom_pipeline pipeline; /* resolved */
+	char device_name[128];   /* what def.device points to */
 	const carom_step *step;
 	carom_device *device;
 
-	carom_array bodies;        /* carom_body */
-	carom_array vertices;      /* carom_vec2 */
+	carom_array bodies;   /* carom_body */
+	carom_array vertices; /* carom_vec2 */
 	carom_array names;
 	carom_array linear, rotational; /* four floats a body */
 	size_t body_count;
-	bool bodies_current;       /* the device's constant textures are those of the bodies */
-	bool device_current;       /* the device has the host's state */
-	bool host_current;         /* the host has the device's state */
+	bool bodies_current; /* the device's constant textures are those of the bodies */
+	bool device_current; /* the device has the host's state */
+	bool host_current;   /* the host has the device's state */
 
-	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
-	uint32_t vertex_capacity;  /* texels of Vertices, likewise */
+	uint32_t capacity;        /* bodies the textures hold, a power of two; 0 while there are none */
+	uint32_t vertex_capacity; /* texels of Vertices, likewise */
 	carom_pair textures[ROLE_COUNT];
 	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
-	bool prepared;             /* the step has its textures, too */
+	bool prepared;                           /* the step has its textures, too */
 	carom_events events;
 	carom_canvas canvas;
-	float stalled;             /* steps in a row that did not get on */
-	double time;               /* s */
-	double target;             /* s: where the clock was set to end; negative for nowhere */
-	float remaining[2];        /* s, until then, as the clock has it: a sum of two */
-	uint64_t batch;            /* steps handed over at once */
+	float stalled;      /* steps in a row that did not get on */
+	double time;        /* s */
+	double target;      /* s: where the clock was set to end; negative for nowhere */
+	float remaining[2]; /* s, until then, as the clock has it: a sum of two */
+	uint64_t batch;     /* steps handed over at once */
 	carom_progress progress;
 	void *progress_context;
 };

@@ -39,8 +39,7 @@ static inline int shell(const char *line)
 {
 	char text[4096];
 	const char *build = getenv("CAROM_BUILD");
-	snprintf(text, sizeof text, "C='%s/carom'; D='%s'; { %s; } >\"$D/out\" 2>\"$D/err\" </dev/null", build ? build : "build",
-		call.folder, line);
+	snprintf(text, sizeof text, "C='%s/carom'; D='%s'; { %s; } >\"$D/out\" 2>\"$D/err\" </dev/null", build ? build : "build", call.folder, line);
 	int status = system(text);
 	read_into("out", call.out, sizeof call.out);
 	read_into("err", call.err, sizeof call.err);

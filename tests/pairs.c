@@ -226,8 +226,7 @@ static void aim(scenery_random *random, const exact_body *a, exact_body *b)
 {
 	const exact_body wish = *b;
 	do {
-		const double t = uniform(random, 0.05, 1.0), way = uniform(random, -3.1415926, 3.1415926),
-					 choice = uniform(random, 0.0, 1.0);
+		const double t = uniform(random, 0.05, 1.0), way = uniform(random, -3.1415926, 3.1415926), choice = uniform(random, 0.0, 1.0);
 		*b = wish;
 		put_touching(a, b, t, way);
 		if (choice < 0.4) {

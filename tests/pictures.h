@@ -98,8 +98,7 @@ static inline size_t mixed_bodies(carom_body_def *bodies)
 	size_t count = 0;
 	for (uint32_t k = 0; k < 21; k++) {
 		float x = -6.6f + 2.2f * (float)(k % 7), y = 4.0f - 1.9f * (float)(k / 7);
-		bodies[count++] =
-			regular(k % 7 == 0 ? 0 : k % 7 + 2, 0.3f + 0.04f * (float)(k % 5) + 0.1f * (float)(k / 7), x, y, 0.3f * (float)k);
+		bodies[count++] = regular(k % 7 == 0 ? 0 : k % 7 + 2, 0.3f + 0.04f * (float)(k % 5) + 0.1f * (float)(k / 7), x, y, 0.3f * (float)k);
 	}
 	bodies[count] = carom_default_body_def();
 	bodies[count].shape = CAROM_POLYGON;

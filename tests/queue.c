@@ -66,8 +66,8 @@ queue *queue_of(carom_world *world)
 	allocate(q, carom_world_body_count(world));
 	for (uint32_t i = 0; i < q->count; i++)
 		take_body(&q->bodies[i], world, i);
-	q->room = (touch_room){def->has_room, {(double)def->room_min.x, (double)def->room_min.y},
-		{(double)def->room_max.x, (double)def->room_max.y}, (double)def->restitution};
+	q->room = (touch_room){def->has_room, {(double)def->room_min.x, (double)def->room_min.y}, {(double)def->room_max.x, (double)def->room_max.y},
+		(double)def->restitution};
 	queue_follow(q, world);
 	return q;
 }
@@ -248,8 +248,8 @@ static double arm(const touch *t, const double *lever)
 
 static double coupling(const touch *t, const party *r, const party *k, int i, int j)
 {
-	return r->inverse_mass + k->inverse_mass + r->inverse_inertia * arm(t, t->reference[i]) * arm(t, t->reference[j]) +
-		k->inverse_inertia * arm(t, t->incident[i]) * arm(t, t->incident[j]);
+	return r->inverse_mass + k->inverse_mass + r->inverse_inertia * arm(t, t->reference[i]) * arm(t, t->reference[j])
+		+ k->inverse_inertia * arm(t, t->incident[i]) * arm(t, t->incident[j]);
 }
 
 typedef struct rules {
@@ -267,7 +267,7 @@ static void solve(const touch *t, const party *r, const party *k, const rules *h
 {
 	const double k00 = coupling(t, r, k, 0, 0), k01 = coupling(t, r, k, 0, 1), k11 = coupling(t, r, k, 1, 1), det = k00 * k11 - k01 * k01;
 	const double gain0 = gain(t->rate[0], how), gain1 = gain(t->rate[1], how);
-	const bool first = t->rate[0] < -how->stillness, second = t->count > 1 && t->rate[1] < -how->stillness;
+	const bool first = -t->rate[0] > how->stillness, second = t->count > 1 && -t->rate[1] > how->stillness;
 	j[0] = j[1] = 0.0;
 	if (first && second && det > (double)SINGULAR * k00 * k11) {
 		j[0] = (gain0 * k11 - gain1 * k01) / det;

@@ -8,12 +8,12 @@
 #include "touch.h"
 
 typedef struct queue_body {
-	exact_body at;     /* between steps in m and s; in a step in parts of it, as it was at `time` */
-	double push[3];    /* m/s^2, m/s^2, rad/s^2 */
+	exact_body at;  /* between steps in m and s; in a step in parts of it, as it was at `time` */
+	double push[3]; /* m/s^2, m/s^2, rad/s^2 */
 	double inverse_mass, inverse_inertia, restitution;
-	double time;       /* part of the step */
-	uint32_t events;   /* of this step, */
-	uint32_t rapid;    /* and of these, which came soon after the one before */
+	double time;     /* part of the step */
+	uint32_t events; /* of this step, */
+	uint32_t rapid;  /* and of these, which came soon after the one before */
 	bool held;
 } queue_body;
 
@@ -27,10 +27,10 @@ typedef struct queue {
 	size_t count;
 	queue_body *bodies;
 	touch_room room;
-	double *next;     /* the hit of row and column; a body's hits with walls come before, from column -4 on */
-	queue_hit *hits;  /* of the last step */
+	double *next;    /* the hit of row and column; a body's hits with walls come before, from column -4 on */
+	queue_hit *hits; /* of the last step */
 	size_t hit_count, hit_room;
-	size_t held;      /* bodies that were, in the last step */
+	size_t held;               /* bodies that were, in the last step */
 	scenery_random *shaken_by; /* NULL: nobody; else each event shakes its bodies by `rounding` */
 	double rounding;
 	double skin; /* part of CONTRACT's slop: what is nearer touches; 0 unless it is changed */

@@ -76,7 +76,8 @@ void scenery_bodies(scenery_random *random, scenery_shapes shapes, size_t count,
 	for (size_t i = 0; i < count; i++) {
 		carom_body_def def = body_of(random, shapes);
 		float x = (float)(i % side) - 0.5f * (float)(side - 1), y = (float)(i / side) - 0.5f * (float)(side - 1);
-		def.position = (carom_vec2){x * pitch + scenery_uniform(random, -0.1f, 0.1f) * pitch, y * pitch + scenery_uniform(random, -0.1f, 0.1f) * pitch};
+		def.position = (carom_vec2){
+			x * pitch + scenery_uniform(random, -0.1f, 0.1f) * pitch, y * pitch + scenery_uniform(random, -0.1f, 0.1f) * pitch};
 		def.angle = scenery_uniform(random, -3.0f, 3.0f);
 		def.is_static = scenery_uniform(random, 0.0f, 1.0f) < 0.1f;
 		if (!def.is_static) {

@@ -28,8 +28,7 @@ carom_world_def scenery_first_impact(void);
 carom_world *scenery_world(const carom_world_def *def, const scenery_device *device);
 
 /* A world of its own for each device: `body` is run once on each. */
-#define SCENERY_EACH_DEVICE(device) \
-	for (const scenery_device *device = scenery_devices; device < scenery_devices + scenery_device_count; device++)
+#define SCENERY_EACH_DEVICE(device) for (const scenery_device *device = scenery_devices; device < scenery_devices + scenery_device_count; device++)
 
 /* Fails the test with the library's words. */
 void scenery_check(carom_status status, const carom_error *error);

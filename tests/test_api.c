@@ -11,8 +11,7 @@
 static void assert_fails(carom_status status, const carom_error *error, carom_status expected, const char *said)
 {
 	if (status != expected || error->status != expected || strncmp(error->text, said, strlen(said)) != 0)
-		fail_msg(
-			"expected %s: \"%s ...\", got %s: \"%s\"", carom_status_name(expected), said, carom_status_name(status), error->text);
+		fail_msg("expected %s: \"%s ...\", got %s: \"%s\"", carom_status_name(expected), said, carom_status_name(status), error->text);
 }
 
 /* ---- Statuses, versions, NULL */
@@ -20,7 +19,7 @@ static void assert_fails(carom_status status, const carom_error *error, carom_st
 static void statuses_have_names(void **unused)
 {
 	(void)unused;
-#define CHECK_NAME(name, sentence) \
+#define CHECK_NAME(name, sentence)                                        \
 	assert_string_equal(carom_status_name(CAROM_##name), "CAROM_" #name); \
 	assert_string_equal(carom_status_text(CAROM_##name), sentence);
 	CAROM_STATUS_LIST(CHECK_NAME)
@@ -91,14 +90,14 @@ static void assert_refused(const carom_world_def *def, carom_status expected, co
 	assert_ptr_equal(world, (carom_world *)&world);
 }
 
-#define REFUSE(said, field, value) \
-	do { \
-		carom_world_def bad = carom_default_world_def(); \
-		bad.device = "cpu"; \
-		bad.has_room = true; \
-		bad.room_min = (carom_vec2){-1.0f, -2.0f}; \
-		bad.room_max = (carom_vec2){1.0f, 2.0f}; \
-		bad.field = (value); \
+#define REFUSE(said, field, value)                          \
+	do {                                                    \
+		carom_world_def bad = carom_default_world_def();    \
+		bad.device = "cpu";                                 \
+		bad.has_room = true;                                \
+		bad.room_min = (carom_vec2){-1.0f, -2.0f};          \
+		bad.room_max = (carom_vec2){1.0f, 2.0f};            \
+		bad.field = (value);                                \
 		assert_refused(&bad, CAROM_INVALID_ARGUMENT, said); \
 	} while (0)
 
@@ -165,25 +164,20 @@ static void unknown_names_list_the_known(void **unused)
 	carom_pipeline pipeline = {0};
 	carom_world_def def = carom_default_world_def();
 	carom_error error = {0};
-	assert_fails(
-		carom_pipeline_set(&pipeline, "toy", "separating", &error), &error, CAROM_UNKNOWN_NAME, "there is no slot 'toy'");
+	assert_fails(carom_pipeline_set(&pipeline, "toy", "separating", &error), &error, CAROM_UNKNOWN_NAME, "there is no slot 'toy'");
 	assert_non_null(strstr(error.text, "step, aabb, overlap, inside, toi, walls, reduce, impulse"));
-	assert_fails(
-		carom_pipeline_set(&pipeline, "forward", "collision", &error), &error, CAROM_UNKNOWN_NAME, "there is no slot 'forward'");
-	assert_fails(carom_pipeline_set(&pipeline, "toi", "guess", &error), &error, CAROM_UNKNOWN_NAME,
-		"the slot 'toi' has no alternative 'guess'");
+	assert_fails(carom_pipeline_set(&pipeline, "forward", "collision", &error), &error, CAROM_UNKNOWN_NAME, "there is no slot 'forward'");
+	assert_fails(carom_pipeline_set(&pipeline, "toi", "guess", &error), &error, CAROM_UNKNOWN_NAME, "the slot 'toi' has no alternative 'guess'");
 	assert_non_null(strstr(error.text, "bisection, circle_quadratic, separating"));
 	assert_null(pipeline.toi);
-	assert_fails(
-		carom_pipeline_set(&pipeline, "step", "", &error), &error, CAROM_UNKNOWN_NAME, "the slot 'step' has no alternative ''");
+	assert_fails(carom_pipeline_set(&pipeline, "step", "", &error), &error, CAROM_UNKNOWN_NAME, "the slot 'step' has no alternative ''");
 	assert_non_null(strstr(error.text, "first_impact"));
 	assert_string_equal(carom_pipeline_get(&pipeline, "toi"), "circle_quadratic");
 	assert_int_equal(carom_pipeline_set(&pipeline, "toi", "separating", NULL), CAROM_OK);
 	assert_string_equal(carom_pipeline_get(&pipeline, "toi"), "separating");
 	assert_null(carom_pipeline_get(&pipeline, "toy"));
 	def.pipeline.reduce = "seven";
-	assert_refused(
-		&def, CAROM_UNKNOWN_NAME, "the slot 'reduce' has no alternative 'seven'; it has classic, four_six, six, tiled");
+	assert_refused(&def, CAROM_UNKNOWN_NAME, "the slot 'reduce' has no alternative 'seven'; it has classic, four_six, six, tiled");
 }
 
 /* Every slot's alternatives, one of them the default; each may be chosen where there is a choice, and is then used. */
@@ -260,8 +254,7 @@ static void devices_by_name(void **unused)
 	size_t count = 0;
 	scenery_check(carom_device_list_create(&list, &count, NULL), NULL);
 	def.device = "abacus";
-	assert_refused(
-		&def, CAROM_UNKNOWN_NAME, "there is no device 'abacus'; use auto, cpu, opencl or part of one of these names: '");
+	assert_refused(&def, CAROM_UNKNOWN_NAME, "there is no device 'abacus'; use auto, cpu, opencl or part of one of these names: '");
 	assert_true(opens_cpu("cpu") && opens_cpu("CPU") && opens_cpu("caRoM"));
 	assert_true(opens_cpu("auto") == !list[0].works || !list[0].is_opencl);
 	assert_true(opens_cpu("") == opens_cpu("auto"));
@@ -307,18 +300,9 @@ static void without_opencl_the_cpu_works(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(statuses_have_names),
-		cmocka_unit_test(version_is_the_headers),
-		cmocka_unit_test(null_is_released),
-		cmocka_unit_test(errors_are_optional),
-		cmocka_unit_test(definitions_out_of_range),
-		cmocka_unit_test(definitions_in_range),
-		cmocka_unit_test(unknown_names_list_the_known),
-		cmocka_unit_test(stages_are_listed),
-		cmocka_unit_test(devices_are_listed),
-		cmocka_unit_test(devices_by_name),
-		cmocka_unit_test(without_opencl_the_cpu_works),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(statuses_have_names), cmocka_unit_test(version_is_the_headers),
+		cmocka_unit_test(null_is_released), cmocka_unit_test(errors_are_optional), cmocka_unit_test(definitions_out_of_range),
+		cmocka_unit_test(definitions_in_range), cmocka_unit_test(unknown_names_list_the_known), cmocka_unit_test(stages_are_listed),
+		cmocka_unit_test(devices_are_listed), cmocka_unit_test(devices_by_name), cmocka_unit_test(without_opencl_the_cpu_works)};
 	return cmocka_run_group_tests_name("api", tests, make_folder, remove_folder);
 }

@@ -151,12 +151,11 @@ static void all_tables_are_measured(void **state)
 	static const struct {
 		const char *table, *title;
 		size_t figures;
-	} tables[] = {{"table1", "Table 1: ", 2}, {"table2", "Table 2: ", 4}, {"table3", "Table 3: ", 12}, {"table4", "Table 4: ", 8},
-		{"table5", "Table 5: ", 10}};
+	} tables[] = {
+		{"table1", "Table 1: ", 2}, {"table2", "Table 2: ", 4}, {"table3", "Table 3: ", 12}, {"table4", "Table 4: ", 8}, {"table5", "Table 5: ", 10}};
 	char line[256], name[32];
 	bool charts = has_charts();
-	snprintf(
-		line, sizeof line, "$C bench all --device cpu --sizes 12 " FAST " --csv $D/t.csv %s", charts ? "--plot $D/p.q.png" : "");
+	snprintf(line, sizeof line, "$C bench all --device cpu --sizes 12 " FAST " --csv $D/t.csv %s", charts ? "--plot $D/p.q.png" : "");
 	check(line, 0, NULL);
 	assert_string_equal(call.err, "");
 	read_csv("t.csv");
@@ -377,16 +376,9 @@ static void files_that_cannot_be_written_fail(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(all_tables_are_measured),
-		cmocka_unit_test(opencl_has_its_columns),
-		cmocka_unit_test(scale_is_measured),
-		cmocka_unit_test(scale_has_a_chart),
-		cmocka_unit_test(scale_goes_on_without_what_does_not_fit),
-		cmocka_unit_test(the_papers_figures_stand_beside_its_sizes),
-		cmocka_unit_test(launches_and_settings_are_told),
-		cmocka_unit_test(wrong_calls_exit_with_2),
-		cmocka_unit_test(files_that_cannot_be_written_fail),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(all_tables_are_measured), cmocka_unit_test(opencl_has_its_columns),
+		cmocka_unit_test(scale_is_measured), cmocka_unit_test(scale_has_a_chart), cmocka_unit_test(scale_goes_on_without_what_does_not_fit),
+		cmocka_unit_test(the_papers_figures_stand_beside_its_sizes), cmocka_unit_test(launches_and_settings_are_told),
+		cmocka_unit_test(wrong_calls_exit_with_2), cmocka_unit_test(files_that_cannot_be_written_fail)};
 	return cmocka_run_group_tests_name("bench", tests, make_folder, remove_folder);
 }

@@ -34,8 +34,7 @@ static void assert_second(carom_world *world)
 	scenery_check(carom_world_add(world, &def, 1, &first, &error), &error);
 	assert_int_equal(first, 1);
 	scenery_check(carom_world_get_states(world, 1, 1, &state, &error), &error);
-	assert_true(
-		state.position.x == 7.0f && state.position.y == 8.0f && state.velocity.y == 10.0f && state.angular_velocity == 11.0f);
+	assert_true(state.position.x == 7.0f && state.position.y == 8.0f && state.velocity.y == 10.0f && state.angular_velocity == 11.0f);
 	scenery_check(carom_world_get_body(world, 1, &info, &error), &error);
 	assert_int_equal(info.vertex_count, 3);
 	assert_memory_equal(info.vertices, corners, sizeof corners);
@@ -62,11 +61,11 @@ static void assert_refused(carom_body_def bad, const char *said)
 	carom_world_destroy(world);
 }
 
-#define REFUSE(said, field, value) \
-	do { \
+#define REFUSE(said, field, value)                                         \
+	do {                                                                   \
 		carom_body_def bad = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f); \
-		bad.field = (value); \
-		assert_refused(bad, "bodies[1]." said); \
+		bad.field = (value);                                               \
+		assert_refused(bad, "bodies[1]." said);                            \
 	} while (0)
 
 static void numbers_out_of_range(void **unused)
@@ -108,14 +107,13 @@ static void static_bodies_stand_still(void **unused)
 	for (int i = 0; i < 6; i++) {
 		carom_body_def bad = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
 		bad.is_static = true;
-		*(i == 0     ? &bad.velocity.x
-			: i == 1 ? &bad.velocity.y
-			: i == 2 ? &bad.angular_velocity
-			: i == 3 ? &bad.force.x
-			: i == 4 ? &bad.force.y
-					 : &bad.torque) = 0.5f;
-		assert_refused(
-			bad, i < 3 ? "bodies[1].velocity: a static body does not move" : "bodies[1].force: a static body feels no force");
+		*(i == 0         ? &bad.velocity.x
+				: i == 1 ? &bad.velocity.y
+				: i == 2 ? &bad.angular_velocity
+				: i == 3 ? &bad.force.x
+				: i == 4 ? &bad.force.y
+						 : &bad.torque) = 0.5f;
+		assert_refused(bad, i < 3 ? "bodies[1].velocity: a static body does not move" : "bodies[1].force: a static body feels no force");
 	}
 }
 
@@ -338,17 +336,9 @@ static void the_rest_is_kept(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(numbers_out_of_range),
-		cmocka_unit_test(static_bodies_stand_still),
-		cmocka_unit_test(masses_have_reciprocals),
-		cmocka_unit_test(shapes_out_of_range),
-		cmocka_unit_test(polygons_that_are_none),
-		cmocka_unit_test(either_way_round),
-		cmocka_unit_test(centre_of_mass_is_the_origin),
-		cmocka_unit_test(regular_polygons),
-		cmocka_unit_test(discs_and_given_masses),
-		cmocka_unit_test(the_rest_is_kept),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_out_of_range), cmocka_unit_test(static_bodies_stand_still),
+		cmocka_unit_test(masses_have_reciprocals), cmocka_unit_test(shapes_out_of_range), cmocka_unit_test(polygons_that_are_none),
+		cmocka_unit_test(either_way_round), cmocka_unit_test(centre_of_mass_is_the_origin), cmocka_unit_test(regular_polygons),
+		cmocka_unit_test(discs_and_given_masses), cmocka_unit_test(the_rest_is_kept)};
 	return cmocka_run_group_tests_name("bodies", tests, NULL, NULL);
 }

@@ -8,9 +8,9 @@ static void help_is_complete(void **state)
 {
 	(void)state;
 	static const char *const names[] = {"run", "generate", "devices", "stages"};
-	static const char *const run_options[] = {"--steps N", "--time SECONDS", "--out STATE.json", "--png FRAME.png",
-		"--frames DIR", "--fps F", "--stats FILE.csv", "--hash", "--size WxH", "--inset X,Y,W,H", "--device NAME",
-		"--storage KIND", "--set SLOT=NAME", "--quiet", "--help", "--version"};
+	static const char *const run_options[] = {"--steps N", "--time SECONDS", "--out STATE.json", "--png FRAME.png", "--frames DIR", "--fps F",
+		"--stats FILE.csv", "--hash", "--size WxH", "--inset X,Y,W,H", "--device NAME", "--storage KIND", "--set SLOT=NAME", "--quiet", "--help",
+		"--version"};
 	char line[64];
 	check("$C --help", 0, "");
 	assert_string_equal(call.err, "");
@@ -139,8 +139,7 @@ static void check_outputs(const char *device)
 	snprintf(line, sizeof line, "$C run scenes/mixed.json --steps 40 --hash --device %s", device);
 	check(line, 0, NULL);
 	assert_string_equal(call.out, hash);
-	snprintf(line, sizeof line,
-		"$C run scenes/mixed.json --steps 40 --frames $D/frames --fps 500 --size 64x36 --hash --device %s", device);
+	snprintf(line, sizeof line, "$C run scenes/mixed.json --steps 40 --frames $D/frames --fps 500 --size 64x36 --hash --device %s", device);
 	check(line, 0, "frames into");
 	assert_string_equal(call.out, hash);
 	snprintf(line, sizeof line,
@@ -170,11 +169,9 @@ static void outputs_are_written_on_opencl(void **state)
 static void frames_are_at_equal_times(void **state)
 {
 	(void)state;
-	check("$C run scenes/billiard_break.json --time 0.1 --frames $D/frames --fps 50 --size 64x32 --device cpu", 0,
-		"wrote 6 frames");
+	check("$C run scenes/billiard_break.json --time 0.1 --frames $D/frames --fps 50 --size 64x32 --device cpu", 0, "wrote 6 frames");
 	check("ls $D/frames", 0, "");
-	assert_string_equal(
-		call.out, "frame_000000.png\nframe_000001.png\nframe_000002.png\nframe_000003.png\nframe_000004.png\nframe_000005.png\n");
+	assert_string_equal(call.out, "frame_000000.png\nframe_000001.png\nframe_000002.png\nframe_000003.png\nframe_000004.png\nframe_000005.png\n");
 	check("rm -r $D/frames", 0, "");
 }
 
@@ -196,8 +193,7 @@ static void failures_exit_with_1_and_keep_the_old(void **state)
 {
 	(void)state;
 	check("echo old >$D/old", 0, "");
-	check("$C run scenes/mixed.json --steps 1 --device cpu --out $D/old --png $D/no/p.png", 1,
-		"no/p.png: can't be written: No such file");
+	check("$C run scenes/mixed.json --steps 1 --device cpu --out $D/old --png $D/no/p.png", 1, "no/p.png: can't be written: No such file");
 	check("$C run scenes/mixed.json --time 1e9 --device cpu --out $D", 1, "can't be written: Is a directory");
 	check("$C run scenes/mixed.json --steps 1 --device cpu --frames $D/old", 1, "can't be made a folder");
 	check("cat $D/old", 0, "");
@@ -230,17 +226,10 @@ static void an_interruption_writes_what_there_is(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(help_is_complete),
-		cmocka_unit_test(version_is_the_librarys),
-		cmocka_unit_test(wrong_calls_exit_with_2),
-		cmocka_unit_test(devices_and_stages_are_listed),
-		cmocka_unit_test(outputs_are_written_on_the_cpu),
-		cmocka_unit_test(outputs_are_written_on_opencl),
-		cmocka_unit_test(frames_are_at_equal_times),
-		cmocka_unit_test(a_scene_may_come_through_a_pipe),
-		cmocka_unit_test(failures_exit_with_1_and_keep_the_old),
-		cmocka_unit_test(an_interruption_writes_what_there_is),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(help_is_complete), cmocka_unit_test(version_is_the_librarys),
+		cmocka_unit_test(wrong_calls_exit_with_2), cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
+		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times),
+		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(failures_exit_with_1_and_keep_the_old),
+		cmocka_unit_test(an_interruption_writes_what_there_is)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);
 }

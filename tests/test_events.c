@@ -234,12 +234,8 @@ static void advancing_in_pieces_changes_no_bit(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(runs_as_foretold),
-		cmocka_unit_test(each_step_is_as_foretold),
-		cmocka_unit_test(devices_and_calls_change_no_bit),
-		cmocka_unit_test(threads_change_no_bit),
-		cmocka_unit_test(advancing_in_pieces_changes_no_bit),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(runs_as_foretold), cmocka_unit_test(each_step_is_as_foretold),
+		cmocka_unit_test(devices_and_calls_change_no_bit), cmocka_unit_test(threads_change_no_bit),
+		cmocka_unit_test(advancing_in_pieces_changes_no_bit)};
 	return cmocka_run_group_tests_name("events", tests, NULL, NULL);
 }

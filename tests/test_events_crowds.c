@@ -10,8 +10,9 @@ static void fill(scenery_random *random, scenery_shapes shapes, int side, float 
 {
 	const float pitch = shapes == SCENERY_CIRCLES ? 2.8f * radius : 2.1f * radius; /* pi / 2.8^2 = 0.40, 1.3 / 2.1^2 = 0.29 */
 	for (int i = 0; i < side * side; i++) {
-		carom_body_def def = scenery_circle(pitch * ((float)(i % side) - 0.5f * (float)(side - 1)), pitch * ((float)(i / side) - 0.5f * (float)(side - 1)),
-			scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed), radius);
+		carom_body_def def = scenery_circle(pitch * ((float)(i % side) - 0.5f * (float)(side - 1)),
+			pitch * ((float)(i / side) - 0.5f * (float)(side - 1)), scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed),
+			radius);
 		if (shapes == SCENERY_POLYGONS || (shapes == SCENERY_MIXED && i % 2)) {
 			def.shape = CAROM_REGULAR;
 			def.sides = shapes == SCENERY_POLYGONS ? 3 : 3 + (uint32_t)(i / 2) % 4;
@@ -181,11 +182,7 @@ static void changed_worlds_are_as_new_ones(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(crowds_keep_energy_and_momentum),
-		cmocka_unit_test(twenty_thousand_circles),
-		cmocka_unit_test(little_or_nothing_in_a_room),
-		cmocka_unit_test(changed_worlds_are_as_new_ones),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(crowds_keep_energy_and_momentum), cmocka_unit_test(twenty_thousand_circles),
+		cmocka_unit_test(little_or_nothing_in_a_room), cmocka_unit_test(changed_worlds_are_as_new_ones)};
 	return cmocka_run_group_tests_name("events_crowds", tests, NULL, NULL);
 }

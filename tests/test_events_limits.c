@@ -58,8 +58,8 @@ static void fast_body_between_walls(void **unused)
 	for (int shape = 0; shape < 2; shape++) {
 		carom_world_def def = runs_def();
 		const carom_body_def body = shape ? scenery_box(0.0f, 0.0f, 1000.0f, 0.0f, 0.1f, 0.1f) : scenery_circle(0.0f, 0.0f, 1000.0f, 0.0f, 0.05f);
-		const carom_body_def bodies[3] = {body, fixed(scenery_box(1.0005f, 0.0f, 0.0f, 0.0f, 0.001f, 2.0f)),
-			fixed(scenery_box(-1.0005f, 0.0f, 0.0f, 0.0f, 0.001f, 2.0f))};
+		const carom_body_def bodies[3] = {
+			body, fixed(scenery_box(1.0005f, 0.0f, 0.0f, 0.0f, 0.001f, 2.0f)), fixed(scenery_box(-1.0005f, 0.0f, 0.0f, 0.0f, 0.001f, 2.0f))};
 		const double way = 1000.0 * (double)cases[shape].seconds - 0.95 - 1.9 * (double)(cases[shape].hits - 1);
 		def.time_step = cases[shape].seconds;
 		SCENERY_EACH_DEVICE(device) {
@@ -128,8 +128,8 @@ static void galperin_counts_pi(void **unused)
 	} cases[] = {{1.0f, 3}, {100.0f, 31}, {10000.0f, 314}};
 	for (size_t i = 0; i < 6; i++) {
 		carom_world_def def = runs_def();
-		const carom_body_def bodies[3] = {fixed(scenery_box(-1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 2.0f)), weighing(scenery_circle(0.5f, 0.0f, 0.0f, 0.0f, 0.1f), 1.0f),
-			weighing(scenery_circle(1.5f, 0.0f, -4.0f, 0.0f, 0.2f), cases[i % 3].mass)};
+		const carom_body_def bodies[3] = {fixed(scenery_box(-1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 2.0f)),
+			weighing(scenery_circle(0.5f, 0.0f, 0.0f, 0.0f, 0.1f), 1.0f), weighing(scenery_circle(1.5f, 0.0f, -4.0f, 0.0f, 0.2f), cases[i % 3].mass)};
 		def.time_step = i < 3 ? 4.0f : 0.03f;
 		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = runs_world(&def, device, bodies, 3);
@@ -191,7 +191,8 @@ static void sizes_from_one_to_a_thousand(void **unused)
 	uint64_t first = 0;
 	for (int i = 0; i < SMALL; i++) {
 		const float angle = 6.2831853f * (float)i / SMALL, far = scenery_uniform(&random, 10.1f, 11.0f), speed = 15.0f;
-		bodies[i] = scenery_circle(far * cosf(angle), far * sinf(angle), scenery_uniform(&random, -speed, speed), scenery_uniform(&random, -speed, speed), 0.01f);
+		bodies[i] = scenery_circle(far * cosf(angle), far * sinf(angle), scenery_uniform(&random, -speed, speed),
+			scenery_uniform(&random, -speed, speed), 0.01f);
 	}
 	bodies[SMALL] = scenery_circle(0.0f, 0.0f, 2.0f, 1.0f, 10.0f);
 	bodies[SMALL + 1] = fixed(scenery_circle(0.0f, -29.0f, 0.0f, 0.0f, 15.0f));
@@ -282,15 +283,8 @@ static void bodies_on_top_of_one_another(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(fast_bodies_hit),
-		cmocka_unit_test(fast_body_between_walls),
-		cmocka_unit_test(spinning_bars),
-		cmocka_unit_test(galperin_counts_pi),
-		cmocka_unit_test(newtons_cradle),
-		cmocka_unit_test(sizes_from_one_to_a_thousand),
-		cmocka_unit_test(bodies_fly_apart),
-		cmocka_unit_test(bodies_on_top_of_one_another),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(fast_bodies_hit), cmocka_unit_test(fast_body_between_walls), cmocka_unit_test(spinning_bars),
+		cmocka_unit_test(galperin_counts_pi), cmocka_unit_test(newtons_cradle), cmocka_unit_test(sizes_from_one_to_a_thousand),
+		cmocka_unit_test(bodies_fly_apart), cmocka_unit_test(bodies_on_top_of_one_another)};
 	return cmocka_run_group_tests_name("events_limits", tests, NULL, NULL);
 }

@@ -125,7 +125,8 @@ static void row_collapses(void **unused)
 				continue;
 			const carom_measure before = runs_measure(world);
 			const carom_report sum = run_down(world, runs_affordable(120), 50.0);
-			print_message("restitution %g: %llu hits, held %llu times\n", (double)restitutions[i], (unsigned long long)sum.hits, (unsigned long long)sum.held);
+			print_message("restitution %g: %llu hits, held %llu times\n", (double)restitutions[i], (unsigned long long)sum.hits,
+				(unsigned long long)sum.held);
 			runs_near(runs_measure(world).momentum_x / before.momentum_x, 1.0, 1e-5);
 			for (uint32_t k = 1; k < COUNT; k++)
 				assert_true(runs_state(world, k).position.x > runs_state(world, k - 1).position.x + 0.99f);
@@ -180,10 +181,6 @@ static void small_heap(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(bodies_come_to_rest),
-		cmocka_unit_test(squeezed_ball),
-		cmocka_unit_test(row_collapses),
-		cmocka_unit_test(small_heap),
-	};
+		cmocka_unit_test(bodies_come_to_rest), cmocka_unit_test(squeezed_ball), cmocka_unit_test(row_collapses), cmocka_unit_test(small_heap)};
 	return cmocka_run_group_tests_name("events_rest", tests, NULL, NULL);
 }

@@ -208,14 +208,8 @@ static int remove_folder(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(a_file_appears_when_it_is_whole),
-		cmocka_unit_test(a_file_given_up_leaves_the_old_one),
-		cmocka_unit_test(links_and_permissions_stay),
-		cmocka_unit_test(what_cannot_be_written_is_named),
-		cmocka_unit_test(a_full_disk_is_an_error),
-		cmocka_unit_test(pixels_read_back),
-		cmocka_unit_test(bad_pictures_are_refused),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(a_file_appears_when_it_is_whole), cmocka_unit_test(a_file_given_up_leaves_the_old_one),
+		cmocka_unit_test(links_and_permissions_stay), cmocka_unit_test(what_cannot_be_written_is_named), cmocka_unit_test(a_full_disk_is_an_error),
+		cmocka_unit_test(pixels_read_back), cmocka_unit_test(bad_pictures_are_refused)};
 	return cmocka_run_group_tests_name("file", tests, make_folder, remove_folder);
 }

@@ -20,8 +20,7 @@ static carom_scene *generate(const char *options)
 static void the_same_call_gives_the_same_bytes(void **state)
 {
 	(void)state;
-	check("$C generate --shape mixed --count 500 >$D/a && $C generate --shape mixed --count 500 --seed 1 >$D/b && cmp $D/a $D/b",
-		0, NULL);
+	check("$C generate --shape mixed --count 500 >$D/a && $C generate --shape mixed --count 500 --seed 1 >$D/b && cmp $D/a $D/b", 0, NULL);
 	check("$C generate --shape mixed --count 500 --seed 2 >$D/b; ! cmp -s $D/a $D/b", 0, NULL);
 }
 
@@ -121,8 +120,7 @@ static void speeds_are_uniform(void **state)
 	carom_scene_destroy(scene);
 	scene = generate("--shape circle --count 10 --speed 0");
 	for (size_t k = 0; k < scene->body_count; k++)
-		assert_true(
-			scene->bodies[k].angular_velocity == 0 && scene->bodies[k].velocity.x == 0 && !signbit(scene->bodies[k].velocity.x));
+		assert_true(scene->bodies[k].angular_velocity == 0 && scene->bodies[k].velocity.x == 0 && !signbit(scene->bodies[k].velocity.x));
 	carom_scene_destroy(scene);
 }
 
@@ -144,12 +142,8 @@ static void neighbours_in_the_file_are_none_in_the_room(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(the_same_call_gives_the_same_bytes),
-		cmocka_unit_test(every_machine_gives_the_same_bytes),
-		cmocka_unit_test(nothing_touches_at_any_fill),
-		cmocka_unit_test(speeds_are_uniform),
-		cmocka_unit_test(neighbours_in_the_file_are_none_in_the_room),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_call_gives_the_same_bytes), cmocka_unit_test(every_machine_gives_the_same_bytes),
+		cmocka_unit_test(nothing_touches_at_any_fill), cmocka_unit_test(speeds_are_uniform),
+		cmocka_unit_test(neighbours_in_the_file_are_none_in_the_room)};
 	return cmocka_run_group_tests_name("generate", tests, make_folder, remove_folder);
 }

@@ -104,8 +104,7 @@ static void an_inset(void **state)
 	carom_body_def bodies[256];
 	carom_render_def render = sized(320, 240);
 	for (uint32_t k = 0; k < COUNT(bodies); k++)
-		bodies[k] =
-			regular(k % 3 ? 3 : 0, 0.5f, -9.5f + 1.26f * (float)(k % 16), -9.5f + 1.26f * (float)(k / 16), 0.7f * (float)k);
+		bodies[k] = regular(k % 3 ? 3 : 0, 0.5f, -9.5f + 1.26f * (float)(k % 16), -9.5f + 1.26f * (float)(k / 16), 0.7f * (float)k);
 	render.has_inset = true;
 	render.inset = (carom_inset){{-8, -7}, {5, 4}};
 	check("inset", in_room(10.5f, 10.5f), bodies, COUNT(bodies), render);
@@ -116,19 +115,13 @@ static void bodies_smaller_than_a_pixel(void **state)
 	(void)state;
 	carom_body_def bodies[400];
 	for (uint32_t k = 0; k < COUNT(bodies); k++)
-		bodies[k] = regular(
-			k % 4 ? 2 + k % 4 : 0, 0.05f * (float)(1 + k / 20), 3.1f * (float)(k % 20), 3.1f * (float)(k / 20), (float)k);
+		bodies[k] = regular(k % 4 ? 2 + k % 4 : 0, 0.05f * (float)(1 + k / 20), 3.1f * (float)(k % 20), 3.1f * (float)(k / 20), (float)k);
 	check("tiny", carom_default_world_def(), bodies, COUNT(bodies), sized(80, 80));
 }
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(mixed_shapes_in_a_room),
-		cmocka_unit_test(a_camera_of_its_own),
-		cmocka_unit_test(no_room),
-		cmocka_unit_test(an_inset),
-		cmocka_unit_test(bodies_smaller_than_a_pixel),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(mixed_shapes_in_a_room), cmocka_unit_test(a_camera_of_its_own), cmocka_unit_test(no_room),
+		cmocka_unit_test(an_inset), cmocka_unit_test(bodies_smaller_than_a_pixel)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

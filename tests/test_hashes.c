@@ -117,11 +117,7 @@ static void advancing_in_pieces_changes_no_bit(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(every_scene_has_its_hash),
-		cmocka_unit_test(every_scene_has_its_hash_of_events),
-		cmocka_unit_test(threads_and_calls_change_no_bit),
-		cmocka_unit_test(advancing_in_pieces_changes_no_bit),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(every_scene_has_its_hash), cmocka_unit_test(every_scene_has_its_hash_of_events),
+		cmocka_unit_test(threads_and_calls_change_no_bit), cmocka_unit_test(advancing_in_pieces_changes_no_bit)};
 	return cmocka_run_group_tests_name("hashes", tests, NULL, NULL);
 }

@@ -320,15 +320,8 @@ static void one_overlap_is_found_wherever_it_is(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(sums_are_those_by_hand),
-		cmocka_unit_test(an_empty_world_measures_nothing),
-		cmocka_unit_test(null_is_an_error),
-		cmocka_unit_test(overlaps_of_pairs_are_known),
-		cmocka_unit_test(static_bodies_overlap_only_what_moves),
-		cmocka_unit_test(walls_are_overlapped_too),
-		cmocka_unit_test(grids_miss_no_pair),
-		cmocka_unit_test(one_overlap_is_found_wherever_it_is),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(sums_are_those_by_hand), cmocka_unit_test(an_empty_world_measures_nothing),
+		cmocka_unit_test(null_is_an_error), cmocka_unit_test(overlaps_of_pairs_are_known), cmocka_unit_test(static_bodies_overlap_only_what_moves),
+		cmocka_unit_test(walls_are_overlapped_too), cmocka_unit_test(grids_miss_no_pair), cmocka_unit_test(one_overlap_is_found_wherever_it_is)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,11 +128,7 @@ static void one_hash_everywhere(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(every_alternative_on_every_device),
-		cmocka_unit_test(broken_kernel_is_rejected),
-		cmocka_unit_test(build_error_has_the_log),
-		cmocka_unit_test(one_hash_everywhere),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(every_alternative_on_every_device), cmocka_unit_test(broken_kernel_is_rejected),
+		cmocka_unit_test(build_error_has_the_log), cmocka_unit_test(one_hash_everywhere)};
 	return cmocka_run_group_tests_name("parity", tests, NULL, NULL);
 }

@@ -388,12 +388,10 @@ static void rest_is_a_stall(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(head_on_circles_swap), cmocka_unit_test(circle_quadratic), cmocka_unit_test(off_centre_hit_spins),
-		cmocka_unit_test(square_falls_flat), cmocka_unit_test(restitution_halves_speed), cmocka_unit_test(larger_restitution_counts),
-		cmocka_unit_test(ball_bounces_to_its_height), cmocka_unit_test(force_and_torque), cmocka_unit_test(nothing_tunnels),
-		cmocka_unit_test(crossing_without_vertex_inside), cmocka_unit_test(overlapping_pairs), cmocka_unit_test(many_hits_keep_energy),
-		cmocka_unit_test(momentum_stays), cmocka_unit_test(rest_is_a_stall),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(head_on_circles_swap), cmocka_unit_test(circle_quadratic),
+		cmocka_unit_test(off_centre_hit_spins), cmocka_unit_test(square_falls_flat), cmocka_unit_test(restitution_halves_speed),
+		cmocka_unit_test(larger_restitution_counts), cmocka_unit_test(ball_bounces_to_its_height), cmocka_unit_test(force_and_torque),
+		cmocka_unit_test(nothing_tunnels), cmocka_unit_test(crossing_without_vertex_inside), cmocka_unit_test(overlapping_pairs),
+		cmocka_unit_test(many_hits_keep_energy), cmocka_unit_test(momentum_stays), cmocka_unit_test(rest_is_a_stall)};
 	return cmocka_run_group_tests_name("physics", tests, NULL, NULL);
 }

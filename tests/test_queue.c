@@ -169,12 +169,7 @@ static void crowds_keep_energy(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(galperin_counts_pi),
-		cmocka_unit_test(two_bodies),
-		cmocka_unit_test(box_falls_flat),
-		cmocka_unit_test(ball_comes_to_rest),
-		cmocka_unit_test(crowds_keep_energy),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(galperin_counts_pi), cmocka_unit_test(two_bodies), cmocka_unit_test(box_falls_flat),
+		cmocka_unit_test(ball_comes_to_rest), cmocka_unit_test(crowds_keep_energy)};
 	return cmocka_run_group_tests_name("queue", tests, NULL, NULL);
 }

@@ -293,8 +293,8 @@ static void every_scene_shown_is_one(void **state)
 	for (; next_block(&at, "json", block, sizeof block); scenes++) {
 		carom_scene *scene = NULL;
 		carom_world *world = NULL;
-		if (carom_scene_parse(block, strlen(block), "README.md", &scene, &error) ||
-			carom_scene_create_world(scene, &world, &error) || carom_world_step(world, 100, NULL, &error))
+		if (carom_scene_parse(block, strlen(block), "README.md", &scene, &error) || carom_scene_create_world(scene, &world, &error)
+			|| carom_world_step(world, 100, NULL, &error))
 			fail_msg("%s", error.text);
 		carom_world_destroy(world);
 		carom_scene_destroy(scene);
@@ -333,15 +333,9 @@ static void the_tables_of_keys_are_the_readers(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(the_example_prints_what_is_said),
-		cmocka_unit_test(the_command_prints_what_is_said),
-		cmocka_unit_test(every_option_shown_exists),
-		cmocka_unit_test(every_command_is_described),
-		cmocka_unit_test(the_manual_has_every_option_and_no_other),
-		cmocka_unit_test(the_table_of_slots_is_what_there_is),
-		cmocka_unit_test(every_scene_shown_is_one),
-		cmocka_unit_test(the_tables_of_keys_are_the_readers),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(the_example_prints_what_is_said), cmocka_unit_test(the_command_prints_what_is_said),
+		cmocka_unit_test(every_option_shown_exists), cmocka_unit_test(every_command_is_described),
+		cmocka_unit_test(the_manual_has_every_option_and_no_other), cmocka_unit_test(the_table_of_slots_is_what_there_is),
+		cmocka_unit_test(every_scene_shown_is_one), cmocka_unit_test(the_tables_of_keys_are_the_readers)};
 	return cmocka_run_group_tests_name("readme", tests, set_up, remove_folder);
 }

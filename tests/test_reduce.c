@@ -61,8 +61,8 @@ typedef struct kind {
 	float part;
 } kind;
 
-static const kind kinds[] = {{"all different", false, 1.0f}, {"ties", true, 1.0f}, {"few ties", true, 0.05f},
-	{"few", false, 0.01f}, {"none", false, 0.0f}};
+static const kind kinds[] = {
+	{"all different", false, 1.0f}, {"ties", true, 1.0f}, {"few ties", true, 0.05f}, {"few", false, 0.01f}, {"none", false, 0.0f}};
 
 /* `beyond` is what the texels on the diagonal and above it hold. */
 static void fill_hits(scenery_random *random, const kind *of, size_t count, size_t width, float beyond, float *hits)
@@ -71,8 +71,7 @@ static void fill_hits(scenery_random *random, const kind *of, size_t count, size
 		for (size_t column = 0; column < width; column++) {
 			float *texel = hits + 4 * (row * width + column);
 			const bool pair = column < row && row < count, hit = pair && scenery_uniform(random, 0.0f, 1.0f) < of->part;
-			const float time =
-				of->ties ? 0.125f * (float)(int)scenery_uniform(random, 0.0f, 8.0f) : scenery_uniform(random, 0.0f, 1.0f);
+			const float time = of->ties ? 0.125f * (float)(int)scenery_uniform(random, 0.0f, 8.0f) : scenery_uniform(random, 0.0f, 1.0f);
 			texel[HITTIMES_MIN] = 0.0f;
 			texel[HITTIMES_MAX] = 1.0f;
 			texel[HITTIMES_HIT] = hit ? time : pair || row >= count ? NO_HIT : beyond;
@@ -166,10 +165,9 @@ static void judge(const run *r, const float *expected, const char *name)
 	for (size_t i = 0; i < 4 && expected[REDUCED_HIT] <= 1.0f; i++)
 		same = same && r->found[i] == expected[i];
 	if (!same)
-		fail_msg("%s: hit at %g, row %g, column %g, done %g, not %g, %g, %g, %g", name, (double)r->found[REDUCED_HIT],
-			(double)r->found[REDUCED_ROW], (double)r->found[REDUCED_COLUMN], (double)r->found[REDUCED_DONE],
-			(double)expected[REDUCED_HIT], (double)expected[REDUCED_ROW], (double)expected[REDUCED_COLUMN],
-			(double)expected[REDUCED_DONE]);
+		fail_msg("%s: hit at %g, row %g, column %g, done %g, not %g, %g, %g, %g", name, (double)r->found[REDUCED_HIT], (double)r->found[REDUCED_ROW],
+			(double)r->found[REDUCED_COLUMN], (double)r->found[REDUCED_DONE], (double)expected[REDUCED_HIT], (double)expected[REDUCED_ROW],
+			(double)expected[REDUCED_COLUMN], (double)expected[REDUCED_DONE]);
 }
 
 /* Every kind of hit times, small ones several times. */
@@ -199,8 +197,7 @@ static void every_alternative_finds_the_first_hit(void **unused)
 {
 	(void)unused;
 	for (size_t i = 0; i < COUNT(alternatives); i++) {
-		SCENERY_EACH_DEVICE(device)
-		{
+		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = world_of(alternatives[i], device, false);
 			for (size_t k = 0; world && k < COUNT(sizes); k++) {
 				grow(world, sizes[k]);
@@ -236,8 +233,8 @@ static uint64_t check_reads(carom_world *world, const char *alternative, bool on
 		const uint64_t expected = paper_reads(alternative, on_cpu, r.pass[i].m, r.pass[i].from);
 		all += r.pass[i].reads;
 		if (r.pass[i].reads != expected)
-			fail_msg("%s of %zu bodies, pass to m = %llu: %llu texels read, not %llu", alternative, count,
-				(unsigned long long)r.pass[i].m, (unsigned long long)r.pass[i].reads, (unsigned long long)expected);
+			fail_msg("%s of %zu bodies, pass to m = %llu: %llu texels read, not %llu", alternative, count, (unsigned long long)r.pass[i].m,
+				(unsigned long long)r.pass[i].reads, (unsigned long long)expected);
 	}
 	return all;
 }
@@ -246,8 +243,7 @@ static void reads_are_the_papers(void **unused)
 {
 	(void)unused;
 	for (size_t i = 0; i < COUNT(alternatives); i++) {
-		SCENERY_EACH_DEVICE(device)
-		{
+		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = world_of(alternatives[i], device, true);
 			uint64_t all = 0;
 			for (size_t k = 0; world && k < COUNT(sizes); k++) {
@@ -265,9 +261,6 @@ static void reads_are_the_papers(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(every_alternative_finds_the_first_hit),
-		cmocka_unit_test(reads_are_the_papers),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(every_alternative_finds_the_first_hit), cmocka_unit_test(reads_are_the_papers)};
 	return cmocka_run_group_tests_name("reduce", tests, NULL, NULL);
 }

@@ -101,8 +101,8 @@ static void tiny_bodies_show_wherever_they_are(void **state)
 static void what_is_outside_is_not_drawn(void **state)
 {
 	(void)state;
-	carom_body_def bodies[5] = {regular(3, 1, 7, 0, 0), regular(0, 1, 0, -6, 0), regular(0, 3, 1e6f, 0, 1),
-		regular(4, 1, 0, 1e30f, 1), regular(9, 2, -1e9f, 1e9f, 2)};
+	carom_body_def bodies[5] = {
+		regular(3, 1, 7, 0, 0), regular(0, 1, 0, -6, 0), regular(0, 3, 1e6f, 0, 1), regular(4, 1, 0, 1e30f, 1), regular(9, 2, -1e9f, 1e9f, 2)};
 	carom_world *world = world_on("cpu", carom_default_world_def(), bodies, COUNT(bodies));
 	picture p = picture_of(world, ten_a_metre(100, 80));
 	assert_int_equal(contrast(p), 0);
@@ -235,18 +235,10 @@ static void what_is_not_used_is_not_checked(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(colors_are_those_of_the_bodies),
-		cmocka_unit_test(places_are_exact),
-		cmocka_unit_test(a_circle_shows_its_angle),
-		cmocka_unit_test(tiny_bodies_show_wherever_they_are),
-		cmocka_unit_test(what_is_outside_is_not_drawn),
-		cmocka_unit_test(a_huge_body_has_a_sharp_rim),
-		cmocka_unit_test(an_empty_world_is_a_ground),
-		cmocka_unit_test(an_inset_stays_in_its_frame),
-		cmocka_unit_test(any_size_will_do),
-		cmocka_unit_test(wrong_arguments_are_refused),
-		cmocka_unit_test(what_is_not_used_is_not_checked),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(colors_are_those_of_the_bodies), cmocka_unit_test(places_are_exact),
+		cmocka_unit_test(a_circle_shows_its_angle), cmocka_unit_test(tiny_bodies_show_wherever_they_are),
+		cmocka_unit_test(what_is_outside_is_not_drawn), cmocka_unit_test(a_huge_body_has_a_sharp_rim), cmocka_unit_test(an_empty_world_is_a_ground),
+		cmocka_unit_test(an_inset_stays_in_its_frame), cmocka_unit_test(any_size_will_do), cmocka_unit_test(wrong_arguments_are_refused),
+		cmocka_unit_test(what_is_not_used_is_not_checked)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,8 +23,7 @@ static void *fetch(carom_world *world, carom_role role, uint32_t items, size_t s
 	void *data = calloc(world->canvas.room[role], 4 * size);
 	carom_error error;
 	assert_non_null(data);
-	scenery_check(
-		world->device->kind->download(world->device, world->textures[role].front, carom_row_count(items), data, &error), &error);
+	scenery_check(world->device->kind->download(world->device, world->textures[role].front, carom_row_count(items), data, &error), &error);
 	return data;
 }
 
@@ -260,13 +259,8 @@ static void a_world_that_is_not_drawn_pays_nothing(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(every_stage_on_every_device),
-		cmocka_unit_test(a_broken_kernel_is_found),
-		cmocka_unit_test(lists_grow),
-		cmocka_unit_test(large_pictures_are_drawn_in_parts),
-		cmocka_unit_test(a_picture_needs_no_textures_of_pairs),
-		cmocka_unit_test(a_world_that_is_not_drawn_pays_nothing),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(every_stage_on_every_device), cmocka_unit_test(a_broken_kernel_is_found),
+		cmocka_unit_test(lists_grow), cmocka_unit_test(large_pictures_are_drawn_in_parts), cmocka_unit_test(a_picture_needs_no_textures_of_pairs),
+		cmocka_unit_test(a_world_that_is_not_drawn_pays_nothing)};
 	return cmocka_run_group_tests_name("rendering", tests, NULL, NULL);
 }

@@ -28,8 +28,7 @@ static uint64_t run_crowd(const scenery_device *device, uint64_t seed, uint32_t 
 static void the_same_run_twice(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		const uint64_t hash = run_crowd(device, 5, 0, 500);
 		assert_true(hash == run_crowd(device, 5, 0, 500));
 		assert_true(!hash || hash != run_crowd(device, 5, 0, 501));
@@ -50,8 +49,7 @@ static void any_number_of_threads(void **unused)
 static void stopped_and_resumed(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world *first = scenery_crowd(device, 8, 0), *second = scenery_crowd(device, 8, 0);
 		carom_body_state states[SCENERY_CROWD];
 		carom_error error;
@@ -73,8 +71,7 @@ static void images_and_buffers(void **unused)
 {
 	(void)unused;
 	uint64_t hashes[3] = {0};
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world *world = scenery_crowd(device, 9, 0);
 		carom_device_info info;
 		carom_error error;
@@ -106,8 +103,7 @@ static void *run_errand(void *context)
 static void worlds_in_four_threads(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		pthread_t threads[4];
 		errand errands[4];
 		for (size_t i = 0; i < 4; i++) {
@@ -143,8 +139,7 @@ static bool look(void *context, const carom_report *so_far)
 static void steps_cut_short(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		const uint64_t whole = run_crowd(device, 12, 0, 600);
 		watch all = {.stop_at = UINT64_MAX, .stop_after = INFINITY}, some = {.stop_at = 200, .stop_after = INFINITY};
 		carom_world *world = scenery_crowd(device, 12, 0), *cut = scenery_crowd(device, 12, 0);
@@ -155,8 +150,7 @@ static void steps_cut_short(void **unused)
 		assert_true(all.calls >= 2 && all.last.steps == 600 && runs_hash(world) == whole);
 		carom_world_set_progress(cut, look, &some);
 		const carom_report report = runs_step(cut, 600);
-		assert_true(
-			report.steps >= 200 && report.steps < 600 && report.steps == some.last.steps && report.hits == some.last.hits);
+		assert_true(report.steps >= 200 && report.steps < 600 && report.steps == some.last.steps && report.hits == some.last.hits);
 		assert_true(carom_world_time(cut) == report.advanced);
 		carom_world_set_progress(cut, NULL, NULL);
 		assert_int_equal(runs_step(cut, 600 - report.steps).steps, 600 - report.steps);
@@ -169,8 +163,7 @@ static void steps_cut_short(void **unused)
 static void an_advance_cut_short(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		watch some = {.stop_at = UINT64_MAX, .stop_after = 0.5};
 		carom_world *world = scenery_crowd(device, 13, 0);
 		carom_report report, rest;
@@ -192,8 +185,7 @@ static void an_advance_cut_short(void **unused)
 static void a_stall_tells_what_was_done(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world_def def = scenery_first_impact();
 		const carom_body_def ball = scenery_circle(0.0f, 1.0f, 0.0f, 0.0f, 0.5f);
 		carom_report report = {0};
@@ -220,11 +212,10 @@ static void a_stall_tells_what_was_done(void **unused)
 /* ---- Memory */
 
 static uint64_t taken;
-static carom_status (*real_create)(
-	carom_device *, carom_texel_format, uint32_t, uint32_t, const float *, carom_texture **, carom_error *);
+static carom_status (*real_create)(carom_device *, carom_texel_format, uint32_t, uint32_t, const float *, carom_texture **, carom_error *);
 
-static carom_status counting_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height,
-	const float fill[4], carom_texture **texture, carom_error *error)
+static carom_status counting_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
+	carom_texture **texture, carom_error *error)
 {
 	taken += (uint64_t)width * height * (format == TEXELS_FLOAT || format == TEXELS_RECORD ? 16 : 4);
 	return real_create(device, format, width, height, fill, texture, error);
@@ -248,8 +239,8 @@ static uint64_t memory_taken(const carom_world_def *def, size_t count)
 	return taken;
 }
 
-static carom_status failing_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height,
-	const float fill[4], carom_texture **texture, carom_error *error)
+static carom_status failing_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
+	carom_texture **texture, carom_error *error)
 {
 	(void)device, (void)format, (void)width, (void)height, (void)fill, (void)texture, (void)error;
 	return CAROM_OUT_OF_MEMORY;
@@ -259,8 +250,7 @@ static carom_status failing_create(carom_device *device, carom_texel_format form
 static void a_list_that_cannot_grow_loses_nothing(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world *world = scenery_crowd(device, 3, 0), *other = scenery_crowd(device, 3, 0);
 		if (!world)
 			continue;
@@ -298,8 +288,8 @@ static void memory_is_known_beforehand(void **unused)
 			def.iterations = 3;
 			const uint64_t said = carom_world_memory(&def, counts[i], 4 * counts[i]), is = memory_taken(&def, counts[i]);
 			if (!(said > 0.95 * (double)is && said < 1.25 * (double)is))
-				fail_msg("%zu bodies, %s: said to take %llu bytes, take %llu", counts[i], reductions[k / 2],
-					(unsigned long long)said, (unsigned long long)is);
+				fail_msg("%zu bodies, %s: said to take %llu bytes, take %llu", counts[i], reductions[k / 2], (unsigned long long)said,
+					(unsigned long long)is);
 		}
 	}
 	for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
@@ -377,18 +367,9 @@ static void too_many_bodies(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(the_same_run_twice),
-		cmocka_unit_test(any_number_of_threads),
-		cmocka_unit_test(stopped_and_resumed),
-		cmocka_unit_test(images_and_buffers),
-		cmocka_unit_test(worlds_in_four_threads),
-		cmocka_unit_test(steps_cut_short),
-		cmocka_unit_test(an_advance_cut_short),
-		cmocka_unit_test(a_stall_tells_what_was_done),
-		cmocka_unit_test(memory_is_known_beforehand),
-		cmocka_unit_test(a_list_that_cannot_grow_loses_nothing),
-		cmocka_unit_test(too_many_bodies),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_run_twice), cmocka_unit_test(any_number_of_threads),
+		cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(images_and_buffers), cmocka_unit_test(worlds_in_four_threads),
+		cmocka_unit_test(steps_cut_short), cmocka_unit_test(an_advance_cut_short), cmocka_unit_test(a_stall_tells_what_was_done),
+		cmocka_unit_test(memory_is_known_beforehand), cmocka_unit_test(a_list_that_cannot_grow_loses_nothing), cmocka_unit_test(too_many_bodies)};
 	return cmocka_run_group_tests_name("run", tests, NULL, NULL);
 }

@@ -76,8 +76,7 @@ static void check_text(const char *text, size_t length, carom_status wanted, con
 	carom_scene *scene = NULL;
 	carom_status status = carom_scene_parse(text, length, "memory", &scene, &error);
 	if (status != wanted || (fragment && !strstr(error.text, fragment)))
-		fail_msg("expected %s \"%s\", got %s \"%s\"", carom_status_name(wanted), fragment ? fragment : "",
-			carom_status_name(status), error.text);
+		fail_msg("expected %s \"%s\", got %s \"%s\"", carom_status_name(wanted), fragment ? fragment : "", carom_status_name(status), error.text);
 	assert_int_equal(scene != NULL, status == CAROM_OK);
 	carom_scene_destroy(scene);
 }
@@ -148,8 +147,7 @@ static void values_arrive(void **state)
 	assert_true(bodies[0].density == 7.8f && bodies[0].restitution == 0.25f && bodies[0].mass == 0);
 	assert_true(bodies[0].force.x == 0.1f && bodies[0].torque == -0.7f && bodies[0].color == 0xCC33FF && !bodies[0].is_static);
 	assert_string_equal(bodies[0].name, "a \"quoted\" \\ \x01 \n \xC3\xA9 \xF0\x9F\x8E\xB1 ]}");
-	assert_true(
-		bodies[1].shape == CAROM_REGULAR && bodies[1].sides == 5 && bodies[1].mass == 0.17f && bodies[1].color == 0x012345);
+	assert_true(bodies[1].shape == CAROM_REGULAR && bodies[1].sides == 5 && bodies[1].mass == 0.17f && bodies[1].color == 0x012345);
 	assert_true(bodies[2].shape == CAROM_POLYGON && bodies[2].vertex_count == 4 && bodies[2].vertices[3].x == 6.7f);
 	assert_true(signbit(bodies[2].position.x) && isnan(bodies[2].restitution) && bodies[2].color == CAROM_COLOR_AUTO);
 	assert_true(bodies[3].is_static && !bodies[3].name);
@@ -202,13 +200,8 @@ static void damaged_texts_do_no_harm(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(bad_files_are_named),
-		cmocka_unit_test(long_nonsense_fails_quickly),
-		cmocka_unit_test(unreadable_files_are_named),
-		cmocka_unit_test(values_arrive),
-		cmocka_unit_test(keys_may_be_escaped_and_bodies_none),
-		cmocka_unit_test(damaged_texts_do_no_harm),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(bad_files_are_named), cmocka_unit_test(long_nonsense_fails_quickly),
+		cmocka_unit_test(unreadable_files_are_named), cmocka_unit_test(values_arrive), cmocka_unit_test(keys_may_be_escaped_and_bodies_none),
+		cmocka_unit_test(damaged_texts_do_no_harm)};
 	return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

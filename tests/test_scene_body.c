@@ -103,9 +103,9 @@ static void assert_same_body(const carom_body_def *a, const carom_body_def *b, c
 	assert_int_equal(x.shape, y.shape);
 	assert_int_equal(x.is_static, y.is_static);
 	assert_true(x.sides == y.sides && x.vertex_count == y.vertex_count && x.color == y.color);
-	const float numbers[2][11] = {{x.radius, x.position.x, x.position.y, x.velocity.x, x.velocity.y, x.angle, x.angular_velocity,
-		x.density, x.mass, x.restitution, x.torque}, {y.radius, y.position.x, y.position.y, y.velocity.x, y.velocity.y, y.angle,
-		y.angular_velocity, y.density, y.mass, y.restitution, y.torque}};
+	const float numbers[2][11] = {
+		{x.radius, x.position.x, x.position.y, x.velocity.x, x.velocity.y, x.angle, x.angular_velocity, x.density, x.mass, x.restitution, x.torque},
+		{y.radius, y.position.x, y.position.y, y.velocity.x, y.velocity.y, y.angle, y.angular_velocity, y.density, y.mass, y.restitution, y.torque}};
 	assert_same_bytes(numbers[0], numbers[1], sizeof numbers[0], text);
 	assert_same_bytes(&x.force, &y.force, sizeof x.force, text);
 }
@@ -168,9 +168,6 @@ static void both_ways_agree_on_damaged_texts(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(both_ways_of_reading_agree),
-		cmocka_unit_test(both_ways_agree_on_damaged_texts),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(both_ways_of_reading_agree), cmocka_unit_test(both_ways_agree_on_damaged_texts)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,8 +56,8 @@ static void random_floats_are_written_as_by_printf(void **state)
 /* Where a digit more or less is to be written, and where it is rounded from a tie. */
 static void floats_at_the_edges_are_written_as_by_printf(void **state)
 {
-	static const float edges[] = {0, -0.0f, 1e-45f, 1.17549435e-38f, 3.40282347e38f, 0.5f, 1, 16777216, 33554432, 4194304.25f,
-		4194305.25f, 2097152.125f, 2097152.375f, 999999936, 1e9f, 123456792, 0.1f, 0.000100000005f};
+	static const float edges[] = {0, -0.0f, 1e-45f, 1.17549435e-38f, 3.40282347e38f, 0.5f, 1, 16777216, 33554432, 4194304.25f, 4194305.25f,
+		2097152.125f, 2097152.375f, 999999936, 1e9f, 123456792, 0.1f, 0.000100000005f};
 	(void)state;
 	for (size_t k = 0; k < COUNT(edges); k++) {
 		check_number(edges[k]);
@@ -135,12 +135,8 @@ static void what_is_no_json_number_is_not_read(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(random_floats_are_written_as_by_printf),
-		cmocka_unit_test(floats_at_the_edges_are_written_as_by_printf),
-		cmocka_unit_test(random_texts_are_read_as_by_strtod),
-		cmocka_unit_test(plain_numbers_are_read_at_once),
-		cmocka_unit_test(what_is_no_json_number_is_not_read),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(random_floats_are_written_as_by_printf),
+		cmocka_unit_test(floats_at_the_edges_are_written_as_by_printf), cmocka_unit_test(random_texts_are_read_as_by_strtod),
+		cmocka_unit_test(plain_numbers_are_read_at_once), cmocka_unit_test(what_is_no_json_number_is_not_read)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,8 +122,8 @@ static void every_scene_reads_back_with_the_same_bits(void **state)
 static void awkward_floats_read_back_with_the_same_bits(void **state)
 {
 	(void)state;
-	static const float awkward[] = {0.1f, -0.0f, 1e-45f, 1.17549435e-38f, 3.40282347e38f, -16777216, 0.333333343f, 9.99999975e-5f,
-		123456792, 1.00000012f, 0.99999994f, 2.71828175f};
+	static const float awkward[] = {0.1f, -0.0f, 1e-45f, 1.17549435e-38f, 3.40282347e38f, -16777216, 0.333333343f, 9.99999975e-5f, 123456792,
+		1.00000012f, 0.99999994f, 2.71828175f};
 	carom_world_def def = carom_default_world_def();
 	carom_body_def body = carom_default_body_def();
 	carom_world *world = NULL;
@@ -209,12 +209,8 @@ static int remove_folder(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(everything_reads_back_with_the_same_bits),
-		cmocka_unit_test(every_scene_reads_back_with_the_same_bits),
-		cmocka_unit_test(awkward_floats_read_back_with_the_same_bits),
-		cmocka_unit_test(every_choice_of_a_slot_reads_back),
-		cmocka_unit_test(stop_and_resume_is_exact),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(everything_reads_back_with_the_same_bits),
+		cmocka_unit_test(every_scene_reads_back_with_the_same_bits), cmocka_unit_test(awkward_floats_read_back_with_the_same_bits),
+		cmocka_unit_test(every_choice_of_a_slot_reads_back), cmocka_unit_test(stop_and_resume_is_exact)};
 	return cmocka_run_group_tests_name("scene_write", tests, make_folder, remove_folder);
 }

@@ -51,10 +51,10 @@ static void fail_pair(const truth *t, const pairs_hit *hit, const char *what)
 {
 	const exact_body *k = &t->a;
 	for (int i = 0; i < 2; i++, k = &t->b)
-		print_error("body %d: %u corners, bound %.9g, at (%.9g, %.9g) %.9g, v (%.9g, %.9g) %.9g, a (%.9g, %.9g) %.9g\n", i,
-			k->count, k->bound, k->x, k->y, k->angle, k->vx, k->vy, k->w, k->ax, k->ay, k->b);
-	fail_msg("%s: hit time %.9g%s, contact at %.9g, deep at %.9g, least distance %.3g, slop %.3g", what, hit->time,
-		hit->done ? "" : " (pause)", t->contact.time, t->contact.deep, t->contact.least, t->slop);
+		print_error("body %d: %u corners, bound %.9g, at (%.9g, %.9g) %.9g, v (%.9g, %.9g) %.9g, a (%.9g, %.9g) %.9g\n", i, k->count, k->bound, k->x,
+			k->y, k->angle, k->vx, k->vy, k->w, k->ax, k->ay, k->b);
+	fail_msg("%s: hit time %.9g%s, contact at %.9g, deep at %.9g, least distance %.3g, slop %.3g", what, hit->time, hit->done ? "" : " (pause)",
+		t->contact.time, t->contact.deep, t->contact.least, t->slop);
 }
 
 /* No hit time lies behind a contact. */
@@ -138,8 +138,7 @@ enum { MOST_BENCHES = 8 };
 static size_t open_benches(const char *toi, bench *benches)
 {
 	size_t count = 0;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		const char *name = device->storage == CAROM_STORAGE_IMAGE ? "opencl images" : device->name;
 		bench b = {.toi = toi, .name = name, .world = pairs_world(toi, device)};
 		if (b.world)
@@ -172,8 +171,7 @@ static void run_batch(scenery_random *random, bench *benches, size_t count)
 static void report(const bench *b)
 {
 	const tally *s = &b->sum;
-	print_message(
-		"%s on %s: %zu hits, %zu none, %zu pauses, %zu grazing\n", b->toi, b->name, s->hits, s->misses, s->pauses, s->grazing);
+	print_message("%s on %s: %zu hits, %zu none, %zu pauses, %zu grazing\n", b->toi, b->name, s->hits, s->misses, s->pauses, s->grazing);
 	print_message("    least distances (slops): %.3f of a hit, %.3f of none; at the hit %.6f apart (slops), overlap before it "
 				  "%.2g (sizes), time "
 				  "off by %.2g\n",
@@ -263,8 +261,8 @@ static void add_tunnelling(cases *c)
 	add(c, "a bullet at a thin wall", wall, scenery_circle(-3.0f, 0.0f, 1000.0f, 0.0f, 0.05f), 2.9495 / way, 1e-6);
 	add(c, "a box at a thin wall", wall, scenery_box(-3.0f, 0.5f, 1000.0f, 0.0f, 0.1f, 0.1f), 2.9495 / way, 1e-6);
 	add(c, "a thin plate at a thin wall", wall, scenery_box(-9.0f, 0.5f, 1000.0f, 0.0f, 0.001f, 2.0f), 8.999 / way, 1e-6);
-	add(c, "two plates head-on", scenery_box(-8.0f, 0.0f, 1000.0f, 0.0f, 0.001f, 1.0f),
-		scenery_box(8.0f, 0.9f, -1000.0f, 0.0f, 0.001f, 1.0f), 15.999 / (2.0 * way), 1e-6);
+	add(c, "two plates head-on", scenery_box(-8.0f, 0.0f, 1000.0f, 0.0f, 0.001f, 1.0f), scenery_box(8.0f, 0.9f, -1000.0f, 0.0f, 0.001f, 1.0f),
+		15.999 / (2.0 * way), 1e-6);
 	add(c, "a bullet just past the wall's end", wall, scenery_circle(-3.0f, 1.0501f, 1000.0f, 0.0f, 0.05f), NONE, 0.0);
 	/* its centre is 0.0499 above the corner, so it touches 0.0031607 before it */
 	add(c, "a bullet at the wall's end", wall, scenery_circle(-3.0f, 1.0499f, 1000.0f, 0.0f, 0.05f), 2.9963393 / way, 8e-6);
@@ -277,15 +275,12 @@ static void add_touching(cases *c)
 		const float v = i == 0 ? -6.0f : i == 1 ? 6.0f : 0.0f;
 		const double time = i == 0 ? 0.0 : NONE;
 		const carom_body_def square = scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f);
-		add(c, "touching circles", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(1.0f, 0.0f, v, 3.0f, 0.5f), time,
-			0.0);
-		add(c, "overlapping circles", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(0.75f, 0.0f, v, 0.0f, 0.5f),
-			time, 0.0);
+		add(c, "touching circles", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(1.0f, 0.0f, v, 3.0f, 0.5f), time, 0.0);
+		add(c, "overlapping circles", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(0.75f, 0.0f, v, 0.0f, 0.5f), time, 0.0);
 		add(c, "touching faces", square, scenery_box(1.0f, 0.25f, v, 3.0f, 1.0f, 1.0f), time, 0.0);
 		add(c, "overlapping faces", square, scenery_box(0.75f, 0.0f, v, 3.0f, 1.0f, 1.0f), time, 0.0);
 		add(c, "a circle on a face", square, scenery_circle(1.0f, 0.25f, v, 3.0f, 0.5f), time, 0.0);
-		add(c, "a corner on a face", square, turned(scenery_box(1.20710678f, 0.25f, v, 3.0f, 1.0f, 1.0f), 0.78539816f, 0.0f),
-			time, 0.0);
+		add(c, "a corner on a face", square, turned(scenery_box(1.20710678f, 0.25f, v, 3.0f, 1.0f, 1.0f), 0.78539816f, 0.0f), time, 0.0);
 		add(c, "a circle in a box", square, scenery_circle(0.25f, 0.0f, v, 0.0f, 0.125f), time, 0.0);
 	}
 }
@@ -309,8 +304,7 @@ static void judge_cases(const cases *c, const char *toi, const char *name, bool 
 		const double found = hits[k].time <= 1.0 ? hits[k].time : NONE;
 		const bool right = found == c->times[k] || fabs(found - c->times[k]) <= c->within[k];
 		if (!right || (found <= 1.0 && !hits[k].done))
-			fail_msg("%s on %s, %s: hit at %.9g%s, not %.9g", toi, name, c->names[k], found, hits[k].done ? "" : " (pause)",
-				c->times[k]);
+			fail_msg("%s on %s, %s: hit at %.9g%s, not %.9g", toi, name, c->names[k], found, hits[k].done ? "" : " (pause)", c->times[k]);
 	}
 	carom_world_destroy(world);
 }
@@ -325,8 +319,7 @@ static void known_cases(void **unused)
 	add_touching(&c);
 	add_stick(&c);
 	for (size_t way = 0; way < 2; way++) {
-		SCENERY_EACH_DEVICE(device)
-		{
+		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = pairs_world(ways[way], device);
 			if (world)
 				judge_cases(&c, ways[way], device->name, false, world);
@@ -348,10 +341,6 @@ static void bisection_misses_crossings(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(random_pairs),
-		cmocka_unit_test(known_cases),
-		cmocka_unit_test(bisection_misses_crossings),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(random_pairs), cmocka_unit_test(known_cases), cmocka_unit_test(bisection_misses_crossings)};
 	return cmocka_run_group_tests_name("separating", tests, NULL, NULL);
 }

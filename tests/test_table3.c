@@ -104,10 +104,7 @@ static void only_to_cpu_reads_the_state_back(void **state)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(six_combinations_give_one_picture),
-		cmocka_unit_test(texture_accesses_are_those_of_table_3),
-		cmocka_unit_test(only_to_cpu_reads_the_state_back),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(six_combinations_give_one_picture), cmocka_unit_test(texture_accesses_are_those_of_table_3),
+		cmocka_unit_test(only_to_cpu_reads_the_state_back)};
 	return cmocka_run_group_tests_name("table3", tests, NULL, NULL);
 }

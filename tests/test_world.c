@@ -9,8 +9,7 @@
 static void assert_fails(carom_status status, const carom_error *error, carom_status expected, const char *said)
 {
 	if (status != expected || error->status != expected || strncmp(error->text, said, strlen(said)) != 0)
-		fail_msg(
-			"expected %s: \"%s ...\", got %s: \"%s\"", carom_status_name(expected), said, carom_status_name(status), error->text);
+		fail_msg("expected %s: \"%s ...\", got %s: \"%s\"", carom_status_name(expected), said, carom_status_name(status), error->text);
 }
 
 static void get_states(carom_world *world, size_t count, carom_body_state *states)
@@ -44,16 +43,14 @@ static void bodies_out_of_range(void **unused)
 	assert_fails(carom_world_set_states(world, 41, 0, states, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 41 to 41: ");
 	assert_fails(carom_world_get_body(world, SCENERY_CROWD, &info, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 40 to 41: ");
 	assert_fails(carom_world_get_body(world, UINT32_MAX, &info, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 4294967295 to ");
-	assert_fails(
-		carom_world_set_force(world, SCENERY_CROWD, (carom_vec2){0, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 40 to 41: ");
+	assert_fails(carom_world_set_force(world, SCENERY_CROWD, (carom_vec2){0, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "bodies 40 to 41: ");
 	assert_memory_equal(states, untouched, sizeof states);
 	assert_memory_equal(&info, &same, sizeof info);
 	scenery_check(carom_world_get_states(world, SCENERY_CROWD, 0, NULL, &error), &error);
 	scenery_check(carom_world_set_states(world, SCENERY_CROWD, 0, NULL, &error), &error);
 	scenery_check(carom_world_add(world, NULL, 0, NULL, &error), &error);
 	assert_int_equal(carom_world_body_count(world), SCENERY_CROWD);
-	assert_fails(
-		carom_world_add(world, NULL, (size_t)1 << 22, NULL, &error), &error, CAROM_LIMIT, "a world holds at most 4194304 bodies");
+	assert_fails(carom_world_add(world, NULL, (size_t)1 << 22, NULL, &error), &error, CAROM_LIMIT, "a world holds at most 4194304 bodies");
 	carom_world_destroy(world);
 }
 
@@ -101,8 +98,7 @@ static void static_bodies_keep_still(void **unused)
 	assert_fails(carom_world_set_states(world, 0, 1, &state, &error), &error, CAROM_INVALID_ARGUMENT, "body 0 is static");
 	state = (carom_body_state){{3.0f, 4.0f}, 1.0f, {0.0f, 0.0f}, 1.0f};
 	assert_fails(carom_world_set_states(world, 0, 1, &state, &error), &error, CAROM_INVALID_ARGUMENT, "body 0 is static");
-	assert_fails(
-		carom_world_set_force(world, 0, (carom_vec2){1, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "body 0 is static");
+	assert_fails(carom_world_set_force(world, 0, (carom_vec2){1, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "body 0 is static");
 	runs_step(world, 5);
 	get_states(world, 1, &state);
 	assert_true(state.position.x == 3.0f && state.position.y == 4.0f && state.angle == 1.0f);
@@ -117,8 +113,7 @@ static void states_come_back(void **unused)
 	(void)unused;
 	static const float numbers[] = {0.0f, -0.0f, 1e-40f, -3.25f, 1e30f, 3.1415925f, -3.1415927f, 3.1415927f};
 	const size_t count = sizeof numbers / sizeof *numbers;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world_def def = carom_default_world_def();
 		carom_world *world = scenery_world(&def, device);
 		const carom_body_def body = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f);
@@ -167,8 +162,7 @@ static void angles_near_pi_come_back(void **unused)
 static void a_force_acts_from_now_on(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world_def def = carom_default_world_def();
 		carom_body_def body = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
 		carom_world *world = scenery_world(&def, device);
@@ -181,10 +175,8 @@ static void a_force_acts_from_now_on(void **unused)
 		scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
 		runs_step(world, 60);
 		scenery_check(carom_world_set_force(world, 0, (carom_vec2){4.0f, -2.0f}, 0.5f, &error), &error);
-		assert_fails(carom_world_set_force(world, 0, (carom_vec2){NAN, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT,
-			"the force and torque");
-		assert_fails(
-			carom_world_set_force(world, 0, (carom_vec2){0, 0}, INFINITY, &error), &error, CAROM_INVALID_ARGUMENT, "the force");
+		assert_fails(carom_world_set_force(world, 0, (carom_vec2){NAN, 0}, 0, &error), &error, CAROM_INVALID_ARGUMENT, "the force and torque");
+		assert_fails(carom_world_set_force(world, 0, (carom_vec2){0, 0}, INFINITY, &error), &error, CAROM_INVALID_ARGUMENT, "the force");
 		scenery_check(carom_world_get_body(world, 0, &info, &error), &error);
 		assert_true(info.force.x == 4.0f && info.force.y == -2.0f && info.torque == 0.5f);
 		runs_step(world, 60);
@@ -200,8 +192,7 @@ static void a_force_acts_from_now_on(void **unused)
 static void an_empty_world_steps(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world_def def = carom_default_world_def();
 		carom_world *world = scenery_world(&def, device);
 		carom_report report = {9, 9, 9, 9.0};
@@ -243,8 +234,7 @@ static void growing_keeps_the_bits(void **unused)
 {
 	(void)unused;
 	const carom_body_def more[30] = {scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1e-3f)};
-	SCENERY_EACH_DEVICE(device)
-	{
+	SCENERY_EACH_DEVICE(device) {
 		carom_world *grown = scenery_crowd(device, 3, 0), *made = scenery_crowd(device, 3, 0);
 		carom_body_state before[SCENERY_CROWD], states[SCENERY_CROWD + 30];
 		carom_body_def late[30];
@@ -273,16 +263,9 @@ static void growing_keeps_the_bits(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(bodies_out_of_range),
-		cmocka_unit_test(states_out_of_range),
-		cmocka_unit_test(static_bodies_keep_still),
-		cmocka_unit_test(states_come_back),
-		cmocka_unit_test(angles_near_pi_come_back),
-		cmocka_unit_test(a_force_acts_from_now_on),
-		cmocka_unit_test(an_empty_world_steps),
-		cmocka_unit_test(times_out_of_range),
-		cmocka_unit_test(growing_keeps_the_bits),
-	};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_out_of_range), cmocka_unit_test(states_out_of_range),
+		cmocka_unit_test(static_bodies_keep_still), cmocka_unit_test(states_come_back), cmocka_unit_test(angles_near_pi_come_back),
+		cmocka_unit_test(a_force_acts_from_now_on), cmocka_unit_test(an_empty_world_steps), cmocka_unit_test(times_out_of_range),
+		cmocka_unit_test(growing_keeps_the_bits)};
 	return cmocka_run_group_tests_name("world", tests, NULL, NULL);
 }

@@ -142,7 +142,8 @@ static int incident_edge(const exact_body *b, const face *f, corners other, cons
 	return fabs(inner(n, e2)) * hypot(e1[0], e1[1]) < fabs(inner(n, e1)) * hypot(e2[0], e2[1]) ? f->deepest : before;
 }
 
-static void add_points(touch *t, const exact_body *b, const face *f, const double *d, const double *from, const double *to, corners other, double slop)
+static void add_points(touch *t, const exact_body *b, const face *f, const double *d, const double *from, const double *to, corners other,
+	double slop)
 {
 	const int e = incident_edge(b, f, other, t->normal), next = (e + 1) % (int)b->count;
 	double ends[2][2] = {{d[0] + other[e][0], d[1] + other[e][1]}, {d[0] + other[next][0], d[1] + other[next][1]}};
@@ -242,7 +243,7 @@ typedef struct search {
 	int wall;
 	double fastest, stillness;
 	double slop, skin; /* m */
-	double creep; /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less */
+	double creep;      /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less */
 } search;
 
 double touch_stillness(const exact_body *a, const exact_body *b)

@@ -8,7 +8,7 @@
 /* Seen from the reference body to the incident one. */
 typedef struct touch {
 	double normal[2];
-	int count;             /* of points: 2 where a face lies on a face */
+	int count;              /* of points: 2 where a face lies on a face */
 	double reference[2][2]; /* of each point: from the reference body's centre, */
 	double incident[2][2];  /* and from the incident one's */
 	double rate[2];         /* m a step, below 0: they approach */

@@ -45,8 +45,8 @@ static carom_status read_sizes(const char *text, void *target, carom_error *erro
 		char *end = NULL;
 		unsigned long size = *at >= '0' && *at <= '9' ? strtoul(at, &end, 10) : 0;
 		if (size < LEAST_BODIES || size > MOST_BODIES || (*end && *end != ',') || options->size_count == MAX_SIZES)
-			return wrong(error, "found \"%s\"; allowed: at most %d numbers of bodies, %d to %d each, like 256,512", text,
-				MAX_SIZES, LEAST_BODIES, MOST_BODIES);
+			return wrong(error, "found \"%s\"; allowed: at most %d numbers of bodies, %d to %d each, like 256,512", text, MAX_SIZES, LEAST_BODIES,
+				MOST_BODIES);
 		options->sizes[options->size_count++] = (uint32_t)size;
 		if (!*end)
 			return CAROM_OK;
@@ -56,10 +56,8 @@ static carom_status read_sizes(const char *text, void *target, carom_error *erro
 
 static const struct option options_table[] = {
 	{"csv", "FILE.csv", read_text, offsetof(struct bench_options, csv), "write a table with a row a measurement, of all tables"},
-	{"plot", "FILE.png", read_text, offsetof(struct bench_options, plot),
-		"draw a chart; `all` draws one a table: FILE-table1.png and so on"},
-	{"runs", "N", read_runs, offsetof(struct bench_options, runs),
-		"runs of each figure, 1 to 99; their median is shown; default 5"},
+	{"plot", "FILE.png", read_text, offsetof(struct bench_options, plot), "draw a chart; `all` draws one a table: FILE-table1.png and so on"},
+	{"runs", "N", read_runs, offsetof(struct bench_options, runs), "runs of each figure, 1 to 99; their median is shown; default 5"},
 	{"seconds", "S", read_positive, offsetof(struct bench_options, seconds),
 		"about how long a run may last: where 1,000 repetitions take longer, 10 to 500 are measured and scaled, of scale 1 to "
 		"500; "
@@ -83,8 +81,8 @@ static bool chart_path(const struct bench_options *options, const char *table, b
 
 /* ---- Tables ---- */
 
-static carom_status run_paper_table(
-	const struct bench_table *table, const struct bench_options *options, FILE *csv, const char *plot, carom_error *error)
+static carom_status run_paper_table(const struct bench_table *table, const struct bench_options *options, FILE *csv, const char *plot,
+	carom_error *error)
 {
 	struct bench_options own = *options;
 	struct bench_result *result = calloc(1, sizeof *result);

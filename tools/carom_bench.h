@@ -114,16 +114,14 @@ struct bench_summary {
 	double paper;               /* s for 1,000; 0 for none */
 };
 
-struct bench_summary bench_summarize(
-	const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index);
+struct bench_summary bench_summarize(const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index);
 
 /* ---- carom_bench_measure.c */
 
 /* Whether the library has all the slots and alternatives that the table names; CAROM_UNKNOWN_NAME if not. */
 carom_status bench_check(const struct bench_table *table, const struct bench_options *options, carom_error *error);
 /* Fills in *result, which is all zeros. */
-carom_status bench_measure(
-	const struct bench_table *table, const struct bench_options *options, struct bench_result *result, carom_error *error);
+carom_status bench_measure(const struct bench_table *table, const struct bench_options *options, struct bench_result *result, carom_error *error);
 
 /* Of measurements, all multiplied by `scale`. */
 struct bench_spread bench_spread(const double *seconds, size_t runs, double scale);
@@ -151,10 +149,9 @@ struct bench_world {
 };
 
 /* What the options and the subject say, but for the room; fails where the library lacks an alternative they name. */
-carom_status bench_world_def(
-	const struct bench_subject *subject, const struct bench_options *options, carom_world_def *def, carom_error *error);
-carom_status bench_world_create(const struct bench_subject *subject, const struct bench_options *options, uint32_t bodies,
-	bool profile, struct bench_world *world, carom_error *error);
+carom_status bench_world_def(const struct bench_subject *subject, const struct bench_options *options, carom_world_def *def, carom_error *error);
+carom_status bench_world_create(const struct bench_subject *subject, const struct bench_options *options, uint32_t bodies, bool profile,
+	struct bench_world *world, carom_error *error);
 void bench_world_destroy(struct bench_world *world);
 carom_status bench_world_restore(struct bench_world *world, const struct bench_path *path, size_t stop, carom_error *error);
 /* Does the subject's work that often. */

@@ -53,9 +53,8 @@ void bench_describe_devices(const carom_device_info *device, const carom_device_
 {
 	const bool both = device->is_opencl && *fallback->name;
 	const char *storage = device->uses_images ? ", images" : ", buffers";
-	snprintf(text, size, "%s%s%s, %u %s%s%s%s", device->platform, *device->platform ? ": " : "", device->name,
-		(unsigned)device->compute_units, device->is_opencl ? "compute units" : "cores", device->is_opencl ? storage : "",
-		both ? "; " : "", both ? fallback->name : "");
+	snprintf(text, size, "%s%s%s, %u %s%s%s%s", device->platform, *device->platform ? ": " : "", device->name, (unsigned)device->compute_units,
+		device->is_opencl ? "compute units" : "cores", device->is_opencl ? storage : "", both ? "; " : "", both ? fallback->name : "");
 }
 
 carom_status bench_draw(const struct bench_result *result, const char *path, carom_error *error)

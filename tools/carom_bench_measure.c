@@ -15,8 +15,8 @@
 /* ---- Progress ---- */
 
 /* `run` from 1; 0 while the subject is warmed up. */
-static void show(const struct bench_options *options, const struct bench_result *result, const struct bench_part *part,
-	uint32_t bodies, size_t run, const char *label)
+static void show(const struct bench_options *options, const struct bench_result *result, const struct bench_part *part, uint32_t bodies, size_t run,
+	const char *label)
 {
 	if (options->common.quiet || !isatty(STDERR_FILENO))
 		return;
@@ -60,8 +60,8 @@ static carom_kernel_time sum_kernels(carom_world *world, const struct bench_colu
 	return sum;
 }
 
-static carom_status measure_work(struct bench_world *world, const struct bench_part *part, struct bench_row *row, size_t run,
-	uint64_t times, carom_error *error)
+static carom_status measure_work(struct bench_world *world, const struct bench_part *part, struct bench_row *row, size_t run, uint64_t times,
+	carom_error *error)
 {
 	carom_kernel_time before[MAX_COLUMNS];
 	for (size_t k = 0; k < part->column_count; k++)
@@ -83,8 +83,8 @@ static carom_status measure_work(struct bench_world *world, const struct bench_p
 
 /* As many repetitions from each stop, or where they are few from every second; the first there are not timed, since they
  * send the state and clear what the stop before has left. */
-static carom_status measure_run(struct bench_world *world, const struct bench_part *part, const struct bench_path *path,
-	struct bench_row *row, size_t run, carom_error *error)
+static carom_status measure_run(struct bench_world *world, const struct bench_part *part, const struct bench_path *path, struct bench_row *row,
+	size_t run, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	size_t stride = row->repetitions <= FEW_REPETITIONS && path->stops > 1 ? 2 : 1;
@@ -102,8 +102,7 @@ static carom_status measure_run(struct bench_world *world, const struct bench_pa
 /* ---- A row ---- */
 
 /* Seconds a repetition takes once all is warm, measured over `least` seconds at least. */
-static carom_status warm_up(
-	struct bench_world *world, const struct bench_path *path, double least, double *seconds, carom_error *error)
+static carom_status warm_up(struct bench_world *world, const struct bench_path *path, double least, double *seconds, carom_error *error)
 {
 	carom_status status = bench_world_restore(world, path, path->stops - 1, error);
 	if (status == CAROM_OK)
@@ -163,9 +162,8 @@ static carom_status prepare(const struct bench_part *part, const struct bench_op
 	return status;
 }
 
-static carom_status measure_row(const struct bench_part *part, const struct bench_options *options,
-	const struct bench_result *result, const struct bench_path *path, struct bench_row *row, struct bench_world *worlds,
-	carom_error *error)
+static carom_status measure_row(const struct bench_part *part, const struct bench_options *options, const struct bench_result *result,
+	const struct bench_path *path, struct bench_row *row, struct bench_world *worlds, carom_error *error)
 {
 	carom_status status = prepare(part, options, result, path, row, worlds, error);
 	for (size_t run = 0; run < options->runs; run++) {
@@ -196,8 +194,7 @@ void bench_describe_pipeline(const carom_world *world, char *text, size_t size)
 	}
 }
 
-static carom_status measure_part(
-	struct bench_result *result, size_t part, const struct bench_options *options, carom_error *error)
+static carom_status measure_part(struct bench_result *result, size_t part, const struct bench_options *options, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < result->row_count; k++) {
@@ -218,8 +215,7 @@ static carom_status measure_part(
 	return status;
 }
 
-static carom_status find_device(
-	const struct bench_options *options, const char *name, carom_device_info *info, carom_error *error)
+static carom_status find_device(const struct bench_options *options, const char *name, carom_device_info *info, carom_error *error)
 {
 	struct common_options common = options->common;
 	carom_world_def def = carom_default_world_def();
@@ -266,8 +262,7 @@ carom_status bench_check(const struct bench_table *table, const struct bench_opt
 	return status;
 }
 
-carom_status bench_measure(
-	const struct bench_table *table, const struct bench_options *options, struct bench_result *result, carom_error *error)
+carom_status bench_measure(const struct bench_table *table, const struct bench_options *options, struct bench_result *result, carom_error *error)
 {
 	result->table = table;
 	result->runs = (size_t)options->runs;
@@ -309,8 +304,7 @@ struct bench_spread bench_spread(const double *seconds, size_t runs, double scal
 	};
 }
 
-struct bench_summary bench_summarize(
-	const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index)
+struct bench_summary bench_summarize(const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index)
 {
 	return (struct bench_summary){
 		.spread = bench_spread(row->cells[index].seconds, result->runs, REPETITIONS / (double)row->repetitions),

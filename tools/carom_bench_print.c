@@ -24,8 +24,8 @@ const char *bench_format_ratio(double ratio, char *text, size_t size)
 
 void bench_print_device(const char *what, const carom_device_info *device)
 {
-	printf("%s: %s%s%s%s%s%s, ", what, device->platform, *device->platform ? ": " : "", device->name,
-		*device->version ? " (" : "", device->version, *device->version ? ")" : "");
+	printf("%s: %s%s%s%s%s%s, ", what, device->platform, *device->platform ? ": " : "", device->name, *device->version ? " (" : "", device->version,
+		*device->version ? ")" : "");
 	if (device->is_opencl) {
 		printf("%u compute units, textures in %s\n", (unsigned)device->compute_units, device->uses_images ? "images" : "buffers");
 	} else {
@@ -33,14 +33,12 @@ void bench_print_device(const char *what, const carom_device_info *device)
 	}
 }
 
-static void print_cell(
-	const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index)
+static void print_cell(const struct bench_result *result, const struct bench_row *row, const struct bench_column *column, size_t index)
 {
 	char median[32], least[32], most[32], spread[72], paper[32] = "-", ratio[32] = "-", over[32];
 	struct bench_summary sum = bench_summarize(result, row, column, index);
 	bench_format(sum.spread.median, median, sizeof median);
-	snprintf(spread, sizeof spread, "%s - %s", bench_format(sum.spread.least, least, sizeof least),
-		bench_format(sum.spread.most, most, sizeof most));
+	snprintf(spread, sizeof spread, "%s - %s", bench_format(sum.spread.least, least, sizeof least), bench_format(sum.spread.most, most, sizeof most));
 	if (sum.paper > 0)
 		bench_format(sum.paper, paper, sizeof paper);
 	if (sum.paper > 0 && sum.spread.median > 0)
@@ -62,8 +60,7 @@ static void print_part(const struct bench_result *result, size_t index)
 {
 	const struct bench_part *part = &result->table->parts[index];
 	printf("\n%s\n", part->title);
-	printf("%8s  %-20s%10s  %-22s%10s%14s  %s\n", "bodies", "", "Carom, s", "least - most", "paper, s", "paper / Carom",
-		"repetitions");
+	printf("%8s  %-20s%10s  %-22s%10s%14s  %s\n", "bodies", "", "Carom, s", "least - most", "paper, s", "paper / Carom", "repetitions");
 	for (size_t i = 0; i < result->row_count; i++) {
 		const struct bench_row *row = &result->rows[index][i];
 		for (size_t k = 0; k < part->column_count; k++) {
@@ -160,8 +157,7 @@ const char *bench_storage(const carom_device_info *device)
 }
 
 /* What the runs of a cell have in common, up to the run's number. */
-static void put_cell(
-	FILE *stream, const struct bench_result *result, size_t part, uint32_t bodies, const struct bench_column *column)
+static void put_cell(FILE *stream, const struct bench_result *result, size_t part, uint32_t bodies, const struct bench_column *column)
 {
 	const struct bench_subject *subject = &result->table->parts[part].subjects[column->subject];
 	const carom_device_info *device = subject->place == PLACE_CPU ? &result->fallback : &result->device;

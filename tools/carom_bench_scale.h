@@ -85,12 +85,11 @@ struct scale_start {
 };
 
 /* `most_steps` are done on the CPU fallback, but no more once they have taken `seconds`. */
-carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options,
-	uint64_t most_steps, double seconds, struct scale_start *start, carom_error *error);
+carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
+	double seconds, struct scale_start *start, carom_error *error);
 void scale_start_destroy(struct scale_start *start);
 /* Carom's world as the options say, but for its room. */
-carom_status scale_world_def(
-	const struct bench_options *options, enum bench_place place, carom_world_def *def, carom_error *error);
+carom_status scale_world_def(const struct bench_options *options, enum bench_place place, carom_world_def *def, carom_error *error);
 
 /* An engine with its bodies. */
 struct scale_runner {
@@ -99,16 +98,15 @@ struct scale_runner {
 	void *peer;         /* the peer's; NULL both: there is none */
 };
 
-carom_status scale_runner_create(const struct scale_engine *engine, const struct scale_start *start,
-	const struct bench_options *options, struct scale_runner *runner, carom_error *error);
+carom_status scale_runner_create(const struct scale_engine *engine, const struct scale_start *start, const struct bench_options *options,
+	struct scale_runner *runner, carom_error *error);
 void scale_runner_destroy(struct scale_runner *runner);
 carom_status scale_runner_step(struct scale_runner *runner, uint64_t steps, carom_error *error);
 carom_status scale_runner_get_states(struct scale_runner *runner, size_t count, carom_body_state *states, carom_error *error);
 
 /* ---- carom_bench_scale_kept.c */
 
-carom_status scale_measure_kept(
-	struct scale_result *result, size_t shape, const struct bench_options *options, carom_error *error);
+carom_status scale_measure_kept(struct scale_result *result, size_t shape, const struct bench_options *options, carom_error *error);
 
 /* ---- carom_bench_scale_copy.c */
 

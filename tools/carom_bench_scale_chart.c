@@ -20,8 +20,8 @@ static void add_engine(struct plot_panel *panel, const struct scale_result *resu
 		struct bench_spread seconds = scale_spread(result, &row->cells[engine]);
 		double work = 1e-6 * row->bodies;
 		if (seconds.least > 0)
-			series->points[series->point_count++] =
-				(struct plot_point){row->bodies, work / seconds.median, work / seconds.most, work / seconds.least};
+			series->points[series->point_count++] = (struct plot_point){
+				row->bodies, work / seconds.median, work / seconds.most, work / seconds.least};
 	}
 	panel->series_count += series->point_count > 0;
 }
@@ -31,8 +31,7 @@ static void add_ceiling(struct plot_panel *panel, const struct scale_result *res
 	struct plot_series *series = &panel->series[panel->series_count++];
 	*series = (struct plot_series){.color = PLOT_GRAY, .reference = true};
 	for (size_t k = 0; k < result->row_count && ceiling(result) > 0; k++)
-		series->points[series->point_count++] =
-			(struct plot_point){result->rows[0][k].bodies, ceiling(result), ceiling(result), ceiling(result)};
+		series->points[series->point_count++] = (struct plot_point){result->rows[0][k].bodies, ceiling(result), ceiling(result), ceiling(result)};
 }
 
 carom_status scale_draw(const struct scale_result *result, const char *path, carom_error *error)

@@ -36,8 +36,8 @@ static double overlap_with_walls(const struct peer_scene *scene, const carom_bod
 }
 
 /* Looks at the runner's bodies; answers their kinetic energy, and notes an overlap deeper than those before. */
-static carom_status look(struct scale_runner *runner, const struct peer_scene *scene, carom_world *judge,
-	carom_body_state *states, struct scale_kept *kept, double *energy, carom_error *error)
+static carom_status look(struct scale_runner *runner, const struct peer_scene *scene, carom_world *judge, carom_body_state *states,
+	struct scale_kept *kept, double *energy, carom_error *error)
 {
 	carom_measure measure = {0};
 	carom_status status = scale_runner_get_states(runner, scene->count, states, error);
@@ -78,8 +78,7 @@ static carom_status create_judge(const struct scale_start *start, carom_world **
 	return status == CAROM_OK ? carom_world_add(*judge, start->defs, start->scene.count, NULL, error) : status;
 }
 
-carom_status scale_measure_kept(
-	struct scale_result *result, size_t shape, const struct bench_options *options, carom_error *error)
+carom_status scale_measure_kept(struct scale_result *result, size_t shape, const struct bench_options *options, carom_error *error)
 {
 	struct scale_start start;
 	carom_world *judge = NULL;

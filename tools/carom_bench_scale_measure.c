@@ -9,7 +9,7 @@
 #define START_SECONDS 10.0 /* the steps before all may take */
 #define WARM_BATCHES 2     /* the steps before, of each engine, last as long as that */
 #define LEAST_WARM 2
-#define UNTIMED 2 /* steps after another engine had the caches; where batches are long it makes no difference */
+#define UNTIMED 2                      /* steps after another engine had the caches; where batches are long it makes no difference */
 #define COPY_BYTES ((size_t)256 << 20) /* more than caches hold */
 
 /* ---- Progress ---- */
@@ -66,8 +66,7 @@ const char *scale_absence(const struct scale_result *result, size_t engine)
 }
 
 /* Notes why the engine is left out of the row, if it is. */
-static bool left_out(
-	const struct scale_result *result, const struct scale_row *rows, size_t row, size_t engine, char *why, size_t size)
+static bool left_out(const struct scale_result *result, const struct scale_row *rows, size_t row, size_t engine, char *why, size_t size)
 {
 	const char *absence = scale_absence(result, engine);
 	if (absence)
@@ -144,14 +143,12 @@ static carom_status measure_engines(struct scale_result *result, size_t shape, s
 	return status;
 }
 
-static carom_status measure_row(
-	struct scale_result *result, size_t shape, size_t row, const struct bench_options *options, carom_error *error)
+static carom_status measure_row(struct scale_result *result, size_t shape, size_t row, const struct bench_options *options, carom_error *error)
 {
 	struct scale_row *this = &result->rows[shape][row];
 	struct scale_start start;
 	show(options, scale_shapes[shape].title, this->bodies, "100 steps to begin from");
-	carom_status status =
-		scale_start_create(&scale_shapes[shape], this->bodies, options, SCALE_WARM, START_SECONDS, &start, error);
+	carom_status status = scale_start_create(&scale_shapes[shape], this->bodies, options, SCALE_WARM, START_SECONDS, &start, error);
 	if (status != CAROM_OK) { /* nobody has bodies then */
 		for (size_t k = 1; k < SCALE_ENGINES; k++)
 			snprintf(this->cells[k].why, sizeof this->cells[k].why, "the bodies could not be made");

@@ -19,8 +19,7 @@ static void print_head(const struct scale_result *result)
 	}
 	if (result->copy_rate > 0) {
 		char size[32];
-		printf(
-			"memory: %.1f GB/s, the best of 10 copies of %s by %u thread%s, before and after, read and written bytes counted\n",
+		printf("memory: %.1f GB/s, the best of 10 copies of %s by %u thread%s, before and after, read and written bytes counted\n",
 			1e-9 * result->copy_rate, format_bytes(result->copy_bytes, size, sizeof size), result->copy_threads,
 			result->copy_threads == 1 ? "" : "s");
 	}
@@ -54,14 +53,14 @@ static void print_cell(const struct scale_result *result, const struct scale_row
 	if (result->copy_rate > 0)
 		snprintf(share, sizeof share, "%.2g %%", 100 * 1e6 * rate * SCALE_FLOOR_BYTES / result->copy_rate);
 	printf("%8u  %-20s%11s  %-20s%12s%14s%10s  %zu x %" PRIu64 "\n", (unsigned)row->bodies, scale_engines[engine].label,
-		bench_format(1e3 * seconds.median, median, sizeof median), spread, bench_format(rate, speed, sizeof speed), ratio, share,
-		result->runs, cell->steps);
+		bench_format(1e3 * seconds.median, median, sizeof median), spread, bench_format(rate, speed, sizeof speed), ratio, share, result->runs,
+		cell->steps);
 }
 
 static void print_shape(const struct scale_result *result, size_t shape)
 {
-	printf("\n%s\n%8s  %-20s%11s  %-20s%12s%14s%10s  %s\n", scale_shapes[shape].title, "bodies", "", "ms a step", "least - most",
-		"million/s", "to best peer", "of floor", "steps");
+	printf("\n%s\n%8s  %-20s%11s  %-20s%12s%14s%10s  %s\n", scale_shapes[shape].title, "bodies", "", "ms a step", "least - most", "million/s",
+		"to best peer", "of floor", "steps");
 	for (size_t i = 0; i < result->row_count; i++) {
 		for (size_t k = 0; k < SCALE_ENGINES; k++) {
 			if (!scale_absence(result, k))
@@ -74,14 +73,13 @@ static void print_shape(const struct scale_result *result, size_t shape)
 
 static void print_kept(const struct scale_result *result)
 {
-	printf("\nkept in %d steps of %u bodies\n%-12s%-20s%22s%16s\n", SCALE_KEPT_STEPS, (unsigned)result->kept_bodies, "", "",
-		"kinetic energy, by", "worst overlap");
+	printf("\nkept in %d steps of %u bodies\n%-12s%-20s%22s%16s\n", SCALE_KEPT_STEPS, (unsigned)result->kept_bodies, "", "", "kinetic energy, by",
+		"worst overlap");
 	for (size_t shape = 0; shape < SCALE_SHAPES; shape++) {
 		for (size_t k = 0; k < SCALE_ENGINES; k++) {
 			const struct scale_kept *kept = &result->kept[shape][k];
 			if (kept->measured)
-				printf("%-12s%-20s%20.2g %%%14.2g m\n", scale_shapes[shape].title, scale_engines[k].label, 100 * kept->drift,
-					kept->overlap);
+				printf("%-12s%-20s%20.2g %%%14.2g m\n", scale_shapes[shape].title, scale_engines[k].label, 100 * kept->drift, kept->overlap);
 		}
 	}
 }
@@ -92,30 +90,27 @@ static void print_warm(const struct scale_result *result)
 		for (size_t k = 0; k < result->row_count; k++) {
 			const struct scale_row *row = &result->rows[shape][k];
 			if (row->warm > 0 && row->warm < SCALE_WARM)
-				printf("There were only %u steps before with %u %s.\n", (unsigned)row->warm, (unsigned)row->bodies,
-					scale_shapes[shape].title);
+				printf("There were only %u steps before with %u %s.\n", (unsigned)row->warm, (unsigned)row->bodies, scale_shapes[shape].title);
 		}
 	}
 }
 
 static void print_reading(const struct scale_result *result)
 {
-	printf(
-		"\nThe bodies: radius 0.5 m (triangles: of the circle around), a quarter of a square room filled, each component of the\n"
-		"velocity uniform in [-5, 5] m/s, restitution 1, no friction, no gravity. All engines begin from the same bodies as\n"
-		"they are after %d steps of Carom; then each makes up to %d steps by itself that are not timed.\n",
+	printf("\nThe bodies: radius 0.5 m (triangles: of the circle around), a quarter of a square room filled, each component of the\n"
+		   "velocity uniform in [-5, 5] m/s, restitution 1, no friction, no gravity. All engines begin from the same bodies as\n"
+		   "they are after %d steps of Carom; then each makes up to %d steps by itself that are not timed.\n",
 		SCALE_WARM, SCALE_WARM);
 	print_warm(result);
-	printf(
-		"ms a step: the median of %zu batches, with the least and the most; steps: batches x steps of each.\n"
-		"million/s: body-steps a second, in millions: bodies x steps / seconds.\n"
-		"to best peer: Carom's body-steps a second / those of the faster of the others, above 1 where Carom is faster.\n"
-		"of floor: what a step takes at least, %d bytes a body at the memory's rate above, as a part of what it took. A GPU\n"
-		"with a memory of its own is not bound by that.\n"
-		"Carom takes all cores, the others one; they are the system's packages (Debian's Chipmunk has its assertions compiled\n"
-		"in). Where a step of one took more than %.0f s, it is left out of the larger sizes.\n"
-		"kept: the kinetic energy ought to stay and nothing to overlap; the overlap is looked for every %d steps, also with\n"
-		"walls. Both are measured by Carom, in double precision, from each engine's states.\n",
+	printf("ms a step: the median of %zu batches, with the least and the most; steps: batches x steps of each.\n"
+		   "million/s: body-steps a second, in millions: bodies x steps / seconds.\n"
+		   "to best peer: Carom's body-steps a second / those of the faster of the others, above 1 where Carom is faster.\n"
+		   "of floor: what a step takes at least, %d bytes a body at the memory's rate above, as a part of what it took. A GPU\n"
+		   "with a memory of its own is not bound by that.\n"
+		   "Carom takes all cores, the others one; they are the system's packages (Debian's Chipmunk has its assertions compiled\n"
+		   "in). Where a step of one took more than %.0f s, it is left out of the larger sizes.\n"
+		   "kept: the kinetic energy ought to stay and nothing to overlap; the overlap is looked for every %d steps, also with\n"
+		   "walls. Both are measured by Carom, in double precision, from each engine's states.\n",
 		result->runs, SCALE_FLOOR_BYTES, SCALE_SLOW, SCALE_KEPT_EVERY);
 	if (strcmp(result->step, "events") != 0)
 		printf("A step of %s may end before 1/60 s: its figures can't be compared with the others'.\n", result->step);
@@ -133,8 +128,7 @@ void scale_print(const struct scale_result *result)
 /* ---- CSV ---- */
 
 /* Up to the run's number. */
-static void put_start(
-	FILE *stream, const struct scale_result *result, size_t shape, const char *kept, uint32_t bodies, size_t engine)
+static void put_start(FILE *stream, const struct scale_result *result, size_t shape, const char *kept, uint32_t bodies, size_t engine)
 {
 	const struct peer *peer = scale_engines[engine].peer;
 	const carom_device_info *device = scale_engines[engine].place == PLACE_CPU ? &result->fallback : &result->device;
@@ -168,8 +162,8 @@ static void write_kept(FILE *stream, const struct scale_result *result, size_t s
 	if (!kept->measured)
 		return;
 	put_start(stream, result, shape, ", kept", result->kept_bodies, engine);
-	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,%.9g,%.6g\n", SCALE_KEPT_STEPS, kept->seconds,
-		REPETITIONS * kept->seconds / SCALE_KEPT_STEPS, kept->drift, kept->overlap, result->copy_rate);
+	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,%.9g,%.6g\n", SCALE_KEPT_STEPS, kept->seconds, REPETITIONS * kept->seconds / SCALE_KEPT_STEPS,
+		kept->drift, kept->overlap, result->copy_rate);
 }
 
 void scale_write_csv(FILE *stream, const struct scale_result *result)

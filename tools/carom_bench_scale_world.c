@@ -15,8 +15,7 @@ static carom_status no_memory(const char *what, carom_error *error)
 
 /* ---- Carom's worlds ---- */
 
-carom_status scale_world_def(
-	const struct bench_options *options, enum bench_place place, carom_world_def *def, carom_error *error)
+carom_status scale_world_def(const struct bench_options *options, enum bench_place place, carom_world_def *def, carom_error *error)
 {
 	struct common_options common = options->common;
 	if (place == PLACE_CPU)
@@ -27,8 +26,8 @@ carom_status scale_world_def(
 	return status == CAROM_OK && !def->pipeline.step ? found : status;
 }
 
-static carom_status create_world(const struct scale_start *start, const struct bench_options *options, enum bench_place place,
-	carom_world **world, carom_error *error)
+static carom_status create_world(const struct scale_start *start, const struct bench_options *options, enum bench_place place, carom_world **world,
+	carom_error *error)
 {
 	carom_world_def def;
 	carom_status status = scale_world_def(options, place, &def, error);
@@ -46,8 +45,7 @@ static carom_status create_world(const struct scale_start *start, const struct b
 
 static carom_status place(const struct scale_shape *shape, uint32_t bodies, struct scale_start *start, carom_error *error)
 {
-	const struct placement_def placement = {
-		.sides = shape->sides, .count = bodies, .fill = 0.25, .speed = 5, .radius = 0.5, .seed = 1};
+	const struct placement_def placement = {.sides = shape->sides, .count = bodies, .fill = 0.25, .speed = 5, .radius = 0.5, .seed = 1};
 	float half;
 	carom_status status = placement_create(&placement, &start->defs, &half, error);
 	if (status != CAROM_OK)
@@ -74,8 +72,8 @@ static carom_status walk(struct scale_start *start, uint64_t most_steps, double 
 	return status;
 }
 
-carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options,
-	uint64_t most_steps, double seconds, struct scale_start *start, carom_error *error)
+carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
+	double seconds, struct scale_start *start, carom_error *error)
 {
 	*start = (struct scale_start){NULL};
 	carom_status status = place(shape, bodies, start, error);
@@ -103,8 +101,8 @@ void scale_start_destroy(struct scale_start *start)
 
 /* ---- Runners ---- */
 
-carom_status scale_runner_create(const struct scale_engine *engine, const struct scale_start *start,
-	const struct bench_options *options, struct scale_runner *runner, carom_error *error)
+carom_status scale_runner_create(const struct scale_engine *engine, const struct scale_start *start, const struct bench_options *options,
+	struct scale_runner *runner, carom_error *error)
 {
 	carom_status status;
 	*runner = (struct scale_runner){.engine = engine};

@@ -5,8 +5,8 @@
 
 #define ITEMS(array) array, sizeof(array) / sizeof *(array)
 #define PAPER(...) ((const double[PAPER_SIZES]){__VA_ARGS__})
-#define BISECTION \
-	{ \
+#define BISECTION               \
+	{                           \
 		"toi_first", "toi_next" \
 	}
 
@@ -209,8 +209,8 @@ static const struct bench_column kernel_columns[] = {
 	{"Bisection", 0, BISECTION, PAPER(0.61, 0.72, 0.76, 1.14), "Bisection", "", 0},
 	{"Impulse", 0, {"impulse"}, PAPER(0.32, 0.32, 0.36, 0.52), "Impulse", "", 0},
 	{"Forward", 0, {FORWARD}, PAPER(0.039, 0.0799, 0.21, 0.23), "Forward", "", 0},
-	{"sum of these", 0, {"aabb", "overlap", "toi_first", "toi_next", "impulse", FORWARD}, PAPER(1.3789, 1.9768, 3.9899, 11.58),
-		"Sum of these five", "", 0},
+	{"sum of these", 0, {"aabb", "overlap", "toi_first", "toi_next", "impulse", FORWARD}, PAPER(1.3789, 1.9768, 3.9899, 11.58), "Sum of these five",
+		"", 0},
 	{"walls", 0, {"walls"}, NULL, "Walls (not in the paper)", "", 0},
 	{"reduce", 0, {"reduce", "reduce_tiles"}, NULL, "Reduce (in the paper: table 2)", "", 0},
 	{"first", 0, {"first"}, NULL, "First (not in the paper)", "", 0},
@@ -224,12 +224,11 @@ const struct bench_table bench_table5 = {
 	.title = "Table 5: the kernels in 1,000 steps",
 	.chart = "Table 5: the kernels of a step",
 	.unit = "seconds for 1,000 steps (ms each)",
-	.notes =
-		"Update is the kernel aabb, Bisection toi_first with toi=bisection, Forward forward_no_collision and\n"
-		"forward_collision. The paper runs Impulse and CollisionForward only after a collision. Ours run in each step,\n"
-		"since the device decides whether it collides; what is not needed does nothing. Our Impulse has one texel, for the\n"
-		"pair that hits, the paper's N x N. walls, reduce and first are not in the paper's table: its walls are bodies, its\n"
-		"reduction is table 2. whole step is the wall clock while kernels are measured: launches and waiting are in it.\n",
+	.notes = "Update is the kernel aabb, Bisection toi_first with toi=bisection, Forward forward_no_collision and\n"
+			 "forward_collision. The paper runs Impulse and CollisionForward only after a collision. Ours run in each step,\n"
+			 "since the device decides whether it collides; what is not needed does nothing. Our Impulse has one texel, for the\n"
+			 "pair that hits, the paper's N x N. walls, reduce and first are not in the paper's table: its walls are bodies, its\n"
+			 "reduction is table 2. whole step is the wall clock while kernels are measured: launches and waiting are in it.\n",
 	.least = 8,
 	.most = 11,
 	.parts = ITEMS(kernel_parts),

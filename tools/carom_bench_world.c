@@ -9,8 +9,7 @@
 #define HEIGHT 480u
 #define STOPS 10
 
-carom_status bench_world_def(
-	const struct bench_subject *subject, const struct bench_options *options, carom_world_def *def, carom_error *error)
+carom_status bench_world_def(const struct bench_subject *subject, const struct bench_options *options, carom_world_def *def, carom_error *error)
 {
 	struct common_options common = options->common;
 	for (size_t k = 0; k < sizeof subject->sets / sizeof *subject->sets && subject->sets[k]; k++) {
@@ -27,11 +26,9 @@ carom_status bench_world_def(
 }
 
 /* The bodies in their room. */
-static carom_status create(
-	const struct bench_subject *subject, uint32_t count, carom_world_def *def, carom_world **world, carom_error *error)
+static carom_status create(const struct bench_subject *subject, uint32_t count, carom_world_def *def, carom_world **world, carom_error *error)
 {
-	const struct placement_def placement = {
-		.sides = subject->sides, .count = count, .fill = 0.25, .speed = 2, .radius = 0.5, .seed = 1};
+	const struct placement_def placement = {.sides = subject->sides, .count = count, .fill = 0.25, .speed = 2, .radius = 0.5, .seed = 1};
 	carom_body_def *bodies = NULL;
 	float half;
 	carom_status status = placement_create(&placement, &bodies, &half, error);
@@ -93,8 +90,8 @@ void bench_path_destroy(struct bench_path *path)
 
 /* ---- Worlds ---- */
 
-carom_status bench_world_create(const struct bench_subject *subject, const struct bench_options *options, uint32_t bodies,
-	bool profile, struct bench_world *world, carom_error *error)
+carom_status bench_world_create(const struct bench_subject *subject, const struct bench_options *options, uint32_t bodies, bool profile,
+	struct bench_world *world, carom_error *error)
 {
 	carom_world_def def;
 	*world = (struct bench_world){.subject = subject};

@@ -24,8 +24,7 @@ static void print_facts(const carom_device_info *device)
 static void print_device(const carom_device_info *device)
 {
 	printf("%s%s%s", device->platform, *device->platform ? ": " : "", device->name);
-	printf("%s%s%s%s\n", *device->version ? " (" : "", device->version, *device->version ? ")" : "",
-		device->is_default ? ", the default" : "");
+	printf("%s%s%s%s\n", *device->version ? " (" : "", device->version, *device->version ? ")" : "", device->is_default ? ", the default" : "");
 	if (!device->works) {
 		printf("    does not work: %s\n", *device->reason ? device->reason : "for a reason unknown");
 	} else if (device->exact) {

@@ -57,14 +57,12 @@ static const struct option options_table[] = {
 	{"shape", "SHAPE", read_shape, 0,
 		"triangle, square, regular:K (K sides, 3 to 64), circle, or mixed: circles and regular polygons of 3 to 6 sides in turn"},
 	{"count", "N", read_body_count, offsetof(struct generate_options, count), "bodies, 1 to 4194304"},
-	{"fill", "PART", read_positive, offsetof(struct generate_options, placement.fill),
-		"area of the bodies / area of the room; default 0.25"},
+	{"fill", "PART", read_positive, offsetof(struct generate_options, placement.fill), "area of the bodies / area of the room; default 0.25"},
 	{"speed", "V", read_speed, offsetof(struct generate_options, placement.speed),
 		"each velocity component is uniform in [-V, V] m/s, the angular velocity in [-V, V] rad/s (none for circles); default 2"},
 	{"radius", "R", read_positive, offsetof(struct generate_options, placement.radius),
 		"m, of circles and of the circles around polygons; default 0.5"},
-	{"seed", "S", read_count, offsetof(struct generate_options, placement.seed),
-		"the same seed gives the same scene on every machine; default 1"},
+	{"seed", "S", read_count, offsetof(struct generate_options, placement.seed), "the same seed gives the same scene on every machine; default 1"},
 	{"out", "SCENE.json", read_text, offsetof(struct generate_options, out), "write the scene there; default standard output"},
 	{NULL, NULL, NULL, 0, NULL},
 };
@@ -86,8 +84,8 @@ static void put_body(FILE *stream, const carom_body_def *body)
 	} else {
 		fprintf(stream, "{\"regular\": {\"sides\": %u, \"radius\": %.9g}", (unsigned)body->sides, (double)body->radius);
 	}
-	fprintf(stream, ", \"position\": [%.9g, %.9g], \"velocity\": [%.9g, %.9g]", (double)body->position.x,
-		(double)body->position.y, (double)body->velocity.x, (double)body->velocity.y);
+	fprintf(stream, ", \"position\": [%.9g, %.9g], \"velocity\": [%.9g, %.9g]", (double)body->position.x, (double)body->position.y,
+		(double)body->velocity.x, (double)body->velocity.y);
 	if (body->shape != CAROM_CIRCLE)
 		fprintf(stream, ", \"angle\": %.9g, \"angular_velocity\": %.9g", (double)body->angle, (double)body->angular_velocity);
 	putc('}', stream);
@@ -132,8 +130,7 @@ static int generate_main(int argc, char **argv)
 		return report(&error);
 	code = write_scene(&options, bodies, (double)half);
 	if (code == EXIT_DONE)
-		say(&options.common, "%u bodies in a room of %.6g x %.6g m", (unsigned)options.placement.count, 2.0 * (double)half,
-			2.0 * (double)half);
+		say(&options.common, "%u bodies in a room of %.6g x %.6g m", (unsigned)options.placement.count, 2.0 * (double)half, 2.0 * (double)half);
 	free(bodies);
 	return code;
 }

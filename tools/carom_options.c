@@ -114,8 +114,7 @@ static const struct option *find_option(const struct option *table, const char *
 }
 
 /* Takes the option at argv[*index] and its value. */
-static carom_status take_option(
-	const struct command *command, int argc, char **argv, int *index, struct common_options *options, carom_error *error)
+static carom_status take_option(const struct command *command, int argc, char **argv, int *index, struct common_options *options, carom_error *error)
 {
 	const char *name = argv[*index] + 2, *equals = strchr(name, '='), *value = equals ? equals + 1 : NULL;
 	size_t length = equals ? (size_t)(equals - name) : strlen(name);
@@ -140,8 +139,7 @@ static carom_status take_option(
 	return status;
 }
 
-static carom_status take_argument(
-	const struct command *command, const char *text, struct common_options *options, carom_error *error)
+static carom_status take_argument(const struct command *command, const char *text, struct common_options *options, carom_error *error)
 {
 	if (options->argument_count == command->most_arguments)
 		return wrong(error, "%s: one argument too many: `carom %s --help` shows the usage", text, command->name);
@@ -149,8 +147,7 @@ static carom_status take_argument(
 	return CAROM_OK;
 }
 
-static carom_status take_all(
-	const struct command *command, int argc, char **argv, struct common_options *options, carom_error *error)
+static carom_status take_all(const struct command *command, int argc, char **argv, struct common_options *options, carom_error *error)
 {
 	bool options_ended = false;
 	carom_status status = CAROM_OK;
@@ -183,8 +180,7 @@ int parse_options(const struct command *command, int argc, char **argv, struct c
 		return finish_output();
 	}
 	if (status == CAROM_OK && options->argument_count < command->least_arguments)
-		status = wrong(
-			&error, "%s: %s is missing: `carom %s --help` shows the usage", command->name, command->arguments, command->name);
+		status = wrong(&error, "%s: %s is missing: `carom %s --help` shows the usage", command->name, command->arguments, command->name);
 	return status == CAROM_OK ? -1 : report(&error);
 }
 
@@ -220,8 +216,8 @@ static void print_table(const struct option *table)
 
 void print_command_help(const struct command *command)
 {
-	printf("usage: carom %s%s%s [options]\n\n%s.\n%s", command->name, *command->arguments ? " " : "", command->arguments,
-		command->summary, command->details);
+	printf("usage: carom %s%s%s [options]\n\n%s.\n%s", command->name, *command->arguments ? " " : "", command->arguments, command->summary,
+		command->details);
 	if (command->options->name)
 		printf("\noptions:\n");
 	print_table(command->options);

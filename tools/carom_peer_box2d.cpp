@@ -7,8 +7,7 @@
 #include <new>
 #include <vector>
 
-namespace
-{
+namespace {
 
 constexpr int velocity_iterations = 8, position_iterations = 3; /* as its manual and its samples have them */
 

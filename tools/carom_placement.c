@@ -69,8 +69,8 @@ static carom_status fail_fill(const struct placement_def *def, carom_error *erro
 		double middle = (low + high) / 2;
 		*(fits(def, middle) ? &low : &high) = middle;
 	}
-	return wrong(error, "--fill: %u such bodies can't be packed to a fill of %g; allowed: up to %.3f", (unsigned)def->count,
-		def->fill, floor(low * 1000) / 1000);
+	return wrong(error, "--fill: %u such bodies can't be packed to a fill of %g; allowed: up to %.3f", (unsigned)def->count, def->fill,
+		floor(low * 1000) / 1000);
 }
 
 static carom_status check_def(const struct placement_def *def, carom_error *error)

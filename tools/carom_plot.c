@@ -145,8 +145,7 @@ static double draw_figure(const struct canvas *canvas, double width, bool drawn)
 	top += draw_legend(canvas, top, width - 2 * MARGIN, drawn) + 6;
 	for (size_t k = 0; drawn && k < figure->panel_count; k++)
 		draw_panel(canvas,
-			(struct box){MARGIN - 6 + panel_width * (double)(k % across), top + panel_height * (double)(k / across), panel_width,
-				panel_height},
+			(struct box){MARGIN - 6 + panel_width * (double)(k % across), top + panel_height * (double)(k / across), panel_width, panel_height},
 			&figure->panels[k], k % across == 0, k + across >= figure->panel_count);
 	double bottom = top + panel_height * (double)down + 18;
 	if (drawn) {
@@ -197,8 +196,7 @@ static carom_status write_surface(cairo_surface_t *surface, const char *path, ca
 /* A white canvas of that height; its surface is the cairo's target. */
 static cairo_t *create_cairo(double width, double height)
 {
-	cairo_surface_t *surface =
-		cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(width * SCALE), (int)ceil(height * SCALE));
+	cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(width * SCALE), (int)ceil(height * SCALE));
 	cairo_t *cairo = cairo_create(surface);
 	cairo_surface_destroy(surface);
 	cairo_scale(cairo, SCALE, SCALE);
@@ -219,8 +217,7 @@ carom_status plot_write(const struct plot_figure *figure, const char *path, caro
 	draw_figure(&canvas, width, true);
 	cairo_surface_t *surface = cairo_get_target(canvas.cairo);
 	cairo_surface_flush(surface);
-	carom_status status =
-		cairo_status(canvas.cairo) == CAIRO_STATUS_SUCCESS ? write_surface(surface, path, error) : no_memory(error);
+	carom_status status = cairo_status(canvas.cairo) == CAIRO_STATUS_SUCCESS ? write_surface(surface, path, error) : no_memory(error);
 	cairo_destroy(canvas.cairo);
 	return status;
 }

@@ -45,8 +45,7 @@ void set_color(cairo_t *cairo, int color)
 
 void set_font(cairo_t *cairo, double size, bool bold)
 {
-	cairo_select_font_face(
-		cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+	cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
 	cairo_set_font_size(cairo, size);
 }
 

@@ -40,8 +40,8 @@ void show_progress(struct progress *progress, double done, uint64_t steps, doubl
 		done = 1;
 	double rest = done > 0 ? elapsed * (1 - done) / done : 1e9;
 	int filled = (int)(done * BAR);
-	fprintf(stderr, "\r[%.*s%.*s] %3.0f%%  %llu steps  %.4g s  %.3g steps/s  %s left\033[K", filled, "########################",
-		BAR - filled, "........................", done * 100, (unsigned long long)steps, simulated, (double)steps / elapsed,
+	fprintf(stderr, "\r[%.*s%.*s] %3.0f%%  %llu steps  %.4g s  %.3g steps/s  %s left\033[K", filled, "########################", BAR - filled,
+		"........................", done * 100, (unsigned long long)steps, simulated, (double)steps / elapsed,
 		format_duration(rest, left, sizeof left));
 	fflush(stderr);
 	progress->last = now;

@@ -16,8 +16,8 @@ static carom_status read_size(const char *text, void *target, carom_error *error
 	unsigned width = 0, height = 0;
 	int length = 0;
 	bool digits = strspn(text, "0123456789x") == strlen(text) && strlen(text) <= 11; /* no sign, no space, no overflow */
-	if (!digits || sscanf(text, "%ux%u%n", &width, &height, &length) != 2 || text[length] || width < 1 || height < 1 ||
-		width > MAX_PICTURE_SIDE || height > MAX_PICTURE_SIDE)
+	if (!digits || sscanf(text, "%ux%u%n", &width, &height, &length) != 2 || text[length] || width < 1 || height < 1 || width > MAX_PICTURE_SIDE
+		|| height > MAX_PICTURE_SIDE)
 		return wrong(error, "found \"%s\"; allowed: WxH in pixels, each 1 to %u", text, MAX_PICTURE_SIDE);
 	size[0] = width;
 	size[1] = height;
@@ -29,8 +29,8 @@ static carom_status read_inset(const char *text, void *target, carom_error *erro
 	struct run_options *options = target;
 	carom_inset *inset = &options->inset;
 	int length = 0;
-	if (sscanf(text, "%f,%f,%f,%f%n", &inset->min.x, &inset->min.y, &inset->size.x, &inset->size.y, &length) != 4 ||
-		text[length] || !(inset->size.x > 0) || !(inset->size.y > 0))
+	if (sscanf(text, "%f,%f,%f,%f%n", &inset->min.x, &inset->min.y, &inset->size.x, &inset->size.y, &length) != 4 || text[length]
+		|| !(inset->size.x > 0) || !(inset->size.y > 0))
 		return wrong(error, "found \"%s\"; allowed: X,Y,W,H in metres, the lower left corner and a size above 0", text);
 	options->has_inset = true;
 	return CAROM_OK;
@@ -49,8 +49,7 @@ static const struct option options_table[] = {
 	{"steps", "N", read_count, offsetof(struct run_options, steps), "run N steps"},
 	{"time", "SECONDS", read_time, offsetof(struct run_options, time),
 		"run so many seconds of simulated time; 1 if neither --steps nor --time is given"},
-	{"out", "STATE.json", read_text, offsetof(struct run_options, out),
-		"write the last state as a scene that goes on with the same bits"},
+	{"out", "STATE.json", read_text, offsetof(struct run_options, out), "write the last state as a scene that goes on with the same bits"},
 	{"png", "FRAME.png", read_text, offsetof(struct run_options, png), "write a picture of the last state"},
 	{"frames", "DIR", read_text, offsetof(struct run_options, frames),
 		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing"},
@@ -100,7 +99,9 @@ static void say_device(const struct common_options *options, const carom_world *
 	if (carom_world_get_device(world, &device, NULL) != CAROM_OK)
 		return;
 	say(options, "runs on %s%s%s%s%s", device.platform, *device.platform ? ": " : "", device.name,
-		!device.is_opencl ? "" : device.uses_images ? ", with images" : ", with buffers",
+		!device.is_opencl        ? ""
+			: device.uses_images ? ", with images"
+								 : ", with buffers",
 		device.exact ? "" : ", which is not exact: other devices' results differ in the last bits");
 }
 
@@ -128,9 +129,8 @@ static void say_recentred(const struct common_options *options, const carom_worl
 static void say_done(const struct run *run)
 {
 	const carom_report *total = &run->total;
-	say(&run->options->common, "%llu steps, %llu hits, %.6g s simulated in %.3g s (%.4g steps/s)",
-		(unsigned long long)total->steps, (unsigned long long)total->hits, total->advanced, run->seconds,
-		run->seconds > 0 ? (double)total->steps / run->seconds : 0.0);
+	say(&run->options->common, "%llu steps, %llu hits, %.6g s simulated in %.3g s (%.4g steps/s)", (unsigned long long)total->steps,
+		(unsigned long long)total->hits, total->advanced, run->seconds, run->seconds > 0 ? (double)total->steps / run->seconds : 0.0);
 }
 
 /* ---- The run ---- */

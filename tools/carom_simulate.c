@@ -138,8 +138,7 @@ carom_status simulate(struct run *run, carom_error *error)
 	catch_signal(SIGTERM);
 	carom_world_set_progress(run->world, go_on, run);
 	begin_progress(&run->progress, run->options->common.quiet);
-	status =
-		run->options->steps != NO_STEPS ? run_steps(run, run->options->steps, error) : run_time(run, run->options->time, error);
+	status = run->options->steps != NO_STEPS ? run_steps(run, run->options->steps, error) : run_time(run, run->options->time, error);
 	end_progress(&run->progress);
 	carom_world_set_progress(run->world, NULL, NULL);
 	run->seconds = wall_seconds() - begun;

@@ -15,8 +15,8 @@ static int stages_main(int argc, char **argv)
 	printf("%-10s %-20s %-8s %-8s\n", "slot", "alternative", "opencl", "cpu");
 	for (size_t k = 0; carom_stage_list(k, &info); k++) {
 		bool same = strcmp(slot, info.slot) == 0;
-		printf("%-10s %-20s %-8s %-8s%s\n", same ? "" : info.slot, info.alternative, info.on_opencl ? "yes" : "no",
-			info.on_cpu ? "yes" : "no", info.is_default ? " default" : "");
+		printf("%-10s %-20s %-8s %-8s%s\n", same ? "" : info.slot, info.alternative, info.on_opencl ? "yes" : "no", info.on_cpu ? "yes" : "no",
+			info.is_default ? " default" : "");
 		slot = info.slot;
 	}
 	return finish_output();

@@ -75,8 +75,7 @@ __kernel void bin_rows(TEX_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_OUT(
 	}
 }
 
-__kernel void bin_tiles(TEX_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_IN(rows), LIST_OUT(ends), LIST_OUT(list),
-	int4 domain)
+__kernel void bin_tiles(TEX_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_IN(rows), LIST_OUT(ends), LIST_OUT(list), int4 domain)
 {
 	int row = get_global_id(0), columns = frame_fact(TEX(frame), false);
 	uint begin = 0, from = 0, room = (uint)domain.w;

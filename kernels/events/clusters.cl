@@ -1,7 +1,7 @@
 /* All the hits of a step: bodies that hit form clusters, and each cluster is a queue of events that one work-item runs. */
 
-__kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN,
-	LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+__kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents),
+	int4 domain)
 {
 	int s = get_global_id(0), wall;
 	bool pause;
@@ -65,8 +65,8 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
-__kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work),
-	LIST_IN(owners), LIST_OUT(parents), int4 domain)
+__kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work), LIST_IN(owners),
+	LIST_OUT(parents), int4 domain)
 {
 	if (status[STATUS_ROUND] < domain.z)
 		return;

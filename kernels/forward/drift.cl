@@ -5,7 +5,8 @@ bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_IN(status), float4 bo
 {
 	float step = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP);
 	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
-	float speed = norm((float2)(CHANNEL(at, LINEAR_VX), CHANNEL(at, LINEAR_VY))) + norm((float2)(CHANNEL(push, PUSH_X), CHANNEL(push, PUSH_Y))) * step;
+	float speed = norm((float2)(CHANNEL(at, LINEAR_VX), CHANNEL(at, LINEAR_VY)))
+		+ norm((float2)(CHANNEL(push, PUSH_X), CHANNEL(push, PUSH_Y))) * step;
 	float common = as_float(status[STATUS_PACE]) * (step / as_float(status[STATUS_WINDOW]));
 	float way = larger(REACH_FACTOR * speed * step, DRIFT_FACTOR * common) + CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 	float x = CHANNEL(at, LINEAR_X), y = CHANNEL(at, LINEAR_Y);
@@ -13,8 +14,8 @@ bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_IN(status), float4 bo
 		|| y + way > CHANNEL(box, AABB_MAX_Y);
 }
 
-__kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), RECORD_IN(work),
-	LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+__kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
+	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))

@@ -45,8 +45,7 @@ __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 }
 
 __kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells),
-	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners),
-	LIST_OUT(parents), int4 domain)
+	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x)

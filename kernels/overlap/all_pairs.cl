@@ -13,9 +13,9 @@ boxes boxes_load(TEX_IN(aabb), int j)
 	for (int k = 0; k < TILE; k++)
 		t[k] = ROW_LOAD(aabb, j + k);
 	b.index = (int8)(j, j + 1, j + 2, j + 3, j + 4, j + 5, j + 6, j + 7);
-#define EIGHT(channel)                                                                                                          \
-	(float8)(CHANNEL(t[0], channel), CHANNEL(t[1], channel), CHANNEL(t[2], channel), CHANNEL(t[3], channel),                     \
-		CHANNEL(t[4], channel), CHANNEL(t[5], channel), CHANNEL(t[6], channel), CHANNEL(t[7], channel))
+#define EIGHT(channel)                                                                                                               \
+	(float8)(CHANNEL(t[0], channel), CHANNEL(t[1], channel), CHANNEL(t[2], channel), CHANNEL(t[3], channel), CHANNEL(t[4], channel), \
+		CHANNEL(t[5], channel), CHANNEL(t[6], channel), CHANNEL(t[7], channel))
 	b.min_x = EIGHT(AABB_MIN_X);
 	b.min_y = EIGHT(AABB_MIN_Y);
 	b.max_x = EIGHT(AABB_MAX_X);
@@ -28,8 +28,8 @@ boxes boxes_load(TEX_IN(aabb), int j)
 int8 overlaps(TEX_IN(aabb), boxes b, int i)
 {
 	float4 a = ROW_LOAD(aabb, i);
-	return (b.index < i) & (b.min_x <= CHANNEL(a, AABB_MAX_X)) & (b.max_x >= CHANNEL(a, AABB_MIN_X))
-		& (b.min_y <= CHANNEL(a, AABB_MAX_Y)) & (b.max_y >= CHANNEL(a, AABB_MIN_Y));
+	return (b.index < i) & (b.min_x <= CHANNEL(a, AABB_MAX_X)) & (b.max_x >= CHANNEL(a, AABB_MIN_X)) & (b.min_y <= CHANNEL(a, AABB_MAX_Y))
+		& (b.max_y >= CHANNEL(a, AABB_MIN_Y));
 }
 
 void overlap_store(TEX_IN(aabb), BYTES_OUT(now), boxes b, int column, int i)

@@ -46,7 +46,7 @@ void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape,
 	/* the difference of two large squares as a product: a rim is sharp however large the disc */
 	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y);
 	float square = magnitude(at.x) > magnitude(at.y) ? ((c.x - r) - f.x) * ((c.x + r) - f.x) + at.y * at.y
-	                                                 : ((c.y - r) - f.y) * ((c.y + r) - f.y) + at.x * at.x;
+													 : ((c.y - r) - f.y) * ((c.y + r) - f.y) + at.x * at.x;
 	ROW_STORE(edges, edge, (float4)(at.x / r, at.y / r, square / (2.0f * r), 1.0f / (2.0f * r)));
 }
 

@@ -60,8 +60,8 @@ float4 pair_next(STATE_IN, TEX_IN(vertices), float4 hit, int i, int j, float len
 {
 	if (CHANNEL(hit, HITTIMES_DONE) > 0.0f)
 		return hit;
-	return bisect(TEX(vertices), body_load(STATE, i, length), body_load(STATE, j, length), CHANNEL(hit, HITTIMES_MIN),
-		CHANNEL(hit, HITTIMES_MAX), TEX_LOAD(uniforms, UNIFORMS_RULES, 0));
+	return bisect(TEX(vertices), body_load(STATE, i, length), body_load(STATE, j, length), CHANNEL(hit, HITTIMES_MIN), CHANNEL(hit, HITTIMES_MAX),
+		TEX_LOAD(uniforms, UNIFORMS_RULES, 0));
 }
 
 __kernel void toi_next(STATE_IN, TEX_IN(vertices), TEX_IN(clock), BYTES_IN(tiles), BYTES_IN(overlap), BYTES_IN(before), TEX_IN(old_hits),

@@ -21,10 +21,10 @@ bool carom_cl_load(carom_cl_api *api)
 	void *loader = open_loader(), *symbol;
 	if (!loader)
 		return false;
-#define LOAD(name)                                    \
-	symbol = dlsym(loader, #name);                     \
-	if (!symbol)                                       \
-		return false;                                  \
+#define LOAD(name)                 \
+	symbol = dlsym(loader, #name); \
+	if (!symbol)                   \
+		return false;              \
 	memcpy(&api->name, &symbol, sizeof symbol); /* ISO C has no cast from an object's to a function's pointer */
 	CAROM_CL_FUNCTIONS(LOAD)
 #undef LOAD
@@ -33,19 +33,45 @@ bool carom_cl_load(carom_cl_api *api)
 
 static const char *code_name(cl_int code)
 {
-	switch (code) {
-#define NAME(name) \
-	case name: return #name;
-		NAME(CL_DEVICE_NOT_AVAILABLE) NAME(CL_COMPILER_NOT_AVAILABLE) NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE) NAME(CL_OUT_OF_RESOURCES)
-		NAME(CL_OUT_OF_HOST_MEMORY) NAME(CL_IMAGE_FORMAT_NOT_SUPPORTED) NAME(CL_BUILD_PROGRAM_FAILURE) NAME(CL_INVALID_VALUE)
-		NAME(CL_INVALID_DEVICE) NAME(CL_INVALID_CONTEXT) NAME(CL_INVALID_QUEUE_PROPERTIES) NAME(CL_INVALID_COMMAND_QUEUE)
-		NAME(CL_INVALID_MEM_OBJECT) NAME(CL_INVALID_IMAGE_FORMAT_DESCRIPTOR) NAME(CL_INVALID_IMAGE_SIZE) NAME(CL_INVALID_BUILD_OPTIONS)
-		NAME(CL_INVALID_PROGRAM_EXECUTABLE) NAME(CL_INVALID_KERNEL_NAME) NAME(CL_INVALID_KERNEL_ARGS) NAME(CL_INVALID_ARG_VALUE)
-		NAME(CL_INVALID_ARG_SIZE) NAME(CL_INVALID_WORK_GROUP_SIZE) NAME(CL_INVALID_GLOBAL_WORK_SIZE) NAME(CL_INVALID_OPERATION)
-		NAME(CL_INVALID_BUFFER_SIZE)
-#undef NAME
-	default: return "OpenCL error";
+#define NAMED(name) \
+	{               \
+		name, #name \
 	}
+	static const struct {
+		cl_int code;
+		const char *name;
+	} named[] = {
+		NAMED(CL_DEVICE_NOT_AVAILABLE),
+		NAMED(CL_COMPILER_NOT_AVAILABLE),
+		NAMED(CL_MEM_OBJECT_ALLOCATION_FAILURE),
+		NAMED(CL_OUT_OF_RESOURCES),
+		NAMED(CL_OUT_OF_HOST_MEMORY),
+		NAMED(CL_IMAGE_FORMAT_NOT_SUPPORTED),
+		NAMED(CL_BUILD_PROGRAM_FAILURE),
+		NAMED(CL_INVALID_VALUE),
+		NAMED(CL_INVALID_DEVICE),
+		NAMED(CL_INVALID_CONTEXT),
+		NAMED(CL_INVALID_QUEUE_PROPERTIES),
+		NAMED(CL_INVALID_COMMAND_QUEUE),
+		NAMED(CL_INVALID_MEM_OBJECT),
+		NAMED(CL_INVALID_IMAGE_FORMAT_DESCRIPTOR),
+		NAMED(CL_INVALID_IMAGE_SIZE),
+		NAMED(CL_INVALID_BUILD_OPTIONS),
+		NAMED(CL_INVALID_PROGRAM_EXECUTABLE),
+		NAMED(CL_INVALID_KERNEL_NAME),
+		NAMED(CL_INVALID_KERNEL_ARGS),
+		NAMED(CL_INVALID_ARG_VALUE),
+		NAMED(CL_INVALID_ARG_SIZE),
+		NAMED(CL_INVALID_WORK_GROUP_SIZE),
+		NAMED(CL_INVALID_GLOBAL_WORK_SIZE),
+		NAMED(CL_INVALID_OPERATION),
+		NAMED(CL_INVALID_BUFFER_SIZE),
+	};
+#undef NAMED
+	for (size_t i = 0; i < sizeof named / sizeof *named; i++)
+		if (named[i].code == code)
+			return named[i].name;
+	return "OpenCL error";
 }
 
 carom_status carom_cl_fail(carom_error *error, carom_status status, cl_int code, const char *what)

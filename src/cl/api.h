@@ -8,13 +8,39 @@
 #include "carom.h"
 #include "device.h"
 
-#define CAROM_CL_FUNCTIONS(X)                                                                                            \
-	X(clGetPlatformIDs) X(clGetPlatformInfo) X(clGetDeviceIDs) X(clGetDeviceInfo) X(clCreateContext) X(clReleaseContext)  \
-	X(clCreateCommandQueue) X(clReleaseCommandQueue) X(clCreateProgramWithSource) X(clBuildProgram)                       \
-	X(clGetProgramBuildInfo) X(clReleaseProgram) X(clCreateKernelsInProgram) X(clGetKernelInfo) X(clGetKernelWorkGroupInfo) X(clReleaseKernel) X(clSetKernelArg)                   \
-	X(clCreateBuffer) X(clCreateImage) X(clReleaseMemObject) X(clEnqueueFillBuffer) X(clEnqueueFillImage)                 \
-	X(clEnqueueWriteBuffer) X(clEnqueueReadBuffer) X(clEnqueueWriteImage) X(clEnqueueReadImage)                           \
-	X(clEnqueueNDRangeKernel) X(clFlush) X(clFinish) X(clGetEventProfilingInfo) X(clReleaseEvent)
+/* Each function that is used, by name. */
+#define CAROM_CL_FUNCTIONS(X)    \
+	X(clGetPlatformIDs)          \
+	X(clGetPlatformInfo)         \
+	X(clGetDeviceIDs)            \
+	X(clGetDeviceInfo)           \
+	X(clCreateContext)           \
+	X(clReleaseContext)          \
+	X(clCreateCommandQueue)      \
+	X(clReleaseCommandQueue)     \
+	X(clCreateProgramWithSource) \
+	X(clBuildProgram)            \
+	X(clGetProgramBuildInfo)     \
+	X(clReleaseProgram)          \
+	X(clCreateKernelsInProgram)  \
+	X(clGetKernelInfo)           \
+	X(clGetKernelWorkGroupInfo)  \
+	X(clReleaseKernel)           \
+	X(clSetKernelArg)            \
+	X(clCreateBuffer)            \
+	X(clCreateImage)             \
+	X(clReleaseMemObject)        \
+	X(clEnqueueFillBuffer)       \
+	X(clEnqueueFillImage)        \
+	X(clEnqueueWriteBuffer)      \
+	X(clEnqueueReadBuffer)       \
+	X(clEnqueueWriteImage)       \
+	X(clEnqueueReadImage)        \
+	X(clEnqueueNDRangeKernel)    \
+	X(clFlush)                   \
+	X(clFinish)                  \
+	X(clGetEventProfilingInfo)   \
+	X(clReleaseEvent)
 
 typedef struct carom_cl_api {
 #define CAROM_CL_MEMBER(name) __typeof__(&name) name;
@@ -41,7 +67,7 @@ carom_status carom_cl_find(const carom_cl_api *cl, carom_cl_found **found, size_
 
 /* Builds the program of the chosen alternatives, of the step's slots or of those that draw; the head of the
  * log goes into the error. */
-carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws,
-	bool images, bool exact, cl_program *program, carom_error *error);
+carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws, bool images,
+	bool exact, cl_program *program, carom_error *error);
 
 #endif

@@ -136,8 +136,8 @@ static carom_status create_kernels(cl_device *d, cl_program program, carom_error
 /* PoCL builds for a while: a world that draws no picture is spared rendering's program. */
 static carom_status build_program(cl_device *d, bool draws, carom_error *error)
 {
-	carom_status status = carom_cl_build(&d->cl, d->context, d->device, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE,
-		d->base.info.exact, &d->programs[draws], error);
+	carom_status status = carom_cl_build(&d->cl, d->context, d->device, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact,
+		&d->programs[draws], error);
 	return status ? status : create_kernels(d, d->programs[draws], error);
 }
 
@@ -193,8 +193,7 @@ static void close_device(carom_device *device)
 	free(d);
 }
 
-static const carom_device_class cl_class = {
-	close_device, carom_cl_create_texture, carom_cl_destroy_texture, carom_cl_upload, carom_cl_download,
+static const carom_device_class cl_class = {close_device, carom_cl_create_texture, carom_cl_destroy_texture, carom_cl_upload, carom_cl_download,
 	has_kernel, run_stage, flush, read_profile, count_reads};
 
 /* On a CPU a texel of an image is a call out of line: there the step events, which is not the paper's, takes buffers by itself. */

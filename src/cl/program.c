@@ -11,8 +11,8 @@
 
 /* Each header stands after those it needs. */
 static const char *const headers[2][20] = {
-	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots",
-	 "reach", "cluster", "answer", "queue"},
+	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "answer",
+		"queue"},
 	{"layout", "texture", "numbers", "vertices", "shapes"},
 };
 
@@ -118,8 +118,8 @@ static void keep_log(const carom_cl_api *cl, cl_program program, cl_device_id de
 	free(log);
 }
 
-carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws,
-	bool images, bool exact, cl_program *program, carom_error *error)
+carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws, bool images,
+	bool exact, cl_program *program, carom_error *error)
 {
 	/* the macro brings back the image functions that PoCL 7.1 hides from OpenCL C 1.2 */
 	char options[256];

@@ -51,8 +51,8 @@ static cl_int fill_texture(cl_device *d, carom_texture *t, const float fill[4])
 	}
 	if (t->is_image)
 		return d->cl.clEnqueueFillImage(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : color, origin, region, 0, NULL, NULL);
-	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, texel_size(t->format) == sizeof(float[4]) ? (const void *)fill : bytes, texel_size(t->format), 0,
-		(size_t)t->width * t->height * texel_size(t->format), 0, NULL, NULL);
+	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, texel_size(t->format) == sizeof(float[4]) ? (const void *)fill : bytes,
+		texel_size(t->format), 0, (size_t)t->width * t->height * texel_size(t->format), 0, NULL, NULL);
 }
 
 void carom_cl_destroy_texture(carom_device *device, carom_texture *texture)
@@ -96,8 +96,9 @@ carom_status carom_cl_upload(carom_device *device, carom_texture *t, uint32_t ro
 {
 	cl_device *d = carom_cl_of(device);
 	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
-	cl_int code = t->is_image ? d->cl.clEnqueueWriteImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
-	                          : d->cl.clEnqueueWriteBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
+	cl_int code = t->is_image
+		? d->cl.clEnqueueWriteImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+		: d->cl.clEnqueueWriteBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
 	return code ? carom_cl_device_fail(d, error, code, "a texture can't be written") : CAROM_OK;
 }
 
@@ -105,7 +106,8 @@ carom_status carom_cl_download(carom_device *device, carom_texture *t, uint32_t 
 {
 	cl_device *d = carom_cl_of(device);
 	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
-	cl_int code = t->is_image ? d->cl.clEnqueueReadImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
-	                          : d->cl.clEnqueueReadBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
+	cl_int code = t->is_image
+		? d->cl.clEnqueueReadImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+		: d->cl.clEnqueueReadBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
 	return code ? carom_cl_device_fail(d, error, code, "a texture can't be read") : CAROM_OK;
 }

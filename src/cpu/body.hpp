@@ -125,8 +125,8 @@ template <typename T> Shapes<T> shapes_before(const Job<T> &job)
 template <typename T> struct FirstHit {
 	explicit FirstHit(const Texels<T> &clock)
 		: time(clock.fact(CLOCK_HIT, HIT_TIME)), length(clock.fact(CLOCK_STEP, STEP_LENGTH)),
-		  row(static_cast<int32_t>(clock.fact(CLOCK_HIT, HIT_ROW))),
-		  column(static_cast<int32_t>(clock.fact(CLOCK_HIT, HIT_COLUMN))), done(clock.fact(CLOCK_HIT, HIT_DONE) != 0)
+		  row(static_cast<int32_t>(clock.fact(CLOCK_HIT, HIT_ROW))), column(static_cast<int32_t>(clock.fact(CLOCK_HIT, HIT_COLUMN))),
+		  done(clock.fact(CLOCK_HIT, HIT_DONE) != 0)
 	{
 	}
 

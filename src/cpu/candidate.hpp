@@ -27,8 +27,7 @@ template <typename T> Candidate<T> first_of(const Candidate<T> &a, const Candida
 
 template <typename T> Candidate<T> candidate_at(const Texels<T> &texels, int32_t x, int32_t y)
 {
-	return {texels.at(x, y, REDUCED_HIT), texels.at(x, y, REDUCED_ROW), texels.at(x, y, REDUCED_COLUMN),
-		texels.at(x, y, REDUCED_DONE)};
+	return {texels.at(x, y, REDUCED_HIT), texels.at(x, y, REDUCED_ROW), texels.at(x, y, REDUCED_COLUMN), texels.at(x, y, REDUCED_DONE)};
 }
 
 template <typename T> void put_candidate(const Texels<T> &texels, int32_t x, int32_t y, const Candidate<T> &candidate)

@@ -69,8 +69,7 @@ template <typename T> Segment<T> clipped(Segment<T> edge, const Convex<T> &refer
 }
 
 template <typename T>
-void add_face_points(
-	Contact<T> &contact, const Convex<T> &reference, const Convex<T> &incident, const Pose<T> &pose, const Axis<T> &axis, T slop)
+void add_face_points(Contact<T> &contact, const Convex<T> &reference, const Convex<T> &incident, const Pose<T> &pose, const Axis<T> &axis, T slop)
 {
 	Segment<T> edge = clipped(incident_edge(incident, pose, axis), reference, axis);
 	auto add = [&](const Vec<T> &p) {
@@ -91,8 +90,7 @@ template <typename T> T creep_time(T slop, T stillness)
 	return smaller(T(CREEP_MOST), larger((slop * T(APPROACH)) / stillness, T(CREEP_LEAST)));
 }
 
-template <typename T>
-Contact<T> contact_at(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose_of_a, const Axis<T> &axis, T slop)
+template <typename T> Contact<T> contact_at(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose_of_a, const Axis<T> &axis, T slop)
 {
 	const Convex<T> &reference = axis.from_b ? b : a, &incident = axis.from_b ? a : b;
 	const Pose<T> pose = axis.from_b ? pose_of_a.swapped() : pose_of_a;

@@ -22,8 +22,7 @@ template <typename T> Pose<T> pose(const Convex<T> &a, const Convex<T> &b, T t)
 {
 	Vec<T> x = b.x - a.x, v = b.v - a.v, acceleration = b.a - a.a;
 	Vec<T> ra = rotation_of(a.angle_at(t)), rb = rotation_of(b.angle_at(t));
-	return {place(x, v, acceleration, t), v + t * acceleration, ra, rb, a.angular_velocity_at(t), b.angular_velocity_at(t),
-		turn_back(ra, rb)};
+	return {place(x, v, acceleration, t), v + t * acceleration, ra, rb, a.angular_velocity_at(t), b.angular_velocity_at(t), turn_back(ra, rb)};
 }
 
 template <typename T> T pair_slop(const Body<T> &a, const Body<T> &b)
@@ -92,8 +91,7 @@ template <typename T> Axis<T> face_axis(const Convex<T> &a, const Convex<T> &b, 
 
 /* From a corner of A to a point of B, both in A's frame. */
 template <typename T>
-Axis<T> corner_axis(
-	const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, const Vec<T> &from, const Vec<T> &to, const Axis<T> &fallback)
+Axis<T> corner_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, const Vec<T> &from, const Vec<T> &to, const Axis<T> &fallback)
 {
 	Vec<T> e = to - from;
 	T s = norm(e);

@@ -33,10 +33,7 @@ template <> struct Instance<double> {
 };
 
 template <typename T> struct Device : carom_device {
-	explicit Device(const carom_device_def &def)
-		: carom_device{}, pool(def.threads), profiled(def.profile), counted(def.count_reads)
-	{
-	}
+	explicit Device(const carom_device_def &def) : carom_device{}, pool(def.threads), profiled(def.profile), counted(def.count_reads) {}
 
 	Pool pool;
 	const bool profiled, counted;
@@ -98,14 +95,12 @@ static carom_status create(carom_device *device, carom_texel_format format, uint
 {
 	const uint64_t texels = uint64_t(width) * height, bytes = texels * channel_count * scalar_size<T>(format);
 	if (width < 1 || height < 1 || width > longest_side || height > longest_side)
-		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels: the CPU device takes sides of 1 to %u", width, height,
-			longest_side);
+		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels: the CPU device takes sides of 1 to %u", width, height, longest_side);
 	if (bytes > device->info.max_allocation)
 		return carom_fail(error, CAROM_LIMIT,
 			"a texture of %u x %u texels takes %llu MiB: the CPU device takes at most %llu MiB, "
 			"half of the memory, for one",
-			width, height, static_cast<unsigned long long>(bytes >> 20),
-			static_cast<unsigned long long>(device->info.max_allocation >> 20));
+			width, height, static_cast<unsigned long long>(bytes >> 20), static_cast<unsigned long long>(device->info.max_allocation >> 20));
 	std::unique_ptr<void, Free> memory(std::calloc(texels, channel_count * scalar_size<T>(format)));
 	std::unique_ptr<Texture> made(new (std::nothrow) Texture{format, width, height, std::move(memory)});
 	if (!made || !made->memory)
@@ -141,8 +136,7 @@ template <typename T, typename Copy> static void copy_rows(const Texture &textur
 	}
 }
 
-template <typename T>
-static carom_status upload(carom_device *, carom_texture *texture, uint32_t rows, const void *texels, carom_error *error)
+template <typename T> static carom_status upload(carom_device *, carom_texture *texture, uint32_t rows, const void *texels, carom_error *error)
 {
 	Texture &to = of(texture);
 	if (carom_status status = check_rows(to, rows, error))
@@ -159,8 +153,7 @@ static carom_status upload(carom_device *, carom_texture *texture, uint32_t rows
 	return CAROM_OK;
 }
 
-template <typename T>
-static carom_status download(carom_device *, carom_texture *texture, uint32_t rows, void *texels, carom_error *error)
+template <typename T> static carom_status download(carom_device *, carom_texture *texture, uint32_t rows, void *texels, carom_error *error)
 {
 	Texture &from = of(texture);
 	if (carom_status status = check_rows(from, rows, error))
@@ -181,13 +174,12 @@ template <typename T> static bool has(const carom_device *device, carom_stage st
 	return stage < STAGE_COUNT && static_cast<const Device<T> *>(device)->kernels[stage] != nullptr;
 }
 
-template <typename T>
-static void run_kernel(Device<T> &device, carom_stage stage, const Texture *const *textures, const int32_t *domain)
+template <typename T> static void run_kernel(Device<T> &device, carom_stage stage, const Texture *const *textures, const int32_t *domain)
 {
 	using Clock = std::chrono::steady_clock;
 	const Clock::time_point start = device.profiled ? Clock::now() : Clock::time_point();
-	device.kernels[stage](
-		{textures, domain, device.pool, device.inside, device.transform, device.functions, device.counted ? &device.reads : nullptr});
+	device.kernels[stage]({textures, domain, device.pool, device.inside, device.transform, device.functions,
+		device.counted ? &device.reads : nullptr});
 	if (device.profiled) {
 		device.times[stage].seconds += std::chrono::duration<double>(Clock::now() - start).count();
 		device.times[stage].launches++;
@@ -195,8 +187,7 @@ static void run_kernel(Device<T> &device, carom_stage stage, const Texture *cons
 }
 
 template <typename T>
-static carom_status run(
-	carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
+static carom_status run(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
 try {
 	if (!has<T>(device, stage))
 		return carom_fail(error, CAROM_DEVICE, "the CPU device has no kernel for stage %d", static_cast<int>(stage));
@@ -232,8 +223,7 @@ template <typename T> static void close(carom_device *device)
 }
 
 template <typename T>
-static constexpr carom_device_class device_class{
-	close<T>, create<T>, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile, reads<T>};
+static constexpr carom_device_class device_class{close<T>, create<T>, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile, reads<T>};
 
 /* The alternative that fills the slot: some stages' is fixed, others' is the pipeline's. */
 static bool is_chosen(const carom_pipeline &pipeline, const Stage &stage, const char *fixed)

@@ -16,8 +16,7 @@ template <typename T> Motion<T> motion_at(const State<T> &state, int32_t i, T t)
 {
 	const Body<T> body = state.body(i);
 	const T part = t / state.length;
-	return {body.place_at(t),
-		{state.linear.of(i, LINEAR_VX) + part * body.a.x(), state.linear.of(i, LINEAR_VY) + part * body.a.y()},
+	return {body.place_at(t), {state.linear.of(i, LINEAR_VX) + part * body.a.x(), state.linear.of(i, LINEAR_VY) + part * body.a.y()},
 		wrapped(body.angle_at(t)), state.rotational.of(i, ROTATIONAL_VELOCITY) + part * body.b};
 }
 
@@ -47,8 +46,7 @@ template <typename T> struct Next {
 };
 
 /* Runs the slot to time t; `change(motion, state, i)` is what happens to a body there. */
-template <typename T, typename Change>
-void move_bodies(const Job<T> &job, const Next<T> &next, const FirstHit<T> &hit, T t, Change change)
+template <typename T, typename Change> void move_bodies(const Job<T> &job, const Next<T> &next, const FirstHit<T> &hit, T t, Change change)
 {
 	const State<T> state(job, hit.length);
 	job.pool.run(job.domain[0], 512, [&](int32_t begin, int32_t end) {

@@ -35,10 +35,7 @@ public:
 	void update(int32_t id) { sink(rise(static_cast<size_t>(members[id].place))); }
 
 private:
-	bool is_before(int32_t a, int32_t b) const
-	{
-		return event_before(work[a].next, work[b].next);
-	}
+	bool is_before(int32_t a, int32_t b) const { return event_before(work[a].next, work[b].next); }
 
 	void put(size_t place, int32_t id)
 	{

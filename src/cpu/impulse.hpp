@@ -17,8 +17,8 @@ template <typename T> struct Collision {
 	T coupling(int i, int k) const
 	{
 		const Contact<T> &c = contact;
-		return ((ref_mass + inc_mass) + ref_inertia * (cross(c.ref[i], c.n) * cross(c.ref[k], c.n))) +
-			inc_inertia * (cross(c.inc[i], c.n) * cross(c.inc[k], c.n));
+		return ((ref_mass + inc_mass) + ref_inertia * (cross(c.ref[i], c.n) * cross(c.ref[k], c.n)))
+			+ inc_inertia * (cross(c.inc[i], c.n) * cross(c.inc[k], c.n));
 	}
 
 	T gain(int i) const
@@ -39,8 +39,8 @@ template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const
 {
 	const Convex<T> body = shapes.convex(hit.row);
 	T restitution = larger(shapes.restitution(hit.row), shapes.rule(RULES_RESTITUTION));
-	return {wall_contact(body, room_wall(shapes, hit.wall()), hit.time, wall_slop(body)), wall_stillness(body), restitution, 0,
-		body.inverse_mass, 0, body.inverse_inertia};
+	return {wall_contact(body, room_wall(shapes, hit.wall()), hit.time, wall_slop(body)), wall_stillness(body), restitution, 0, body.inverse_mass, 0,
+		body.inverse_inertia};
 }
 
 template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
@@ -50,8 +50,8 @@ template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const
 	const Axis<T> axis = best_axis(a, b, at_hit);
 	const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
 	return {contact_at(a, b, at_hit, axis, pair_slop(a, b)), pair_stillness(a, b),
-		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass,
-		ref.inverse_inertia, inc.inverse_inertia};
+		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
+		inc.inverse_inertia};
 }
 
 /* Of the impulses about a body's centre; what is not there adds a 0 without a sign. */

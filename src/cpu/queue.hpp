@@ -223,8 +223,8 @@ private:
 		const int32_t s = clusters.active[id], index = slots[s].body(), other_id = own_number(other), other_index = slots[other].body();
 		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
 		const auto found = clusters.pair_time(s, way, other, other_way);
-		const T event[4] = {found.time, static_cast<T>(std::max(index, other_index)),
-			static_cast<T>(std::min(index, other_index)), static_cast<T>(other) + (found.is_pause ? T(0.5) : T(0))};
+		const T event[4] = {found.time, static_cast<T>(std::max(index, other_index)), static_cast<T>(std::min(index, other_index)),
+			static_cast<T>(other) + (found.is_pause ? T(0.5) : T(0))};
 		T *next = work[id].next;
 		if (!(event[NEXT_TIME] <= 1 && event_before(event, next)))
 			return;
@@ -260,7 +260,8 @@ private:
 			clusters.move(slots[other], other_way, u);
 			const bool is_row = slots[s].body() > slots[other].body();
 			if (!pause)
-				hit = is_row ? pair_impact(s, way, other, other_way, rapid || other_rapid) : pair_impact(other, other_way, s, way, rapid || other_rapid);
+				hit = is_row ? pair_impact(s, way, other, other_way, rapid || other_rapid)
+							 : pair_impact(other, other_way, s, way, rapid || other_rapid);
 			if (other_changes)
 				stays = push(other, other_id, other_way, hit, !is_row);
 			if (changes)
@@ -300,8 +301,8 @@ private:
 		Convex<T> body;
 		clusters.fill(body, slots[s], way);
 		const Wall<T> wall = clusters.wall(k);
-		Collision<T> collision{wall_contact(body, wall, T(0), wall_slop(body)), wall_stillness(body), 1, 0, body.inverse_mass, 0,
-			body.inverse_inertia};
+		Collision<T> collision{
+			wall_contact(body, wall, T(0), wall_slop(body)), wall_stillness(body), 1, 0, body.inverse_mass, 0, body.inverse_inertia};
 		set_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), rapid);
 		return impact(collision);
 	}
@@ -347,8 +348,8 @@ private:
 		box[0] = std::min(box[0], left.min_x), box[1] = std::min(box[1], left.min_y);
 		box[2] = std::max(box[2], left.max_x), box[3] = std::max(box[3], left.max_y);
 		const Box<T> &most = boxes[s];
-		if (left.min_x - body.radius >= most.min_x && left.min_y - body.radius >= most.min_y && left.max_x + body.radius <= most.max_x &&
-			left.max_y + body.radius <= most.max_y)
+		if (left.min_x - body.radius >= most.min_x && left.min_y - body.radius >= most.min_y && left.max_x + body.radius <= most.max_x
+			&& left.max_y + body.radius <= most.max_y)
 			return true;
 		need[s] = as_bits(static_cast<float>(left.half(slots[s].place)));
 		return false;

@@ -42,10 +42,7 @@ template <typename T> struct Box {
 		return std::max(x, y) <= 0;
 	}
 	/* the largest extent from a place */
-	T half(const T *place) const
-	{
-		return std::max(std::max(place[0] - min_x, max_x - place[0]), std::max(place[1] - min_y, max_y - place[1]));
-	}
+	T half(const T *place) const { return std::max(std::max(place[0] - min_x, max_x - place[0]), std::max(place[1] - min_y, max_y - place[1])); }
 };
 
 struct Cell {
@@ -65,10 +62,7 @@ struct Grid {
 			level++;
 		return level;
 	}
-	template <typename T> static int32_t step(T x, T side)
-	{
-		return static_cast<int32_t>(std::floor(std::min(std::max(x / side, T(-1e9)), T(1e9))));
-	}
+	template <typename T> static int32_t step(T x, T side) { return static_cast<int32_t>(std::floor(std::min(std::max(x / side, T(-1e9)), T(1e9)))); }
 	template <typename T> Cell cell_at(T x, T y, int32_t level) const { return {step(x, T(side_of(level))), step(y, T(side_of(level)))}; }
 	int32_t row_of(int32_t y, int32_t level) const { return ((y + 7 * level) & (rows - 1)) * columns; }
 	int32_t column_of(int32_t x, int32_t level) const { return (x + 11 * level) & (columns - 1); }

@@ -61,8 +61,7 @@ template <typename Source> auto six(const Source &source, int32_t x, int32_t y)
 }
 
 /* Runs the slot: `reduce_row(source, y, m, put)` calls put(x, candidate) for its fragments of row y. */
-template <typename T, typename Source, typename ReduceRow>
-void reduce_from(const Job<T> &job, const Source &source, ReduceRow reduce_row)
+template <typename T, typename Source, typename ReduceRow> void reduce_from(const Job<T> &job, const Source &source, ReduceRow reduce_row)
 {
 	const Texels<T> target = job.texels(1);
 	const int32_t m = job.domain[0];
@@ -80,8 +79,7 @@ void reduce_from(const Job<T> &job, const Source &source, ReduceRow reduce_row)
 	});
 }
 
-template <typename T, typename Source, typename ReduceRow>
-void reduce_source(const Job<T> &job, const Source &source, ReduceRow reduce_row)
+template <typename T, typename Source, typename ReduceRow> void reduce_source(const Job<T> &job, const Source &source, ReduceRow reduce_row)
 {
 	if (job.reads)
 		reduce_from(job, CountedSource<Source>(source, *job.reads), reduce_row);

@@ -28,15 +28,14 @@ template <typename T> struct Bounds {
 	Vec<T> m;
 };
 
-template <typename T>
-Bounds<T> bounds(const Convex<T> &reference, const Convex<T> &incident, const Pose<T> &pose, const Axis<T> &axis, T t)
+template <typename T> Bounds<T> bounds(const Convex<T> &reference, const Convex<T> &incident, const Pose<T> &pose, const Axis<T> &axis, T t)
 {
 	T rest = 1 - t, push = norm(incident.a - reference.a);
 	T speed = norm(pose.v) + push * rest, reach = norm(pose.d) + speed * rest;
 	T twist = std::abs(reference.b), relative_twist = std::abs(reference.b - incident.b);
 	T spin = std::abs(pose.wa) + twist * rest, turning = std::abs(pose.wa - pose.wb) + relative_twist * rest;
-	T bend = (((turning * turning) * incident.radius + (spin * spin) * reach) + (2 * spin) * speed) +
-		((push + twist * reach) + relative_twist * incident.radius);
+	T bend = (((turning * turning) * incident.radius + (spin * spin) * reach) + (2 * spin) * speed)
+		+ ((push + twist * reach) + relative_twist * incident.radius);
 	Vec<T> n = turn(pose.ra, axis.n);
 	T rate = inner(n, pose.v) + pose.wa * cross(n, pose.d);
 	return {inner(n, pose.d) - axis.offset, rate, bend, pose.wa - pose.wb, turn_back(pose.relative, axis.n)};

@@ -52,14 +52,14 @@ template <typename T> Box<T> touched(const Vec<T> &low, const Vec<T> &high, T ma
 template <typename T> Ink<T> seen(const Ink<T> &ink, T breadth, T length)
 {
 	const T least = clamped(T(LEAST_OPACITY) * length, T(LEAST_OPACITY), T(LINE_OPACITY));
-	return {breadth < 1 && least >= T(LINE_OPACITY) ? ink.outline : ink.fill, ink.outline,
-		clamped(T(0.125) * breadth, T(0), ink.width), clamped(ink.opacity, T(0), T(1)) * clamped(breadth, least, T(1))};
+	return {breadth < 1 && least >= T(LINE_OPACITY) ? ink.outline : ink.fill, ink.outline, clamped(T(0.125) * breadth, T(0), ink.width),
+		clamped(ink.opacity, T(0), T(1)) * clamped(breadth, least, T(1))};
 }
 
 /* Where shapes and edges go. */
 template <typename T> class ShapeWriter
 {
-  public:
+public:
 	ShapeWriter(const Texels<T> &to_shapes, const Texels<T> &to_edges) : shapes(to_shapes), edges(to_edges) {}
 
 	void hide(int32_t shape) const { put(SHAPES_WIDTH * shape + SHAPE_BOX, {0, 0, 0, 0}); }
@@ -83,7 +83,7 @@ template <typename T> class ShapeWriter
 		edges.of(index, EDGE_BEND) = bend;
 	}
 
-  private:
+private:
 	struct Texel {
 		T channels[channel_count];
 	};

@@ -68,7 +68,8 @@ private:
 			const T dx = x[i] + t * (vx[i] + T(0.5) * t * ax[i]) - own_x, dy = y[i] + t * (vy[i] + T(0.5) * t * ay[i]) - own_y;
 			const T ux = vx[i] + t * ax[i] - (own.vx + after * own.ax), uy = vy[i] + t * ay[i] - (own.vy + after * own.ay);
 			const T reach = own.radius + radius[i];
-			const T size = around + 2 * (std::abs(own_x - own.x) + std::abs(own_y - own.y)) + std::abs(dx) + std::abs(dy) + reach + std::abs(ux) + std::abs(uy);
+			const T size = around + 2 * (std::abs(own_x - own.x) + std::abs(own_y - own.y)) + std::abs(dx) + std::abs(dy) + reach + std::abs(ux)
+				+ std::abs(uy);
 			const T most = reach + (std::abs(ax[i] - own.ax) + std::abs(ay[i] - own.ay)) + size * T(4 * SLOP);
 			const T at = -(dx * ux + dy * uy) / (ux * ux + uy * uy + none), late = at > 0 ? at : 0, u = late < rest ? late : rest;
 			const T px = dx + u * ux, py = dy + u * uy;
@@ -78,7 +79,8 @@ private:
 
 	const Disc<T> own;
 	int32_t count = 0, which[room + width], touching[room + width];
-	T x[room + width], y[room + width], vx[room + width], vy[room + width], ax[room + width], ay[room + width], radius[room + width], time[room + width];
+	T x[room + width], y[room + width], vx[room + width], vy[room + width], ax[room + width], ay[room + width], radius[room + width],
+		time[room + width];
 };
 
 }

@@ -52,14 +52,12 @@ struct Member {
 	int32_t place; /* in the cluster's heap */
 	int32_t owner, link, head, events, rapid, seen, round, hits, unused[3];
 
-	void reset()
-	{
-		*this = {0, -1, -1, -1, 0, 0, 0, 0, 0, {0, 0, 0}};
-	}
+	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, {0, 0, 0}}; }
 };
 
-static_assert(sizeof(Member) == MEMBER_WIDTH * sizeof(int32_t) && offsetof(Member, hits) == MEMBER_HITS * sizeof(int32_t) &&
-	offsetof(Member, round) == MEMBER_ROUND * sizeof(int32_t) && offsetof(Member, rapid) == MEMBER_RAPID * sizeof(int32_t), "members");
+static_assert(sizeof(Member) == MEMBER_WIDTH * sizeof(int32_t) && offsetof(Member, hits) == MEMBER_HITS * sizeof(int32_t)
+		&& offsetof(Member, round) == MEMBER_ROUND * sizeof(int32_t) && offsetof(Member, rapid) == MEMBER_RAPID * sizeof(int32_t),
+	"members");
 
 struct Span {
 	int32_t start, half, end, cell;
@@ -73,8 +71,8 @@ template <typename T> struct Disc {
 
 	Disc(const Slot<T> &slot, const T *place, T at, bool stands, T length)
 		: x(place[LINEAR_X]), y(place[LINEAR_Y]), vx(stands ? 0 : place[LINEAR_VX] * length), vy(stands ? 0 : place[LINEAR_VY] * length),
-		  ax(stands ? 0 : (slot.push[PUSH_X] * length) * length), ay(stands ? 0 : (slot.push[PUSH_Y] * length) * length),
-		  radius(slot.radius()), time(at)
+		  ax(stands ? 0 : (slot.push[PUSH_X] * length) * length), ay(stands ? 0 : (slot.push[PUSH_Y] * length) * length), radius(slot.radius()),
+		  time(at)
 	{
 	}
 };
@@ -140,8 +138,7 @@ public:
 	/* The kernel's first textures are Vertices, Uniforms and the clock, the next the slots. */
 	explicit Bodies(const Job<T> &job)
 		: Mover<T>{step_length(job.texels(2), job.texels(1))}, slots(reinterpret_cast<Slot<T> *>(job.records(3))), functions(job.functions),
-		  inside(job.inside),
-		  uniforms(job.texels(1)), vertices(job.texels(0)), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
+		  inside(job.inside), uniforms(job.texels(1)), vertices(job.texels(0)), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
 		  has_room(rule(RULES_HAS_ROOM) > 0)
 	{
 	}
@@ -210,8 +207,8 @@ private:
 		const Disc<T> disc(slots[s], way.place, way.time, false, length);
 		const T push = std::abs(disc.ax) + std::abs(disc.ay), size = disc.radius + push + std::abs(disc.vx) + std::abs(disc.vy);
 		const T pad = disc.radius + push + (size + std::abs(disc.x) + std::abs(disc.y)) * T(4 * SLOP);
-		return std::min(disc.x, disc.x + disc.vx) - pad >= room(ROOM_MIN_X) && std::min(disc.y, disc.y + disc.vy) - pad >= room(ROOM_MIN_Y) &&
-			std::max(disc.x, disc.x + disc.vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y, disc.y + disc.vy) + pad <= room(ROOM_MAX_Y);
+		return std::min(disc.x, disc.x + disc.vx) - pad >= room(ROOM_MIN_X) && std::min(disc.y, disc.y + disc.vy) - pad >= room(ROOM_MIN_Y)
+			&& std::max(disc.x, disc.x + disc.vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y, disc.y + disc.vy) + pad <= room(ROOM_MAX_Y);
 	}
 
 	const Texels<T> uniforms, vertices;

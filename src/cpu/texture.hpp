@@ -32,10 +32,7 @@ public:
 	explicit Texels(const Texture &texture) : numbers(static_cast<T *>(texture.memory.get())), width(texture.width) {}
 
 	/* One channel of row y. */
-	T *row(int32_t y, int32_t channel) const
-	{
-		return numbers + (static_cast<size_t>(y) * channel_count + static_cast<size_t>(channel)) * width;
-	}
+	T *row(int32_t y, int32_t channel) const { return numbers + (static_cast<size_t>(y) * channel_count + static_cast<size_t>(channel)) * width; }
 
 	T &at(int32_t x, int32_t y, int32_t channel) const { return row(y, channel)[x]; }
 
@@ -62,10 +59,7 @@ private:
 class Bytes
 {
 public:
-	explicit Bytes(const Texture &texture)
-		: bytes(static_cast<uint8_t *>(texture.memory.get())), stride(texture.width * channel_count)
-	{
-	}
+	explicit Bytes(const Texture &texture) : bytes(static_cast<uint8_t *>(texture.memory.get())), stride(texture.width * channel_count) {}
 
 	uint8_t *row(int32_t y) const { return bytes + static_cast<size_t>(y) * stride; }
 	uint8_t *texel(int32_t x, int32_t y) const { return row(y) + static_cast<size_t>(x) * channel_count; }

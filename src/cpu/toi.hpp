@@ -41,10 +41,7 @@ template <typename T> struct Pair {
 	}
 
 	bool are_circles() const { return a.is_circle() && b.is_circle(); }
-	bool approaches(const Pose<T> &pose, const Axis<T> &axis) const
-	{
-		return contact_at(a, b, pose, axis, slop).approaches(stillness);
-	}
+	bool approaches(const Pose<T> &pose, const Axis<T> &axis) const { return contact_at(a, b, pose, axis, slop).approaches(stillness); }
 };
 
 /* Where the slot's textures are in the list, after STATE, vertices and clock. */
@@ -64,8 +61,8 @@ template <typename T, typename Find> class TileSearch
 {
 public:
 	TileSearch(const Job<T> &job, const Texels<T> &to, const Find &find_hit)
-		: tiles(job.bytes(FROM_TILES)), overlap(job.bytes(FROM_OVERLAP)), overlap_before(job.bytes(FROM_OVERLAP_BEFORE)),
-		  hit_times(to), find(find_hit), count(job.domain[2])
+		: tiles(job.bytes(FROM_TILES)), overlap(job.bytes(FROM_OVERLAP)), overlap_before(job.bytes(FROM_OVERLAP_BEFORE)), hit_times(to),
+		  find(find_hit), count(job.domain[2])
 	{
 	}
 

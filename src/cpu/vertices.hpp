@@ -7,16 +7,7 @@
 namespace carom::cpu {
 
 /* Where the slot's textures are in the list. */
-enum : int {
-	PLACE_STREAM,
-	PLACE_LINEAR,
-	PLACE_ROTATIONAL,
-	PLACE_TRANSFORMS,
-	PLACE_GEOMETRY,
-	PLACE_VERTICES,
-	PLACE_VIEW,
-	PLACE_OUTPUT
-};
+enum : int { PLACE_STREAM, PLACE_LINEAR, PLACE_ROTATIONAL, PLACE_TRANSFORMS, PLACE_GEOMETRY, PLACE_VERTICES, PLACE_VIEW, PLACE_OUTPUT };
 
 /* A texture of which each access is counted, where accesses are [3, table 3]. */
 template <typename T> class Accessed
@@ -47,9 +38,8 @@ template <typename T> struct Projection {
 	T left, left_low, top, top_low, scale;
 
 	explicit Projection(const Texels<T> &view)
-		: left(view.fact(VIEW_ORIGIN, ORIGIN_LEFT)), left_low(view.fact(VIEW_ORIGIN, ORIGIN_LEFT_LOW)),
-		  top(view.fact(VIEW_ORIGIN, ORIGIN_TOP)), top_low(view.fact(VIEW_ORIGIN, ORIGIN_TOP_LOW)),
-		  scale(view.fact(VIEW_SCALE, SCALE_PIXELS))
+		: left(view.fact(VIEW_ORIGIN, ORIGIN_LEFT)), left_low(view.fact(VIEW_ORIGIN, ORIGIN_LEFT_LOW)), top(view.fact(VIEW_ORIGIN, ORIGIN_TOP)),
+		  top_low(view.fact(VIEW_ORIGIN, ORIGIN_TOP_LOW)), scale(view.fact(VIEW_SCALE, SCALE_PIXELS))
 	{
 	}
 };

@@ -10,13 +10,13 @@
 #include "step/step.h"
 #include "world.h"
 
-#define WINDOW 1536       /* 1/256 of a time step: longer lists are longer, too */
+#define WINDOW 1536         /* 1/256 of a time step: longer lists are longer, too */
 #define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
 #define MOST_ROUNDS 64
 #define LAST_ROUND (1 << 30)
-#define MOST_IDLE 256     /* batches that end no step: something is wrong */
-#define GOOD_LISTS 8      /* made in a row that were good to the end: the next may be used a step longer */
-#define SHARE 16          /* slots for one work-item of those that share what is active */
+#define MOST_IDLE 256 /* batches that end no step: something is wrong */
+#define GOOD_LISTS 8  /* made in a row that were good to the end: the next may be used a step longer */
+#define SHARE 16      /* slots for one work-item of those that share what is active */
 
 static int32_t share_of(int32_t count)
 {
@@ -204,16 +204,15 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 	(void)pipeline;
 	(void)def;
 	choose_cells(&cells, (uint32_t)n);
-	return n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1)) +
-		4 * (CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
+	return n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
+		+ 4 * (CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
-	*events = (carom_events){
-		.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 2, .rounds = 2};
+	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 2, .rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));

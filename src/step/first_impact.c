@@ -113,7 +113,8 @@ static bool fits(const carom_world *world, uint64_t capacity)
 {
 	const carom_device_info *info = &world->device->info;
 	const bool has_sides = world->device->storage == CAROM_STORAGE_IMAGE || !info->is_opencl;
-	return (!has_sides || capacity <= info->max_image_size) && 16 * capacity * capacity <= info->max_allocation && memory(&world->pipeline, &world->def, capacity) <= info->memory;
+	return (!has_sides || capacity <= info->max_image_size) && 16 * capacity * capacity <= info->max_allocation
+		&& memory(&world->pipeline, &world->def, capacity) <= info->memory;
 }
 
 /* Asked for first, so that a scene too large fails at once and without filling the memory. */
@@ -125,10 +126,14 @@ static carom_status check_limits(const carom_world *world, carom_error *error)
 		return CAROM_OK;
 	while (most > TILE && !fits(world, most))
 		most /= 2;
-	return carom_fail(error, CAROM_LIMIT, "%zu bodies need an N x N texture, HitTimes, of %llu x %llu texels (%.3g GiB) in the step first_impact: '%s' "
-		"%s can hold it for at most %llu bodies", world->body_count, (unsigned long long)n, (unsigned long long)n,
-		16.0 * (double)n * (double)n / (1024.0 * 1024.0 * 1024.0), world->device->info.name,
-		world->device->storage == CAROM_STORAGE_IMAGE ? "with images" : world->device->info.is_opencl ? "with buffers" : "as it is",
+	return carom_fail(error, CAROM_LIMIT,
+		"%zu bodies need an N x N texture, HitTimes, of %llu x %llu texels (%.3g GiB) in the step first_impact: '%s' "
+		"%s can hold it for at most %llu bodies",
+		world->body_count, (unsigned long long)n, (unsigned long long)n, 16.0 * (double)n * (double)n / (1024.0 * 1024.0 * 1024.0),
+		world->device->info.name,
+		world->device->storage == CAROM_STORAGE_IMAGE ? "with images"
+			: world->device->info.is_opencl           ? "with buffers"
+													  : "as it is",
 		(unsigned long long)most);
 }
 

@@ -20,8 +20,7 @@ template <typename T> static void hold_corners(Box<T> &box, const Convex<T> &con
 	Vec<T> x = convex.place_at(t);
 	Vec<T> rotation = convex.is_circle() ? Vec<T>(1, 0) : rotation_of(convex.angle_at(t));
 	Box<T> local = local_box(convex);
-	for (const Vec<T> &corner :
-		{local.min, Vec<T>(local.max.x(), local.min.y()), local.max, Vec<T>(local.min.x(), local.max.y())})
+	for (const Vec<T> &corner : {local.min, Vec<T>(local.max.x(), local.min.y()), local.max, Vec<T>(local.min.x(), local.max.y())})
 		box.hold(x + turn(rotation, corner));
 }
 

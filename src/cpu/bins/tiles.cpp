@@ -11,13 +11,13 @@ struct Tiles {
 /* The frame, cut into tiles. */
 template <typename T> class Grid
 {
-  public:
+public:
 	const int32_t columns, rows;
 
 	Grid(const Texels<T> &to_shapes, const Texels<T> &frame)
-		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))),
-		  rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))), shapes(to_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)),
-		  y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)), y1(frame.fact(FRAME_BOX, BOX_Y1))
+		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))),
+		  shapes(to_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)),
+		  y1(frame.fact(FRAME_BOX, BOX_Y1))
 	{
 	}
 
@@ -25,8 +25,7 @@ template <typename T> class Grid
 	Tiles of(int32_t shape) const
 	{
 		const int32_t texel = SHAPES_WIDTH * shape + SHAPE_BOX;
-		const int32_t left = whole(larger(shapes.of(texel, BOX_X0), x0) - x0),
-					  top = whole(larger(shapes.of(texel, BOX_Y0), y0) - y0);
+		const int32_t left = whole(larger(shapes.of(texel, BOX_X0), x0) - x0), top = whole(larger(shapes.of(texel, BOX_Y0), y0) - y0);
 		const int32_t right = whole(smaller(shapes.of(texel, BOX_X1), x1) - x0);
 		const int32_t bottom = whole(smaller(shapes.of(texel, BOX_Y1), y1) - y0);
 		if (left >= right || top >= bottom)
@@ -34,7 +33,7 @@ template <typename T> class Grid
 		return {left / PIXEL_TILE, top / PIXEL_TILE, (right - 1) / PIXEL_TILE + 1, (bottom - 1) / PIXEL_TILE + 1};
 	}
 
-  private:
+private:
 	static int32_t whole(T v) { return static_cast<int32_t>(v); }
 
 	const Texels<T> shapes;

@@ -10,8 +10,7 @@ template <typename T> static First<T> first_pair(const Texels<T> &reduced, int32
 {
 	if (count <= 1)
 		return {NO_HIT, 0, 0, 1};
-	return {reduced.fact(0, REDUCED_HIT), reduced.fact(0, REDUCED_ROW), reduced.fact(0, REDUCED_COLUMN),
-		reduced.fact(0, REDUCED_DONE)};
+	return {reduced.fact(0, REDUCED_HIT), reduced.fact(0, REDUCED_ROW), reduced.fact(0, REDUCED_COLUMN), reduced.fact(0, REDUCED_DONE)};
 }
 
 template <typename T> static First<T> first_hit(const Job<T> &job, int32_t count, int32_t groups)
@@ -20,8 +19,7 @@ template <typename T> static First<T> first_hit(const Job<T> &job, int32_t count
 	First<T> first = first_pair(job.texels(0), count);
 	for (int32_t group = 0; group < groups; group++) {
 		if (walls.of(group, WALLS_HIT) < first.time)
-			first = {walls.of(group, WALLS_HIT), walls.of(group, WALLS_BODY), -1 - walls.of(group, WALLS_WALL),
-				walls.of(group, WALLS_DONE)};
+			first = {walls.of(group, WALLS_HIT), walls.of(group, WALLS_BODY), -1 - walls.of(group, WALLS_WALL), walls.of(group, WALLS_DONE)};
 	}
 	return first;
 }
@@ -52,8 +50,7 @@ template <typename T> static void add_time(const Texels<T> &clock, const Texels<
 }
 
 /* Time gets on, and whether it got on enough is counted. */
-template <typename T>
-static void get_on(const Texels<T> &clock, const Texels<T> &next, T length, T advanced, bool stalls, T limit)
+template <typename T> static void get_on(const Texels<T> &clock, const Texels<T> &next, T length, T advanced, bool stalls, T limit)
 {
 	T stalled = stalls ? clock.fact(CLOCK_STEP, STEP_STALLED) + 1 : 0;
 	next.fact(CLOCK_STEP, STEP_LENGTH) = length;

@@ -2,8 +2,7 @@
 
 namespace carom::cpu {
 
-template <typename T>
-static void add_impulse(Motion<T> &motion, const Texels<T> &impulse, const Body<T> &body, T sign, int32_t torque)
+template <typename T> static void add_impulse(Motion<T> &motion, const Texels<T> &impulse, const Body<T> &body, T sign, int32_t torque)
 {
 	motion.v.x() = motion.v.x() + (sign * impulse.fact(0, IMPULSE_X)) * body.inverse_mass;
 	motion.v.y() = motion.v.y() + (sign * impulse.fact(0, IMPULSE_Y)) * body.inverse_mass;

@@ -6,8 +6,8 @@ namespace carom::cpu {
 template <typename T> static bool may_leave(const Slot<T> &slot, const Box<T> &box, T step, T common)
 {
 	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
-	const T speed = std::sqrt(slot.place[LINEAR_VX] * slot.place[LINEAR_VX] + slot.place[LINEAR_VY] * slot.place[LINEAR_VY]) +
-		(std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * step;
+	const T speed = std::sqrt(slot.place[LINEAR_VX] * slot.place[LINEAR_VX] + slot.place[LINEAR_VY] * slot.place[LINEAR_VY])
+		+ (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * step;
 	const T way = std::max(speed_margin * speed * step, common) + slot.radius();
 	return (x - way < box.min_x) | (y - way < box.min_y) | (x + way > box.max_x) | (y + way > box.max_y);
 }

@@ -13,7 +13,6 @@ template <typename T> static void no_collision(const Job<T> &job)
 }
 
 extern const Stage forward_no_collision;
-const Stage forward_no_collision{
-	"forward", "no_collision", {{STAGE_NO_COLLISION, no_collision<float>, no_collision<double>}}, nullptr, nullptr};
+const Stage forward_no_collision{"forward", "no_collision", {{STAGE_NO_COLLISION, no_collision<float>, no_collision<double>}}, nullptr, nullptr};
 
 }

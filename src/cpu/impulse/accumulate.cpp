@@ -19,8 +19,7 @@ template <typename T> static void accumulate(const Job<T> &job)
 }
 
 extern const Stage impulse_accumulate;
-const Stage impulse_accumulate{
-	"impulse", "accumulate", {{STAGE_IMPULSE, accumulate<float>, accumulate<double>}}, nullptr, nullptr, nullptr, nullptr,
+const Stage impulse_accumulate{"impulse", "accumulate", {{STAGE_IMPULSE, accumulate<float>, accumulate<double>}}, nullptr, nullptr, nullptr, nullptr,
 	{nullptr, nullptr, each_alone<float>}, {nullptr, nullptr, each_alone<double>}};
 
 }

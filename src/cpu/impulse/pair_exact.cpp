@@ -37,8 +37,7 @@ template <typename T> static void pair_exact(const Job<T> &job)
 }
 
 extern const Stage impulse_pair_exact;
-const Stage impulse_pair_exact{
-	"impulse", "pair_exact", {{STAGE_IMPULSE, pair_exact<float>, pair_exact<double>}}, nullptr, nullptr, nullptr, nullptr,
+const Stage impulse_pair_exact{"impulse", "pair_exact", {{STAGE_IMPULSE, pair_exact<float>, pair_exact<double>}}, nullptr, nullptr, nullptr, nullptr,
 	{nullptr, nullptr, together<float>}, {nullptr, nullptr, together<double>}};
 
 }

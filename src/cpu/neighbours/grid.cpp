@@ -128,10 +128,7 @@ public:
 		return slots.data() + count;
 	}
 	void keep(int32_t *end) { count = static_cast<size_t>(end - slots.data()); }
-	void add(const Finds &other)
-	{
-		keep(std::copy(other.begin(), other.end(), next(other.size())));
-	}
+	void add(const Finds &other) { keep(std::copy(other.begin(), other.end(), next(other.size()))); }
 	int32_t size() const { return static_cast<int32_t>(count); }
 	const int32_t *begin() const { return slots.data(); }
 	const int32_t *end() const { return slots.data() + count; }
@@ -218,8 +215,8 @@ private:
 
 	bool are_near(int32_t s, const Box<T> &box, int32_t other, int32_t level) const
 	{
-		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static()) &&
-			grid.level_of(boxes[other].half(slots[other].place)) == level;
+		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static())
+			&& grid.level_of(boxes[other].half(slots[other].place)) == level;
 	}
 
 	void meet(int32_t s, int32_t other, bool alike, Finds &ahead, Finds &behind)
@@ -306,9 +303,8 @@ template <typename T> static void gather(const Job<T> &job)
 
 extern const Stage neighbours_grid;
 const Stage neighbours_grid{"neighbours", "grid",
-	{{STAGE_PACE, pace<float>, pace<double>}, {STAGE_REACH, reach<float>, reach<double>},
-		{STAGE_CELLS, cells<float>, cells<double>}, {STAGE_SORT, sort<float>, sort<double>}, {STAGE_NEAR, near<float>, near<double>},
-		{STAGE_GATHER, gather<float>, gather<double>}},
+	{{STAGE_PACE, pace<float>, pace<double>}, {STAGE_REACH, reach<float>, reach<double>}, {STAGE_CELLS, cells<float>, cells<double>},
+		{STAGE_SORT, sort<float>, sort<double>}, {STAGE_NEAR, near<float>, near<double>}, {STAGE_GATHER, gather<float>, gather<double>}},
 	nullptr, nullptr};
 
 }

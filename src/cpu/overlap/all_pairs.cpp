@@ -23,10 +23,7 @@ template <typename T> struct Columns {
 template <typename T> struct Box {
 	T min_x, min_y, max_x, max_y;
 
-	Box(const Columns<T> &columns, int32_t k)
-		: min_x(columns.min_x[k]), min_y(columns.min_y[k]), max_x(columns.max_x[k]), max_y(columns.max_y[k])
-	{
-	}
+	Box(const Columns<T> &columns, int32_t k) : min_x(columns.min_x[k]), min_y(columns.min_y[k]), max_x(columns.max_x[k]), max_y(columns.max_y[k]) {}
 
 	/* Without branches, so that compilers can make vectors of it. */
 	bool is_apart(const Columns<T> &columns, int32_t k) const
@@ -36,8 +33,7 @@ template <typename T> struct Box {
 };
 
 /* Which columns' boxes overlap one of the rows'. Most tiles are found to be empty by this, so here the stage's time goes. */
-template <typename T>
-static void find_near(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, int32_t count, int32_t near[block])
+template <typename T> static void find_near(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, int32_t count, int32_t near[block])
 {
 	std::fill(near, near + count, 0);
 	for (int32_t i = 0; i < row_count; i++) {
@@ -53,8 +49,7 @@ struct TileBytes {
 	bool any = false;
 };
 
-template <typename T>
-static TileBytes look_at(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, bool on_diagonal)
+template <typename T> static TileBytes look_at(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, bool on_diagonal)
 {
 	TileBytes tile;
 	for (int32_t i = 0; i < row_count; i++) {

@@ -149,10 +149,9 @@ template <typename T> struct Frame {
 	Light<T> ground;
 
 	explicit Frame(const Texels<T> &frame)
-		: x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)),
-		  width(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_X1) - x0)),
-		  height(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_Y1) - y0)),
-		  columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), ground(frame.fact(FRAME_TILES, TILES_GROUND))
+		: x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), width(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_X1) - x0)),
+		  height(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_Y1) - y0)), columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))),
+		  ground(frame.fact(FRAME_TILES, TILES_GROUND))
 	{
 	}
 };

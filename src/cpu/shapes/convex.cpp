@@ -14,10 +14,8 @@ template <typename T> struct Scene {
 	Scene(const Job<T> &job, const Texels<T> &view)
 		: draws(job.texels(FROM_DRAWS)), marks(job.texels(FROM_MARKS)), placed(job.texels(FROM_PLACED)),
 		  to(job.texels(TO_SHAPES), job.texels(TO_EDGES)),
-		  line(view.fact(VIEW_SCALE, SCALE_LINE)), picture{0, 0, view.fact(VIEW_SCALE, SCALE_WIDTH),
-													   view.fact(VIEW_SCALE, SCALE_HEIGHT)},
-		  clip{view.fact(VIEW_CLIP, BOX_X0), view.fact(VIEW_CLIP, BOX_Y0), view.fact(VIEW_CLIP, BOX_X1),
-			  view.fact(VIEW_CLIP, BOX_Y1)}
+		  line(view.fact(VIEW_SCALE, SCALE_LINE)), picture{0, 0, view.fact(VIEW_SCALE, SCALE_WIDTH), view.fact(VIEW_SCALE, SCALE_HEIGHT)},
+		  clip{view.fact(VIEW_CLIP, BOX_X0), view.fact(VIEW_CLIP, BOX_Y0), view.fact(VIEW_CLIP, BOX_X1), view.fact(VIEW_CLIP, BOX_Y1)}
 	{
 	}
 
@@ -28,8 +26,7 @@ template <typename T> struct Scene {
 template <typename T> static void draw_mark(const Scene<T> &scene, int32_t i, int32_t shape, int32_t edge)
 {
 	const int32_t place = MARKS_WIDTH * i + MARK_PLACE, style = MARKS_WIDTH * i + MARK_STYLE;
-	const T x0 = scene.marks.of(place, 0), y0 = scene.marks.of(place, 1), x1 = scene.marks.of(place, 2),
-			y1 = scene.marks.of(place, 3);
+	const T x0 = scene.marks.of(place, 0), y0 = scene.marks.of(place, 1), x1 = scene.marks.of(place, 2), y1 = scene.marks.of(place, 3);
 	const T color = scene.marks.of(style, STYLE_COLOR), breadth = scene.marks.of(style, STYLE_BREADTH);
 	if (!(breadth > 0)) {
 		scene.to.shape(shape, {x0, y0, x1, y1}, {color, color, 0, 1}, edge, 0);
@@ -41,12 +38,10 @@ template <typename T> static void draw_mark(const Scene<T> &scene, int32_t i, in
 	line.write(scene.to, shape, edge, scene.picture);
 }
 
-template <typename T>
-static void draw_circle(const Scene<T> &scene, int32_t vertex, int32_t shape, int32_t edge, const Ink<T> &ink)
+template <typename T> static void draw_circle(const Scene<T> &scene, int32_t vertex, int32_t shape, int32_t edge, const Ink<T> &ink)
 {
 	const Vec<T> to_rim = scene.offset(vertex), c = scene.center(vertex);
-	const T radius = norm(to_rim), breadth = ((T(DISC_AREA) * radius) * radius) / larger(2 * radius, T(1)),
-			r = radius + growth(breadth);
+	const T radius = norm(to_rim), breadth = ((T(DISC_AREA) * radius) * radius) / larger(2 * radius, T(1)), r = radius + growth(breadth);
 	const Box<T> box = touched<T>({c.x() - r, c.y() - r}, {c.x() + r, c.y() + r}, 0, scene.clip);
 	if (!scene.to.shape(shape, box, seen(ink, breadth, 2 * radius), edge, 1)) {
 		scene.to.hide(shape + 1);
@@ -89,8 +84,7 @@ template <typename T> static Extent<T> measure(const Scene<T> &scene, int32_t ve
 	return all;
 }
 
-template <typename T>
-static void draw_polygon(const Scene<T> &scene, int32_t vertex, int32_t count, int32_t shape, int32_t edge, const Ink<T> &ink)
+template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t vertex, int32_t count, int32_t shape, int32_t edge, const Ink<T> &ink)
 {
 	const Extent<T> all = measure(scene, vertex, count);
 	const Vec<T> c = scene.center(vertex);

@@ -75,8 +75,8 @@ template <typename T> static void next(const Job<T> &job)
 	const SearchRules<T> rules = rules_of(job);
 	const Texels<T> front = job.texels(TOI_COUNT);
 	search_tiles(job, TOI_COUNT + 1, [&](int32_t row, int32_t column, bool) {
-		const HitTime<T> hit{front.at(column, row, HITTIMES_MIN), front.at(column, row, HITTIMES_MAX),
-			front.at(column, row, HITTIMES_DONE), front.at(column, row, HITTIMES_HIT)};
+		const HitTime<T> hit{front.at(column, row, HITTIMES_MIN), front.at(column, row, HITTIMES_MAX), front.at(column, row, HITTIMES_DONE),
+			front.at(column, row, HITTIMES_HIT)};
 		if (hit.done != 0)
 			return hit;
 		const Convex<T> a = shapes.convex(row), b = shapes.convex(column);
@@ -85,8 +85,7 @@ template <typename T> static void next(const Job<T> &job)
 }
 
 extern const Stage toi_bisection;
-const Stage toi_bisection{"toi", "bisection",
-	{{STAGE_TOI_FIRST, first<float>, first<double>}, {STAGE_TOI_NEXT, next<float>, next<double>}}, nullptr, nullptr, nullptr, nullptr,
-	{time<float>}, {time<double>}};
+const Stage toi_bisection{"toi", "bisection", {{STAGE_TOI_FIRST, first<float>, first<double>}, {STAGE_TOI_NEXT, next<float>, next<double>}}, nullptr,
+	nullptr, nullptr, nullptr, {time<float>}, {time<double>}};
 
 }

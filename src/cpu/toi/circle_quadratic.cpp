@@ -34,8 +34,7 @@ template <typename T> static HitTime<T> time(const Pair<T> &pair, const SearchRu
 }
 
 extern const Stage toi_circle_quadratic;
-const Stage toi_circle_quadratic{
-	"toi", "circle_quadratic", {{STAGE_TOI_FIRST, circle_quadratic<float>, circle_quadratic<double>}}, nullptr, nullptr, nullptr, nullptr,
-	{time<float>}, {time<double>}};
+const Stage toi_circle_quadratic{"toi", "circle_quadratic", {{STAGE_TOI_FIRST, circle_quadratic<float>, circle_quadratic<double>}}, nullptr, nullptr,
+	nullptr, nullptr, {time<float>}, {time<double>}};
 
 }

@@ -8,8 +8,7 @@ template <typename T> static void option2(const Job<T> &job)
 	const Texels<T> stream = job.texels(PLACE_STREAM);
 	const Accessed<T> vertices(job, PLACE_VERTICES);
 	place_vertices(job, [&](int32_t i) {
-		const int32_t first = static_cast<int32_t>(stream.of(i, STREAM_X)),
-					  ordinal = static_cast<int32_t>(stream.of(i, STREAM_Y));
+		const int32_t first = static_cast<int32_t>(stream.of(i, STREAM_X)), ordinal = static_cast<int32_t>(stream.of(i, STREAM_Y));
 		return Sent<T>{static_cast<int32_t>(stream.of(i, STREAM_BODY)), local_vertex(vertices, first, ordinal)};
 	});
 }

@@ -104,7 +104,7 @@ template <typename T> static void half_planes(const Job<T> &job)
 }
 
 extern const Stage walls_half_planes;
-const Stage walls_half_planes{"walls", "half_planes", {{STAGE_WALLS, half_planes<float>, half_planes<double>}}, nullptr, nullptr,
-	nullptr, nullptr, {nullptr, time<float>}, {nullptr, time<double>}};
+const Stage walls_half_planes{"walls", "half_planes", {{STAGE_WALLS, half_planes<float>, half_planes<double>}}, nullptr, nullptr, nullptr, nullptr,
+	{nullptr, time<float>}, {nullptr, time<double>}};
 
 }
