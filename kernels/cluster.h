@@ -96,14 +96,14 @@ void unite(LIST_OUT(parents), int a, int b)
 /* A number for a body of which events change something. It is known to others when the kernel has ended. */
 void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int s, int round)
 {
-	if (owners[s] != -1 || atomic_cmpxchg(&owners[s], -1, -2) != -1)
+	if (PEEK(owners, s) != -1 || atomic_cmpxchg(&owners[s], -1, -2) != -1)
 		return;
 	int id = atomic_inc(&status[STATUS_ACTIVE]);
 	active[id] = s;
 	members[MEMBER(id, MEMBER_OWNER)] = id;
 	members[MEMBER(id, MEMBER_ROUND)] = round;
 	atomic_xchg(&owners[s], id);
-	if (status[STATUS_ROUND] < round)
+	if (PEEK(status, STATUS_ROUND) < round)
 		atomic_max(&status[STATUS_ROUND], round);
 }
 

@@ -4,8 +4,8 @@
  * where it is no member. */
 trajectory trajectory_seen(RECORD_IN(slots), LIST_OUT(members), LIST_IN(owners), RECORD_OUT(work), int other, int leader, int *id)
 {
-	*id = owners[other];
-	if (*id >= 0 && members[MEMBER(*id, MEMBER_OWNER)] == leader) /* nobody else writes or takes away that */
+	*id = PEEK(owners, other);
+	if (*id >= 0 && PEEK(members, MEMBER(*id, MEMBER_OWNER)) == leader) /* nobody else writes or takes away that */
 		return work_load(work, *id);
 	*id = -1;
 	return trajectory_start(slots, other);
@@ -67,7 +67,7 @@ int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active
 		return -1;
 	}
 	active[id] = s;
-	members[MEMBER(id, MEMBER_OWNER)] = leader;
+	atomic_xchg(&members[MEMBER(id, MEMBER_OWNER)], leader);
 	work_begin(slots, members, work, s, id);
 	mem_fence(CLK_GLOBAL_MEM_FENCE);
 	if (atomic_cmpxchg(&owners[s], -1, id) != -1) {

@@ -45,6 +45,14 @@
 #define RECORD_IN(t) __global const float4 *t
 #define RECORD_OUT(t) __global float4 *t
 
+/* An int that other work-items may be changing atomically, read without waiting for them: what is found may be old, which costs time at most.
+ * Where races are looked for (Oclgrind) the read is atomic, too, so that what is still reported is a mistake. */
+#ifdef CAROM_CHECK_RACES
+#define PEEK(list, i) atomic_or((volatile __global int *)(list) + (i), 0)
+#else
+#define PEEK(list, i) ((list)[i])
+#endif
+
 /* TEX_SENT reads what OpenGL would send with a draw call, as attributes of a vertex or as uniforms [3]: it is not counted. */
 #define TEX_LOAD(t, x, y) (COUNT(t) TEX_SENT(t, x, y))
 

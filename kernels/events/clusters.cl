@@ -55,12 +55,12 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
 	LIST_OUT(need), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
-	if (status[STATUS_ROUND] < domain.z)
+	if (PEEK(status, STATUS_ROUND) < domain.z)
 		return;
 	int seeds = status[STATUS_SEEDS];
 	float length = step_length(TEX(uniforms), TEX(clock));
 	for (int id = get_global_id(0); id < seeds; id += get_global_size(0))
-		if (members[MEMBER(id, MEMBER_HEAD)] >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
+		if (PEEK(members, MEMBER(id, MEMBER_HEAD)) >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
 			cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, parents, id, domain.z, length);
 }
 
@@ -68,7 +68,7 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work), LIST_IN(owners),
 	LIST_OUT(parents), int4 domain)
 {
-	if (status[STATUS_ROUND] < domain.z)
+	if (PEEK(status, STATUS_ROUND) < domain.z)
 		return;
 	int count = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	float length = step_length(TEX(uniforms), TEX(clock));
@@ -76,14 +76,14 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
 		/* of a pair one at least was done in this round, and finds the other */
-		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || members[MEMBER(owner, MEMBER_ROUND)] != domain.z)
+		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
 			continue;
 		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
 			int other = neighbours[k], other_id = owners[other];
 			if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
 				continue;
 			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
-			if (theirs == owner || members[MEMBER(theirs, MEMBER_ROUND)] > domain.z)
+			if (theirs == owner || PEEK(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
 				continue;
 			if (ways_meet(TEX(vertices), slots, members, work, rules, s, id, other, other_id, length))
 				conflict(status, members, active, parents, owner, theirs, domain.z);
