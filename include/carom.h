@@ -177,10 +177,10 @@ CAROM_API bool carom_stage_list(size_t index, carom_stage_info *info);
 typedef struct carom_device_info {
 	char platform[128], name[256], version[128];
 	bool is_opencl;
-	bool works;      /* Carom can run on it */
-	bool is_default; /* `auto` takes this one */
-	bool exact;      /* divides and takes roots correctly rounded: the same bits as every other exact device */
-	bool has_images;
+	bool works;              /* Carom can run on it */
+	bool is_default;         /* `auto` takes this one */
+	bool exact;              /* divides and takes roots correctly rounded: the same bits as every other exact device */
+	bool has_images;         /* of which Carom can use what it needs; else textures are buffers */
 	uint32_t compute_units;  /* CPU cores of the fallback */
 	uint32_t clock_mhz;      /* 0 where unknown */
 	uint64_t memory;         /* bytes */
@@ -191,7 +191,9 @@ typedef struct carom_device_info {
 } carom_device_info;
 
 /* Lists what there is: OpenCL devices, then the CPU fallback. *devices is an array of *count to be released with
- * carom_device_list_destroy. No OpenCL at all is no error: the list then holds the fallback alone. */
+ * carom_device_list_destroy. No OpenCL at all is no error: the list then holds the fallback alone. The environment's
+ * CAROM_MAX_IMAGE_SIZE (texels) and CAROM_MAX_ALLOCATION (bytes) lower those limits of all devices, to try what a smaller
+ * one would do; CAROM_INVALID_ARGUMENT if one is no whole number above 0. */
 CAROM_API carom_status carom_device_list_create(carom_device_info **devices, size_t *count, carom_error *error);
 CAROM_API void carom_device_list_destroy(carom_device_info *devices);
 

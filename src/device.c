@@ -1,10 +1,12 @@
 /* Which device a world runs on. */
 #include "device.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
+#include "layout.h"
 #include "status.h"
 
 #ifndef __FLT_EVAL_METHOD__
@@ -21,6 +23,35 @@ static bool contains(const char *text, const char *part)
 	return false;
 }
 
+/* The environment may say less than the device has; nobody can say more. */
+static carom_status lower(const char *variable, uint64_t *limit, carom_error *error)
+{
+	const char *text = getenv(variable);
+	char *end;
+	uint64_t number;
+	if (!text || !*text)
+		return CAROM_OK;
+	errno = 0;
+	number = strtoull(text, &end, 10);
+	if (errno || *end || text[0] < '0' || text[0] > '9' || number == 0)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "%s: found '%.64s'; allowed: a whole number above 0", variable, text);
+	if (number < *limit)
+		*limit = number;
+	return CAROM_OK;
+}
+
+/* Images must hold a row of bodies, or there are none for Carom. */
+static carom_status heed_limits(carom_device_info *info, carom_error *error)
+{
+	uint64_t size = info->max_image_size, allocation = info->max_allocation;
+	TRY(lower("CAROM_MAX_IMAGE_SIZE", &size, error));
+	TRY(lower("CAROM_MAX_ALLOCATION", &allocation, error));
+	info->max_image_size = (uint32_t)size;
+	info->max_allocation = allocation;
+	info->has_images = info->has_images && size >= ROW_SIZE;
+	return CAROM_OK;
+}
+
 carom_status carom_device_list_create(carom_device_info **devices, size_t *count, carom_error *error)
 {
 	carom_device_info *list = NULL, *grown;
@@ -34,6 +65,12 @@ carom_status carom_device_list_create(carom_device_info **devices, size_t *count
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to list the devices");
 	}
 	carom_cpu_info(&grown[found]);
+	for (size_t i = 0; !status && i <= found; i++)
+		status = heed_limits(&grown[i], error);
+	if (status) {
+		free(grown);
+		return status;
+	}
 	while (!grown[standard].works)
 		standard++;
 	grown[standard].is_default = true;
@@ -73,7 +110,11 @@ static carom_status open_one(const carom_device_def *def, const carom_device_inf
 {
 	if (!which->works)
 		return carom_fail(error, CAROM_DEVICE, "the device '%s' can't be used: %s", which->name, which->reason);
-	return which->is_opencl ? carom_cl_open(def, which, device, error) : carom_cpu_open(def, device, error);
+	if (which->is_opencl)
+		return carom_cl_open(def, which, device, error);
+	TRY(carom_cpu_open(def, device, error));
+	(*device)->info = *which;
+	return CAROM_OK;
 }
 
 /* The first that opens of those that match: for `auto` and the like a device that fails makes way for the next. */

@@ -17,7 +17,7 @@ static void print_facts(const carom_device_info *device)
 	if (device->has_images) {
 		printf("    images: sides up to %u texels\n", (unsigned)device->max_image_size);
 	} else {
-		printf("    images: none; textures are kept in buffers\n");
+		printf("    images: none that will do; textures are kept in buffers\n");
 	}
 }
 

@@ -9,37 +9,38 @@
 #include "device.h"
 
 /* Each function that is used, by name. */
-#define CAROM_CL_FUNCTIONS(X)    \
-	X(clGetPlatformIDs)          \
-	X(clGetPlatformInfo)         \
-	X(clGetDeviceIDs)            \
-	X(clGetDeviceInfo)           \
-	X(clCreateContext)           \
-	X(clReleaseContext)          \
-	X(clCreateCommandQueue)      \
-	X(clReleaseCommandQueue)     \
-	X(clCreateProgramWithSource) \
-	X(clBuildProgram)            \
-	X(clGetProgramBuildInfo)     \
-	X(clReleaseProgram)          \
-	X(clCreateKernelsInProgram)  \
-	X(clGetKernelInfo)           \
-	X(clGetKernelWorkGroupInfo)  \
-	X(clReleaseKernel)           \
-	X(clSetKernelArg)            \
-	X(clCreateBuffer)            \
-	X(clCreateImage)             \
-	X(clReleaseMemObject)        \
-	X(clEnqueueFillBuffer)       \
-	X(clEnqueueFillImage)        \
-	X(clEnqueueWriteBuffer)      \
-	X(clEnqueueReadBuffer)       \
-	X(clEnqueueWriteImage)       \
-	X(clEnqueueReadImage)        \
-	X(clEnqueueNDRangeKernel)    \
-	X(clFlush)                   \
-	X(clFinish)                  \
-	X(clGetEventProfilingInfo)   \
+#define CAROM_CL_FUNCTIONS(X)     \
+	X(clGetPlatformIDs)           \
+	X(clGetPlatformInfo)          \
+	X(clGetDeviceIDs)             \
+	X(clGetDeviceInfo)            \
+	X(clCreateContext)            \
+	X(clReleaseContext)           \
+	X(clGetSupportedImageFormats) \
+	X(clCreateCommandQueue)       \
+	X(clReleaseCommandQueue)      \
+	X(clCreateProgramWithSource)  \
+	X(clBuildProgram)             \
+	X(clGetProgramBuildInfo)      \
+	X(clReleaseProgram)           \
+	X(clCreateKernelsInProgram)   \
+	X(clGetKernelInfo)            \
+	X(clGetKernelWorkGroupInfo)   \
+	X(clReleaseKernel)            \
+	X(clSetKernelArg)             \
+	X(clCreateBuffer)             \
+	X(clCreateImage)              \
+	X(clReleaseMemObject)         \
+	X(clEnqueueFillBuffer)        \
+	X(clEnqueueFillImage)         \
+	X(clEnqueueWriteBuffer)       \
+	X(clEnqueueReadBuffer)        \
+	X(clEnqueueWriteImage)        \
+	X(clEnqueueReadImage)         \
+	X(clEnqueueNDRangeKernel)     \
+	X(clFlush)                    \
+	X(clFinish)                   \
+	X(clGetEventProfilingInfo)    \
 	X(clReleaseEvent)
 
 typedef struct carom_cl_api {
@@ -64,6 +65,10 @@ typedef struct carom_cl_found {
 
 /* All devices, the fastest that works first; *found is to be freed. */
 carom_status carom_cl_find(const carom_cl_api *cl, carom_cl_found **found, size_t *count, carom_error *error);
+
+/* Finds fault with the device (info.reason), or with its images alone (info.has_images), where it has less than Carom needs. */
+void carom_cl_check_limits(const carom_cl_api *cl, carom_cl_found *found);
+bool carom_cl_has_formats(const carom_cl_api *cl, cl_context context);
 
 /* Builds the program of the chosen alternatives, of the step's slots or of those that draw; the head of the
  * log goes into the error. */

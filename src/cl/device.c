@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "layout.h"
 #include "status.h"
 
 cl_device *carom_cl_of(const carom_device *device)
@@ -206,10 +207,15 @@ static bool prefers_buffers(const cl_device *d, const carom_device_def *def, cl_
 
 static carom_status choose_storage(cl_device *d, const carom_device_def *def, cl_device_id device, carom_error *error)
 {
-	const bool buffers = def->storage == CAROM_STORAGE_BUFFER || !d->base.info.has_images || prefers_buffers(d, def, device);
+	carom_device_info *info = &d->base.info;
+	info->has_images = info->has_images && carom_cl_has_formats(&d->cl, d->context);
+	const bool buffers = def->storage == CAROM_STORAGE_BUFFER || !info->has_images || prefers_buffers(d, def, device);
 	d->base.storage = buffers ? CAROM_STORAGE_BUFFER : CAROM_STORAGE_IMAGE;
-	if (def->storage == CAROM_STORAGE_IMAGE && !d->base.info.has_images)
-		return carom_fail(error, CAROM_DEVICE, "the device '%s' has no images; use buffer storage", d->base.info.name);
+	if (def->storage == CAROM_STORAGE_IMAGE && !info->has_images)
+		return carom_fail(error, CAROM_DEVICE,
+			"the device '%s' has no images, or none with sides of %d texels that hold four floats or bytes; "
+			"use buffer storage",
+			info->name, ROW_SIZE);
 	return CAROM_OK;
 }
 
@@ -217,12 +223,13 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 {
 	cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)found->platform, 0};
 	cl_int code;
-	carom_status status = choose_storage(d, def, found->device, error);
-	if (status)
-		return status;
+	carom_status status;
 	d->context = d->cl.clCreateContext(properties, 1, &found->device, NULL, NULL, &code);
 	if (code)
 		return carom_cl_device_fail(d, error, code, "no context can be made");
+	status = choose_storage(d, def, found->device, error);
+	if (status)
+		return status;
 	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, def->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
 	if (code)
 		return carom_cl_device_fail(d, error, code, "no queue can be made");
@@ -263,7 +270,7 @@ carom_status carom_cl_open(const carom_device_def *def, const carom_device_info 
 		goto end;
 	}
 	d->base.kind = &cl_class;
-	d->base.info = mine->info;
+	d->base.info = *which;
 	d->profile = def->profile;
 	status = set_up(d, def, mine, error);
 end:

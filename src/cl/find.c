@@ -59,6 +59,7 @@ static void describe(const carom_cl_api *cl, carom_cl_found *f)
 	info->memory = get_number(cl, f->device, CL_DEVICE_GLOBAL_MEM_SIZE);
 	info->max_allocation = get_number(cl, f->device, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
 	info->max_image_size = info->has_images ? (uint32_t)(width < height ? width : height) : 0;
+	carom_cl_check_limits(cl, f);
 	judge(cl, f);
 }
 

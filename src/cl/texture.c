@@ -67,11 +67,26 @@ void carom_cl_destroy_texture(carom_device *device, carom_texture *texture)
 	free(texture);
 }
 
+static carom_status check_limits(const cl_device *d, const carom_texture *t, carom_error *error)
+{
+	const carom_device_info *info = &d->base.info;
+	const uint64_t bytes = (uint64_t)t->width * t->height * texel_size(t->format);
+	if (t->is_image && (t->width > info->max_image_size || t->height > info->max_image_size))
+		return carom_fail(error, CAROM_LIMIT,
+			"a texture of %u x %u texels: the sides of images on '%s' have at most %u; buffer storage has no such limit", t->width, t->height,
+			info->name, info->max_image_size);
+	if (bytes > info->max_allocation)
+		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels takes %llu bytes: '%s' gives at most %llu for one", t->width, t->height,
+			(unsigned long long)bytes, info->name, (unsigned long long)info->max_allocation);
+	return CAROM_OK;
+}
+
 carom_status carom_cl_create_texture(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
 	carom_texture **texture, carom_error *error)
 {
 	cl_device *d = carom_cl_of(device);
 	carom_texture *t = calloc(1, sizeof *t);
+	carom_status status;
 	cl_int code;
 	if (!t)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a texture");
@@ -79,6 +94,11 @@ carom_status carom_cl_create_texture(carom_device *device, carom_texel_format fo
 	t->height = height;
 	t->format = format;
 	t->is_image = device->storage == CAROM_STORAGE_IMAGE && !carom_cl_is_list(format);
+	status = check_limits(d, t, error);
+	if (status) {
+		free(t);
+		return status;
+	}
 	code = t->is_image ? make_image(d, t) : make_buffer(d, t);
 	if (!code)
 		code = fill_texture(d, t, fill);

@@ -94,13 +94,12 @@ static carom_status create(carom_device *device, carom_texel_format format, uint
 	carom_texture **texture, carom_error *error)
 {
 	const uint64_t texels = uint64_t(width) * height, bytes = texels * channel_count * scalar_size<T>(format);
-	if (width < 1 || height < 1 || width > longest_side || height > longest_side)
-		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels: the CPU device takes sides of 1 to %u", width, height, longest_side);
+	const uint32_t longest = device->info.max_image_size;
+	if (width < 1 || height < 1 || width > longest || height > longest)
+		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels: the CPU device takes sides of 1 to %u", width, height, longest);
 	if (bytes > device->info.max_allocation)
-		return carom_fail(error, CAROM_LIMIT,
-			"a texture of %u x %u texels takes %llu MiB: the CPU device takes at most %llu MiB, "
-			"half of the memory, for one",
-			width, height, static_cast<unsigned long long>(bytes >> 20), static_cast<unsigned long long>(device->info.max_allocation >> 20));
+		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels takes %llu bytes: the CPU device takes at most %llu for one", width,
+			height, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(device->info.max_allocation));
 	std::unique_ptr<void, Free> memory(std::calloc(texels, channel_count * scalar_size<T>(format)));
 	std::unique_ptr<Texture> made(new (std::nothrow) Texture{format, width, height, std::move(memory)});
 	if (!made || !made->memory)
