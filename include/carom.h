@@ -191,9 +191,9 @@ typedef struct carom_device_info {
 } carom_device_info;
 
 /* Lists what there is: OpenCL devices, then the CPU fallback. *devices is an array of *count to be released with
- * carom_device_list_destroy. No OpenCL at all is no error: the list then holds the fallback alone. The environment's
- * CAROM_MAX_IMAGE_SIZE (texels) and CAROM_MAX_ALLOCATION (bytes) lower those limits of all devices, to try what a smaller
- * one would do; CAROM_INVALID_ARGUMENT if one is no whole number above 0. */
+ * carom_device_list_destroy. No OpenCL at all is no error: the list then holds the fallback alone. Where OpenCL itself fails, an
+ * entry that does not work says how. The environment's CAROM_MAX_IMAGE_SIZE (texels) and CAROM_MAX_ALLOCATION (bytes) lower those
+ * limits of all devices, to try what a smaller one would do; CAROM_INVALID_ARGUMENT if one is no whole number above 0. */
 CAROM_API carom_status carom_device_list_create(carom_device_info **devices, size_t *count, carom_error *error);
 CAROM_API void carom_device_list_destroy(carom_device_info *devices);
 
@@ -241,7 +241,7 @@ CAROM_API size_t carom_world_body_count(const carom_world *world);
 CAROM_API carom_status carom_world_get_body(const carom_world *world, uint32_t index, carom_body_info *info, carom_error *error);
 
 /* Reads or writes the states of `count` bodies from index `first` on. Reading waits for the device. After a step that
- * failed, the last good state is read. */
+ * failed, the last good state is read: that after the steps that its report tells. */
 CAROM_API carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error);
 CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error);
 /* A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none. */

@@ -114,6 +114,20 @@ static bool is_over(const carom_world *world)
 	return !(world->remaining[0] > 0.0f);
 }
 
+/* Hands a batch over and counts what came of it: `done` is since the clock was started at `start`. What was done before something
+ * failed is in the state, and so it counts, too; the step makes its own textures anew, for who knows what is in them. */
+static carom_status count_batch(carom_world *world, uint64_t steps, double start, carom_report *done, carom_error *error)
+{
+	carom_status status = run_batch(world, steps, error);
+	if (!status)
+		status = read_clock(world, start, done, error);
+	if (status && status != CAROM_STALLED) {
+		world->prepared = false;
+		read_clock(world, start, done, NULL);
+	}
+	return status;
+}
+
 /* The clock counts in floats, so a leg is short enough for whole numbers to stay exact. */
 static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *report, bool *go_on, carom_error *error)
 {
@@ -124,9 +138,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 	while (!status && *go_on && done.steps < steps && !is_over(world)) {
 		const double begun = seconds_now();
 		const uint64_t batch = batch_size(world, steps - done.steps, &done);
-		status = run_batch(world, batch, error);
-		if (!status)
-			status = read_clock(world, start, &done, error);
+		status = count_batch(world, batch, start, &done, error);
 		adapt_batch(world, batch, seconds_now() - begun);
 		report->steps = sum.steps + done.steps;
 		report->hits = sum.hits + done.hits;

@@ -22,8 +22,9 @@ typedef enum carom_texel_format {
 /* Rows first: (x, y) is column x of row y. Functions that fail fill in the error. */
 typedef struct carom_device_class {
 	void (*close)(carom_device *device);
-	/* Fills every texel with `fill` (floats; converted for bytes). CAROM_LIMIT if the device can't hold it. */
-	carom_status (*create)(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
+	/* Fills every texel with `fill` (floats; converted for bytes). CAROM_LIMIT if the device can't hold it. Errors call the texture
+	 * by its name, which stays the caller's. */
+	carom_status (*create)(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
 		carom_texture **texture, carom_error *error);
 	void (*destroy)(carom_device *device, carom_texture *texture);
 	/* Whole rows from row 0 on, 4 x width floats or bytes each, or width ints. Uploading may return before it is done, but not before

@@ -71,7 +71,7 @@ carom_status carom_file_create(const char *path, carom_file **file, FILE **strea
 	if (!made)
 		goto no_memory;
 	made->path = realpath(path, NULL); /* so that a symbolic link stays one */
-	if (!made->path)
+	if (!made->path && errno != ENOMEM)
 		made->path = strdup(path);
 	if (!made->path)
 		goto no_memory;
@@ -85,6 +85,8 @@ carom_status carom_file_create(const char *path, carom_file **file, FILE **strea
 			if (made->temporary)
 				unlink(made->temporary);
 		}
+		if (number == ENOMEM)
+			goto no_memory;
 		carom_file_destroy(made);
 		return fail_io(error, path, "can't be written", number, "give a file in a folder that exists and can be written to");
 	}

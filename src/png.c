@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <png.h>
 #include <setjmp.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MAX_SIDE 1000000u /* libpng's own limit, where it would stop with a less helpful sentence */
@@ -14,6 +15,7 @@
 /* What libpng said, kept until the file is dealt with. */
 struct complaint {
 	int number; /* errno, 0 if it was no system call */
+	bool no_memory;
 	char text[160];
 };
 
@@ -23,6 +25,21 @@ static void on_error(png_structp png, png_const_charp text)
 	complaint->number = errno;
 	snprintf(complaint->text, sizeof complaint->text, "%s", text);
 	longjmp(png_jmpbuf(png), 1);
+}
+
+/* libpng would not say that it was the memory that ended. */
+static png_voidp allocate(png_structp png, png_alloc_size_t size)
+{
+	struct complaint *complaint = png_get_mem_ptr(png);
+	void *memory = malloc(size);
+	complaint->no_memory = complaint->no_memory || !memory;
+	return memory;
+}
+
+static void release(png_structp png, png_voidp memory)
+{
+	(void)png;
+	free(memory);
 }
 
 static void on_warning(png_structp png, png_const_charp text)
@@ -53,14 +70,17 @@ static bool write_pixels(png_structp png, png_infop info, FILE *stream, const ui
 static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	struct complaint complaint = {0, ""};
+	struct complaint complaint = {0, false, ""};
 	png_infop info = NULL;
-	png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
+	png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning, &complaint, allocate, release);
+	bool written = false;
 	if (png)
 		info = png_create_info_struct(png);
-	if (!info) {
+	if (info)
+		written = write_pixels(png, info, stream, pixels, width, height);
+	if (!info || (!written && complaint.no_memory)) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to write a PNG", path);
-	} else if (!write_pixels(png, info, stream, pixels, width, height)) {
+	} else if (!written) {
 		status = carom_fail(error, CAROM_IO, "%s: can't be written: %s%s%s; free some space or write elsewhere", path, complaint.text,
 			complaint.number ? ": " : "", complaint.number ? strerror(complaint.number) : "");
 	}

@@ -89,8 +89,8 @@ static carom_status fail_syntax(const struct scene_reader *reader, const char *a
 	static const char too_much[] = "end of file expected"; /* jansson's words, where it was given an element alone */
 	carom_error position;
 	const char *text = found->text, *instead = "";
-	if (json_error_code(found) == json_error_out_of_memory)
-		return scene_fail_memory(reader);
+	if (json_error_code(found) == json_error_out_of_memory || !*text)
+		return scene_fail_memory(reader); /* jansson's parser says nothing where memory ends */
 	if (reader->body && strncmp(text, too_much, sizeof too_much - 1) == 0) {
 		instead = "',' or ']' expected";
 		text += sizeof too_much - 1;

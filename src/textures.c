@@ -33,6 +33,54 @@ static carom_texel_format format_of(carom_role role)
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
 
+static const char *const names[ROLE_COUNT] = {
+	[ROLE_LINEAR] = "Linear",
+	[ROLE_ROTATIONAL] = "Rotational",
+	[ROLE_GEOMETRY] = "Geometry",
+	[ROLE_FORCES] = "Forces",
+	[ROLE_VERTICES] = "Vertices",
+	[ROLE_UNIFORMS] = "Uniforms",
+	[ROLE_CLOCK] = "Clock",
+	[ROLE_AABB] = "AABB",
+	[ROLE_TILES] = "Tiles",
+	[ROLE_OVERLAP] = "Overlap",
+	[ROLE_OVERLAP_BEFORE] = "Overlap",
+	[ROLE_HIT_TIMES] = "HitTimes",
+	[ROLE_TILE_HITS] = "TileHits",
+	[ROLE_WALLS] = "Walls",
+	[ROLE_REDUCED] = "Reduced",
+	[ROLE_IMPULSE] = "Impulse",
+	[ROLE_SLOTS] = "Slots",
+	[ROLE_NEED] = "Need",
+	[ROLE_REACH] = "Reach",
+	[ROLE_WORK] = "Work",
+	[ROLE_MEMBERS] = "Members",
+	[ROLE_OWNERS] = "Owners",
+	[ROLE_PARENTS] = "Parents",
+	[ROLE_ACTIVE] = "Active",
+	[ROLE_SPANS] = "Spans",
+	[ROLE_NEIGHBOURS] = "Neighbours",
+	[ROLE_NODES] = "Nodes",
+	[ROLE_CELLS] = "Cells",
+	[ROLE_STATUS] = "Status",
+	[ROLE_STREAM] = "Stream",
+	[ROLE_TRANSFORMS] = "Transforms",
+	[ROLE_VIEW] = "View",
+	[ROLE_PLACED] = "Placed",
+	[ROLE_DRAWS] = "Draws",
+	[ROLE_MARKS] = "Marks",
+	[ROLE_SHAPES] = "Shapes",
+	[ROLE_EDGES] = "Edges",
+	[ROLE_FRAME] = "Frame",
+	[ROLE_BIN_COUNTS] = "BinCounts",
+	[ROLE_BIN_OFFSETS] = "BinOffsets",
+	[ROLE_BIN_TOTALS] = "BinTotals",
+	[ROLE_ROW_LIST] = "RowList",
+	[ROLE_TILE_ENDS] = "TileEnds",
+	[ROLE_TILE_LIST] = "TileList",
+	[ROLE_PICTURE] = "Picture",
+};
+
 void carom_textures_drop(carom_world *world, carom_role role)
 {
 	carom_pair *pair = &world->textures[role];
@@ -46,12 +94,19 @@ carom_status carom_textures_create(carom_world *world, carom_role role, bool pai
 	carom_error *error)
 {
 	carom_pair *textures = &world->textures[role];
-	carom_status status = world->device->kind->create(world->device, format_of(role), width, height, fill, &textures->front, error);
-	if (!status && pair)
-		status = world->device->kind->create(world->device, format_of(role), width, height, fill, &textures->back, error);
-	else
+	carom_textures_drop(world, role);
+	TRY(world->device->kind->create(world->device, names[role], format_of(role), width, height, fill, &textures->front, error));
+	if (!pair)
 		textures->back = textures->front;
-	return status;
+	return pair ? world->device->kind->create(world->device, names[role], format_of(role), width, height, fill, &textures->back, error) : CAROM_OK;
+}
+
+carom_status carom_levels_create(carom_world *world, int level, uint32_t size, const float fill[4], carom_error *error)
+{
+	carom_texture **texture = &world->levels[level];
+	world->device->kind->destroy(world->device, *texture);
+	*texture = NULL;
+	return world->device->kind->create(world->device, names[ROLE_REDUCED], format_of(ROLE_REDUCED), size, size, fill, texture, error);
 }
 
 void carom_textures_destroy(carom_world *world)

@@ -212,13 +212,14 @@ static void a_stall_tells_what_was_done(void **unused)
 /* ---- Memory */
 
 static uint64_t taken;
-static carom_status (*real_create)(carom_device *, carom_texel_format, uint32_t, uint32_t, const float *, carom_texture **, carom_error *);
+static carom_status (*real_create)(carom_device *, const char *, carom_texel_format, uint32_t, uint32_t, const float *, carom_texture **,
+	carom_error *);
 
-static carom_status counting_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
-	carom_texture **texture, carom_error *error)
+static carom_status counting_create(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height,
+	const float fill[4], carom_texture **texture, carom_error *error)
 {
 	taken += (uint64_t)width * height * (format == TEXELS_FLOAT || format == TEXELS_RECORD ? 16 : 4);
-	return real_create(device, format, width, height, fill, texture, error);
+	return real_create(device, name, format, width, height, fill, texture, error);
 }
 
 /* What the textures of `count` bodies take, by watching the device make them. */
@@ -239,10 +240,10 @@ static uint64_t memory_taken(const carom_world_def *def, size_t count)
 	return taken;
 }
 
-static carom_status failing_create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
-	carom_texture **texture, carom_error *error)
+static carom_status failing_create(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height,
+	const float fill[4], carom_texture **texture, carom_error *error)
 {
-	(void)device, (void)format, (void)width, (void)height, (void)fill, (void)texture, (void)error;
+	(void)device, (void)name, (void)format, (void)width, (void)height, (void)fill, (void)texture, (void)error;
 	return CAROM_OUT_OF_MEMORY;
 }
 

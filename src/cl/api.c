@@ -31,7 +31,7 @@ bool carom_cl_load(carom_cl_api *api)
 	return true;
 }
 
-static const char *code_name(cl_int code)
+const char *carom_cl_code_name(cl_int code)
 {
 #define NAMED(name) \
 	{               \
@@ -74,9 +74,11 @@ static const char *code_name(cl_int code)
 	return "OpenCL error";
 }
 
-carom_status carom_cl_fail(carom_error *error, carom_status status, cl_int code, const char *what)
+carom_status carom_cl_fail(carom_error *error, cl_int code, const char *what)
 {
-	carom_fail(error, status, "%s: %s (%d)", what, code_name(code), (int)code);
+	const bool memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_OUT_OF_RESOURCES;
+	const carom_status status = memory ? CAROM_OUT_OF_MEMORY : CAROM_DEVICE;
+	carom_fail(error, status, "%s: %s (%d)", what, carom_cl_code_name(code), (int)code);
 	if (error)
 		error->opencl_code = code;
 	return status;

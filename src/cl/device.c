@@ -46,13 +46,13 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 }
 
 /* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. Some devices take only small groups. */
-static size_t local_size(const cl_device *d, carom_stage stage, cl_kernel kernel)
+static cl_int local_size(const cl_device *d, carom_stage stage, cl_kernel kernel, size_t *local)
 {
 	bool few = stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES);
-	size_t wanted = few ? 1 : 64, most = 0;
-	if (d->cl.clGetKernelWorkGroupInfo(kernel, d->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL) || most < 1)
-		most = 1;
-	return wanted < most ? wanted : most;
+	size_t wanted = few ? 1 : 64, most = 1;
+	cl_int code = d->cl.clGetKernelWorkGroupInfo(kernel, d->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
+	*local = wanted < most ? wanted : most;
+	return code;
 }
 
 /* Adds up what the launches so far took, and forgets them. */
@@ -63,10 +63,12 @@ static void read_profile(carom_device *device)
 	for (size_t i = 0; i < d->pending; i++) {
 		carom_kernel_time *time = &device->times[d->event_stages[i]];
 		cl_ulong start = 0, end = 0;
-		d->cl.clGetEventProfilingInfo(d->events[i], CL_PROFILING_COMMAND_START, sizeof start, &start, NULL);
-		d->cl.clGetEventProfilingInfo(d->events[i], CL_PROFILING_COMMAND_END, sizeof end, &end, NULL);
+		cl_int code = d->cl.clGetEventProfilingInfo(d->events[i], CL_PROFILING_COMMAND_START, sizeof start, &start, NULL);
+		if (!code)
+			code = d->cl.clGetEventProfilingInfo(d->events[i], CL_PROFILING_COMMAND_END, sizeof end, &end, NULL);
 		d->cl.clReleaseEvent(d->events[i]);
-		time->seconds += 1e-9 * (double)(end - start);
+		if (!code && end > start)
+			time->seconds += 1e-9 * (double)(end - start);
 		time->launches++;
 	}
 	d->pending = 0;
@@ -107,18 +109,18 @@ static cl_event *next_event(cl_device *d, carom_stage stage)
 }
 
 /* Keeps the kernel for the stage that names it. */
-static void keep_kernel(cl_device *d, cl_kernel kernel)
+static cl_int keep_kernel(cl_device *d, cl_kernel kernel)
 {
 	char name[64] = "";
-	d->cl.clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
-	for (int i = 0; i < STAGE_COUNT; i++) {
+	cl_int code = d->cl.clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
+	for (int i = 0; !code && i < STAGE_COUNT; i++) {
 		if (strcmp(name, carom_stages[i].kernel) || d->kernels[i].kernel)
 			continue;
 		d->kernels[i].kernel = kernel;
-		d->kernels[i].local = local_size(d, (carom_stage)i, kernel);
-		return;
+		return local_size(d, (carom_stage)i, kernel, &d->kernels[i].local);
 	}
 	d->cl.clReleaseKernel(kernel);
+	return code;
 }
 
 /* All that the program has: which those are depends on the alternatives. */
@@ -129,9 +131,26 @@ static carom_status create_kernels(cl_device *d, cl_program program, carom_error
 	cl_int code = d->cl.clCreateKernelsInProgram(program, 2 * STAGE_COUNT, kernels, &count);
 	if (code)
 		return carom_cl_device_fail(d, error, code, "no kernels can be made");
-	for (cl_uint i = 0; i < count; i++)
-		keep_kernel(d, kernels[i]);
-	return CAROM_OK;
+	for (cl_uint i = 0; i < count; i++) {
+		if (code)
+			d->cl.clReleaseKernel(kernels[i]);
+		else
+			code = keep_kernel(d, kernels[i]);
+	}
+	return code ? carom_cl_device_fail(d, error, code, "a kernel can't be asked for what it is") : CAROM_OK;
+}
+
+static void drop_program(cl_device *d, bool draws)
+{
+	for (int i = 0; i < STAGE_COUNT; i++) {
+		if (d->kernels[i].kernel && carom_stage_draws((carom_stage)i) == draws) {
+			d->cl.clReleaseKernel(d->kernels[i].kernel);
+			d->kernels[i] = (bound_kernel){0};
+		}
+	}
+	if (d->programs[draws])
+		d->cl.clReleaseProgram(d->programs[draws]);
+	d->programs[draws] = NULL;
 }
 
 /* PoCL builds for a while: a world that draws no picture is spared rendering's program. */
@@ -139,7 +158,11 @@ static carom_status build_program(cl_device *d, bool draws, carom_error *error)
 {
 	carom_status status = carom_cl_build(&d->cl, d->context, d->device, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact,
 		&d->programs[draws], error);
-	return status ? status : create_kernels(d, d->programs[draws], error);
+	if (!status)
+		status = create_kernels(d, d->programs[draws], error);
+	if (status)
+		drop_program(d, draws);
+	return status;
 }
 
 static carom_status run_stage(carom_device *device, carom_stage stage, carom_texture *const *textures, const int32_t domain[4], carom_error *error)
@@ -155,6 +178,8 @@ static carom_status run_stage(carom_device *device, carom_stage stage, carom_tex
 		if (status)
 			return status;
 	}
+	if (!d->kernels[stage].kernel)
+		return carom_fail(error, CAROM_DEVICE, "%s: the program has no kernel %s", d->base.info.name, carom_stages[stage].kernel);
 	local[0] = d->kernels[stage].local;
 	global[0] = ((size_t)domain[0] + local[0] - 1) / local[0] * local[0];
 	event = next_event(d, stage);
@@ -179,14 +204,10 @@ static void close_device(carom_device *device)
 	cl_device *d = carom_cl_of(device);
 	for (size_t i = 0; i < d->pending; i++)
 		d->cl.clReleaseEvent(d->events[i]);
-	for (int i = 0; i < STAGE_COUNT; i++)
-		if (d->kernels[i].kernel)
-			d->cl.clReleaseKernel(d->kernels[i].kernel);
+	drop_program(d, false);
+	drop_program(d, true);
 	if (d->reads)
 		d->cl.clReleaseMemObject(d->reads);
-	for (int i = 0; i < 2; i++)
-		if (d->programs[i])
-			d->cl.clReleaseProgram(d->programs[i]);
 	if (d->queue)
 		d->cl.clReleaseCommandQueue(d->queue);
 	if (d->context)
@@ -198,18 +219,20 @@ static const carom_device_class cl_class = {close_device, carom_cl_create_textur
 	has_kernel, run_stage, flush, read_profile, count_reads};
 
 /* On a CPU a texel of an image is a call out of line: there the step events, which is not the paper's, takes buffers by itself. */
-static bool prefers_buffers(const cl_device *d, const carom_device_def *def, cl_device_id device)
+static bool prefers_buffers(const carom_device_def *def, const carom_cl_found *found)
 {
-	cl_device_type type = 0;
-	d->cl.clGetDeviceInfo(device, CL_DEVICE_TYPE, sizeof type, &type, NULL);
-	return def->storage == CAROM_STORAGE_AUTO && (type & CL_DEVICE_TYPE_CPU) && !strcmp(def->pipeline.step, "events");
+	return def->storage == CAROM_STORAGE_AUTO && (found->type & CL_DEVICE_TYPE_CPU) && !strcmp(def->pipeline.step, "events");
 }
 
-static carom_status choose_storage(cl_device *d, const carom_device_def *def, cl_device_id device, carom_error *error)
+static carom_status choose_storage(cl_device *d, const carom_device_def *def, const carom_cl_found *found, carom_error *error)
 {
 	carom_device_info *info = &d->base.info;
-	info->has_images = info->has_images && carom_cl_has_formats(&d->cl, d->context);
-	const bool buffers = def->storage == CAROM_STORAGE_BUFFER || !info->has_images || prefers_buffers(d, def, device);
+	bool has_formats = false;
+	cl_int code = carom_cl_has_formats(&d->cl, d->context, &has_formats);
+	if (code)
+		return carom_cl_device_fail(d, error, code, "the formats of images can't be asked for");
+	info->has_images = info->has_images && has_formats;
+	const bool buffers = def->storage == CAROM_STORAGE_BUFFER || !info->has_images || prefers_buffers(def, found);
 	d->base.storage = buffers ? CAROM_STORAGE_BUFFER : CAROM_STORAGE_IMAGE;
 	if (def->storage == CAROM_STORAGE_IMAGE && !info->has_images)
 		return carom_fail(error, CAROM_DEVICE,
@@ -227,7 +250,7 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 	d->context = d->cl.clCreateContext(properties, 1, &found->device, NULL, NULL, &code);
 	if (code)
 		return carom_cl_device_fail(d, error, code, "no context can be made");
-	status = choose_storage(d, def, found->device, error);
+	status = choose_storage(d, def, found, error);
 	if (status)
 		return status;
 	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, def->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
@@ -265,8 +288,8 @@ carom_status carom_cl_open(const carom_device_def *def, const carom_device_info 
 	if (status)
 		goto end;
 	mine = same_device(found, count, which);
-	if (!mine) {
-		status = carom_fail(error, CAROM_DEVICE, "the device '%s' is gone", which->name);
+	if (!mine || !mine->info.works) {
+		status = carom_fail(error, CAROM_DEVICE, "the device '%s' is gone%s%s", which->name, count ? ": " : "", count ? found[0].info.reason : "");
 		goto end;
 	}
 	d->base.kind = &cl_class;

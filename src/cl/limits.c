@@ -19,18 +19,6 @@ static void count_arguments(cl_uint *inputs, cl_uint *outputs, size_t *bytes)
 	}
 }
 
-static cl_uint get_count(const carom_cl_api *cl, cl_device_id device, cl_device_info what)
-{
-	cl_uint value = 0;
-	return cl->clGetDeviceInfo(device, what, sizeof value, &value, NULL) ? 0 : value;
-}
-
-static size_t get_size(const carom_cl_api *cl, cl_device_id device, cl_device_info what)
-{
-	size_t value = 0;
-	return cl->clGetDeviceInfo(device, what, sizeof value, &value, NULL) ? 0 : value;
-}
-
 static bool is_too_old(const carom_device_info *info)
 {
 	unsigned major, minor;
@@ -40,34 +28,35 @@ static bool is_too_old(const carom_device_info *info)
 void carom_cl_check_limits(const carom_cl_api *cl, carom_cl_found *f)
 {
 	carom_device_info *info = &f->info;
-	const cl_uint dimensions = get_count(cl, f->device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS);
-	const size_t arguments = get_size(cl, f->device, CL_DEVICE_MAX_PARAMETER_SIZE);
+	const cl_ulong dimensions = carom_cl_get_number(cl, f, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS);
+	const cl_ulong arguments = carom_cl_get_number(cl, f, CL_DEVICE_MAX_PARAMETER_SIZE);
 	cl_uint inputs, outputs;
 	size_t bytes;
 	count_arguments(&inputs, &outputs, &bytes);
-	if (get_count(cl, f->device, CL_DEVICE_MAX_READ_IMAGE_ARGS) < inputs || get_count(cl, f->device, CL_DEVICE_MAX_WRITE_IMAGE_ARGS) < outputs)
+	if (carom_cl_get_number(cl, f, CL_DEVICE_MAX_READ_IMAGE_ARGS) < inputs || carom_cl_get_number(cl, f, CL_DEVICE_MAX_WRITE_IMAGE_ARGS) < outputs)
 		info->has_images = false;
 	if (info->reason[0])
 		return;
 	if (is_too_old(info))
 		snprintf(info->reason, sizeof info->reason, "it has %.64s; Carom needs OpenCL 1.2", info->version);
 	else if (dimensions < 2)
-		snprintf(info->reason, sizeof info->reason, "its kernels run over %u dimensions; Carom needs 2", dimensions);
+		snprintf(info->reason, sizeof info->reason, "its kernels run over %u dimensions; Carom needs 2", (unsigned)dimensions);
 	else if (arguments < bytes)
-		snprintf(info->reason, sizeof info->reason, "its kernels take %zu bytes of arguments; Carom needs %zu", arguments, bytes);
+		snprintf(info->reason, sizeof info->reason, "its kernels take %llu bytes of arguments; Carom needs %zu", (unsigned long long)arguments,
+			bytes);
 }
 
 /* Can images of texels of four floats and of four bytes be read and written? Full profiles must, but they are asked. */
-bool carom_cl_has_formats(const carom_cl_api *cl, cl_context context)
+cl_int carom_cl_has_formats(const carom_cl_api *cl, cl_context context, bool *has)
 {
 	cl_image_format formats[512];
 	cl_uint count = 0;
 	bool floats = false, bytes = false;
-	if (cl->clGetSupportedImageFormats(context, CL_MEM_READ_WRITE, CL_MEM_OBJECT_IMAGE2D, 512, formats, &count))
-		return false;
-	for (cl_uint i = 0; i < count && i < 512; i++) {
+	cl_int code = cl->clGetSupportedImageFormats(context, CL_MEM_READ_WRITE, CL_MEM_OBJECT_IMAGE2D, 512, formats, &count);
+	for (cl_uint i = 0; !code && i < count && i < 512; i++) {
 		floats |= formats[i].image_channel_order == CL_RGBA && formats[i].image_channel_data_type == CL_FLOAT;
 		bytes |= formats[i].image_channel_order == CL_RGBA && formats[i].image_channel_data_type == CL_UNSIGNED_INT8;
 	}
-	return floats && bytes;
+	*has = floats && bytes;
+	return code;
 }

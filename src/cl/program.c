@@ -135,7 +135,7 @@ carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_devic
 	if (built)
 		code = cl->clBuildProgram(built, 1, &device, options, NULL, NULL);
 	if (code) {
-		status = carom_cl_fail(error, CAROM_DEVICE, code, "the kernels can't be built");
+		status = carom_cl_fail(error, code, "the kernels can't be built");
 		if (built)
 			keep_log(cl, built, device, error);
 		goto end;

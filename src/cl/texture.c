@@ -17,10 +17,9 @@ bool carom_cl_is_list(carom_texel_format format)
 
 carom_status carom_cl_device_fail(const cl_device *d, carom_error *error, cl_int code, const char *what)
 {
-	char text[512];
-	bool memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_OUT_OF_RESOURCES;
+	char text[640];
 	snprintf(text, sizeof text, "%s: %s", d->base.info.name, what);
-	return carom_cl_fail(error, memory ? CAROM_OUT_OF_MEMORY : CAROM_DEVICE, code, text);
+	return carom_cl_fail(error, code, text);
 }
 
 static cl_int make_image(cl_device *d, carom_texture *t)
@@ -67,29 +66,43 @@ void carom_cl_destroy_texture(carom_device *device, carom_texture *texture)
 	free(texture);
 }
 
+static size_t size_of(const carom_texture *t, uint32_t rows)
+{
+	return (size_t)t->width * rows * texel_size(t->format);
+}
+
 static carom_status check_limits(const cl_device *d, const carom_texture *t, carom_error *error)
 {
 	const carom_device_info *info = &d->base.info;
-	const uint64_t bytes = (uint64_t)t->width * t->height * texel_size(t->format);
+	const uint64_t bytes = size_of(t, t->height);
 	if (t->is_image && (t->width > info->max_image_size || t->height > info->max_image_size))
 		return carom_fail(error, CAROM_LIMIT,
-			"a texture of %u x %u texels: the sides of images on '%s' have at most %u; buffer storage has no such limit", t->width, t->height,
-			info->name, info->max_image_size);
+			"%s, %u x %u texels, can't be made: the sides of images on '%s' have at most %u; buffer storage has no such limit", t->name, t->width,
+			t->height, info->name, info->max_image_size);
 	if (bytes > info->max_allocation)
-		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels takes %llu bytes: '%s' gives at most %llu for one", t->width, t->height,
-			(unsigned long long)bytes, info->name, (unsigned long long)info->max_allocation);
+		return carom_fail(error, CAROM_LIMIT, "%s, %u x %u texels, can't be made: it takes %llu bytes, and '%s' gives at most %llu for one", t->name,
+			t->width, t->height, (unsigned long long)bytes, info->name, (unsigned long long)info->max_allocation);
 	return CAROM_OK;
 }
 
-carom_status carom_cl_create_texture(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
-	carom_texture **texture, carom_error *error)
+static carom_status fail(const carom_device *device, const carom_texture *t, cl_int code, const char *what, carom_error *error)
+{
+	char text[256];
+	snprintf(text, sizeof text, "%s, %u x %u texels (%zu KiB), can't be %s", t->name, (unsigned)t->width, (unsigned)t->height,
+		(size_of(t, t->height) + 1023) / 1024, what);
+	return carom_cl_device_fail(carom_cl_of(device), error, code, text);
+}
+
+carom_status carom_cl_create_texture(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height,
+	const float fill[4], carom_texture **texture, carom_error *error)
 {
 	cl_device *d = carom_cl_of(device);
 	carom_texture *t = calloc(1, sizeof *t);
 	carom_status status;
 	cl_int code;
 	if (!t)
-		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a texture");
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for the texture %s", name);
+	t->name = name;
 	t->width = width;
 	t->height = height;
 	t->format = format;
@@ -105,8 +118,9 @@ carom_status carom_cl_create_texture(carom_device *device, carom_texel_format fo
 	if (!code)
 		code = d->cl.clFinish(d->queue);
 	if (code) {
+		status = fail(device, t, code, "made", error);
 		carom_cl_destroy_texture(device, t);
-		return carom_cl_device_fail(d, error, code, "a texture can't be made");
+		return status;
 	}
 	*texture = t;
 	return CAROM_OK;
@@ -116,18 +130,16 @@ carom_status carom_cl_upload(carom_device *device, carom_texture *t, uint32_t ro
 {
 	cl_device *d = carom_cl_of(device);
 	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
-	cl_int code = t->is_image
-		? d->cl.clEnqueueWriteImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
-		: d->cl.clEnqueueWriteBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
-	return code ? carom_cl_device_fail(d, error, code, "a texture can't be written") : CAROM_OK;
+	cl_int code = t->is_image ? d->cl.clEnqueueWriteImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+							  : d->cl.clEnqueueWriteBuffer(d->queue, t->memory, CL_TRUE, 0, size_of(t, rows), texels, 0, NULL, NULL);
+	return code ? fail(device, t, code, "written", error) : CAROM_OK;
 }
 
 carom_status carom_cl_download(carom_device *device, carom_texture *t, uint32_t rows, void *texels, carom_error *error)
 {
 	cl_device *d = carom_cl_of(device);
 	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, rows, 1};
-	cl_int code = t->is_image
-		? d->cl.clEnqueueReadImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
-		: d->cl.clEnqueueReadBuffer(d->queue, t->memory, CL_TRUE, 0, (size_t)t->width * rows * texel_size(t->format), texels, 0, NULL, NULL);
-	return code ? carom_cl_device_fail(d, error, code, "a texture can't be read") : CAROM_OK;
+	cl_int code = t->is_image ? d->cl.clEnqueueReadImage(d->queue, t->memory, CL_TRUE, origin, region, 0, 0, texels, 0, NULL, NULL)
+							  : d->cl.clEnqueueReadBuffer(d->queue, t->memory, CL_TRUE, 0, size_of(t, rows), texels, 0, NULL, NULL);
+	return code ? fail(device, t, code, "read", error) : CAROM_OK;
 }

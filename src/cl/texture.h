@@ -33,6 +33,7 @@ typedef struct cl_device {
 struct carom_texture {
 	cl_mem memory;
 	bool is_image;
+	const char *name;
 	carom_texel_format format;
 	uint32_t width, height;
 };
@@ -43,8 +44,8 @@ bool carom_cl_is_list(carom_texel_format format);
 carom_status carom_cl_device_fail(const cl_device *d, carom_error *error, cl_int code, const char *what);
 
 /* texture.c: of the device's class */
-carom_status carom_cl_create_texture(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
-	carom_texture **texture, carom_error *error);
+carom_status carom_cl_create_texture(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height,
+	const float fill[4], carom_texture **texture, carom_error *error);
 void carom_cl_destroy_texture(carom_device *device, carom_texture *texture);
 carom_status carom_cl_upload(carom_device *device, carom_texture *t, uint32_t rows, const void *texels, carom_error *error);
 carom_status carom_cl_download(carom_device *device, carom_texture *t, uint32_t rows, void *texels, carom_error *error);

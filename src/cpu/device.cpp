@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <string>
@@ -54,9 +55,18 @@ static Texture &of(carom_texture *texture)
 	return *reinterpret_cast<Texture *>(texture);
 }
 
-static carom_status out_of_memory(carom_error *error, const char *for_what)
+static carom_status out_of_memory(carom_error *error, const char *for_what, const char *name)
 {
-	return carom_fail(error, CAROM_OUT_OF_MEMORY, "there is not enough memory for %s on the CPU", for_what);
+	return carom_fail(error, CAROM_OUT_OF_MEMORY, "there is not enough memory for %s%s on the CPU", for_what, name);
+}
+
+static carom_status fail_texture(carom_error *error, carom_status status, const char *name, uint32_t width, uint32_t height, uint64_t bytes,
+	const char *reason, unsigned long long allowed = 0)
+{
+	char why[128];
+	std::snprintf(why, sizeof why, reason, allowed);
+	return carom_fail(error, status, "%s, %u x %u texels (%llu KiB), can't be made: %s", name, width, height,
+		static_cast<unsigned long long>((bytes + 1023) / 1024), why);
 }
 
 /* ---- Textures */
@@ -90,20 +100,19 @@ template <typename T> static void fill_rows(Texture &texture, const float fill[4
 }
 
 template <typename T>
-static carom_status create(carom_device *device, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
+static carom_status create(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
 	carom_texture **texture, carom_error *error)
 {
 	const uint64_t texels = uint64_t(width) * height, bytes = texels * channel_count * scalar_size<T>(format);
 	const uint32_t longest = device->info.max_image_size;
 	if (width < 1 || height < 1 || width > longest || height > longest)
-		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels: the CPU device takes sides of 1 to %u", width, height, longest);
+		return fail_texture(error, CAROM_LIMIT, name, width, height, bytes, "a side has 1 to %llu on the CPU", longest);
 	if (bytes > device->info.max_allocation)
-		return carom_fail(error, CAROM_LIMIT, "a texture of %u x %u texels takes %llu bytes: the CPU device takes at most %llu for one", width,
-			height, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(device->info.max_allocation));
+		return fail_texture(error, CAROM_LIMIT, name, width, height, bytes, "one has at most %llu bytes on the CPU", device->info.max_allocation);
 	std::unique_ptr<void, Free> memory(std::calloc(texels, channel_count * scalar_size<T>(format)));
 	std::unique_ptr<Texture> made(new (std::nothrow) Texture{format, width, height, std::move(memory)});
 	if (!made || !made->memory)
-		return out_of_memory(error, "a texture");
+		return fail_texture(error, CAROM_OUT_OF_MEMORY, name, width, height, bytes, "there is not enough memory on the CPU");
 	if (std::any_of(fill, fill + 4, [](float channel) { return channel != 0; }))
 		fill_rows<T>(*made, fill); /* else the pages stay the system's until they are written */
 	*texture = reinterpret_cast<carom_texture *>(made.release());
@@ -197,7 +206,7 @@ try {
 	run_kernel(of<T>(device), stage, given, domain);
 	return CAROM_OK;
 } catch (const std::exception &) {
-	return out_of_memory(error, "a stage");
+	return out_of_memory(error, "the stage ", carom_stages[stage].kernel);
 }
 
 static carom_status flush(carom_device *, carom_error *)
@@ -294,7 +303,7 @@ try {
 	*device = opened.release();
 	return CAROM_OK;
 } catch (const std::exception &) {
-	return out_of_memory(error, "its threads");
+	return out_of_memory(error, "threads", "");
 }
 
 }

@@ -57,13 +57,17 @@ static carom_status resolve(carom_world *world, int32_t count, carom_error *erro
 static carom_status run(carom_world *world, carom_error *error)
 {
 	const int32_t count = (int32_t)world->body_count;
+	carom_status status;
 	if (world->events.since >= world->events.steps_a_list)
 		TRY(find_neighbours(world, count, error));
 	world->events.since++;
 	TRY(resolve(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, 0, error));
 	carom_swap(world, ROLE_CLOCK);
-	return carom_run(world, STAGE_DRIFT, count, 1, 0, 0, error);
+	status = carom_run(world, STAGE_DRIFT, count, 1, 0, 0, error);
+	if (status)
+		carom_swap(world, ROLE_CLOCK); /* back: the step is not done */
+	return status;
 }
 
 /* A cluster may lose a number to another: there are some more than bodies. */

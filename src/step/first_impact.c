@@ -59,21 +59,31 @@ static carom_status reduce(carom_world *world, int32_t count, carom_error *error
 	return CAROM_OK;
 }
 
+/* Collision response [2.3]. */
+static carom_status respond(carom_world *world, int32_t count, carom_error *error)
+{
+	TRY(carom_run(world, STAGE_IMPULSE, 1, 1, 0, 0, error));
+	TRY(carom_run(world, STAGE_NO_COLLISION, count, 1, 0, 0, error));
+	return carom_run(world, STAGE_COLLISION, count, 1, 0, 0, error);
+}
+
 /* One step. The device decides by its clock whether it ends in a collision: both forward kernels are run, and the one
  * whose turn it is not does nothing. So nobody waits. */
 static carom_status run(carom_world *world, carom_error *error)
 {
 	const int32_t count = (int32_t)world->body_count, groups = world->def.has_room ? (count + WALLS_GROUP - 1) / WALLS_GROUP : 0;
+	carom_status status;
 	TRY(detect(world, count, error));
 	TRY(reduce(world, count, error));
 	if (groups)
 		TRY(carom_run(world, STAGE_WALLS, groups, 1, count, 0, error));
 	TRY(carom_run(world, STAGE_FIRST, 1, 1, count, groups, error));
 	carom_swap(world, ROLE_CLOCK);
-	/* the response [2.3] */
-	TRY(carom_run(world, STAGE_IMPULSE, 1, 1, 0, 0, error));
-	TRY(carom_run(world, STAGE_NO_COLLISION, count, 1, 0, 0, error));
-	TRY(carom_run(world, STAGE_COLLISION, count, 1, 0, 0, error));
+	status = respond(world, count, error);
+	if (status) {
+		carom_swap(world, ROLE_CLOCK); /* back: the step is not done */
+		return status;
+	}
 	carom_swap(world, ROLE_LINEAR);
 	carom_swap(world, ROLE_ROTATIONAL);
 	return CAROM_OK;
@@ -151,7 +161,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_textures_create(world, ROLE_WALLS, false, carom_row_width(groups), carom_row_count(groups), no_level, error));
 	TRY(carom_textures_create(world, ROLE_IMPULSE, false, 1, 1, zero, error));
 	for (int level = 0; size > 0; level++, size = next_level(size, ratio))
-		TRY(world->device->kind->create(world->device, TEXELS_FLOAT, size, size, no_level, &world->levels[level], error));
+		TRY(carom_levels_create(world, level, size, no_level, error));
 	return CAROM_OK;
 }
 

@@ -1,0 +1,92 @@
+/* Every call of OpenCL of a small run fails in turn: an error names what failed, nothing is lost, all objects are released.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl/api.h"
+#include "faults/walk.h"
+
+static void opencl_failed(const char *call, carom_status status, const carom_error *error)
+{
+	if (!call)
+		fail_msg("nothing failed, but: %s", error->text);
+	/* what is released is gone, whatever the call says */
+	if (!status ? strncmp(call, "clRelease", 9) != 0 : error->status != status || !strstr(error->text, ": CL_"))
+		fail_msg("%s failed: %s: %s", call, carom_status_name(status), error->text);
+}
+
+static void worlds_that_open(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+		if (device->storage == CAROM_STORAGE_BUFFER) /* of OpenCL; with images it is the same */
+			walk_opening(device, "events", FAULTS_OPENCL, opencl_failed);
+}
+
+static void worlds_that_run(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+		if (strcmp(device->name, "cpu") != 0)
+			walk_running(device, device->storage == CAROM_STORAGE_IMAGE ? "first_impact" : "events", FAULTS_OPENCL, opencl_failed);
+}
+
+/* Without OpenCL Carom runs on the CPU by itself, and says what is missing where OpenCL is asked for. */
+static void machines_without_opencl(void **unused)
+{
+	(void)unused;
+	static const faults_loader machines[] = {LOADER_NONE, LOADER_OLD, LOADER_WITHOUT_PLATFORMS, LOADER_WITHOUT_DEVICES};
+	for (size_t i = 0; i < sizeof machines / sizeof *machines; i++) {
+		carom_world_def def = carom_default_world_def();
+		carom_device_info *devices = NULL, info;
+		carom_world *world = NULL;
+		carom_error error;
+		size_t count = 0;
+		faults_loader_set(machines[i]);
+		scenery_check(carom_device_list_create(&devices, &count, &error), &error);
+		assert_true(count == 1 && devices[0].works && devices[0].is_default && !devices[0].is_opencl);
+		carom_device_list_destroy(devices);
+		def.device = "auto";
+		scenery_check(carom_world_create(&def, &world, &error), &error);
+		scenery_check(carom_world_get_device(world, &info, &error), &error);
+		assert_false(info.is_opencl);
+		carom_world_destroy(world);
+		def.device = "opencl";
+		assert_int_equal(carom_world_create(&def, &world, &error), CAROM_UNKNOWN_NAME);
+		assert_non_null(strstr(error.text, "no OpenCL device was found"));
+		faults_loader_set(LOADER_REAL);
+	}
+}
+
+/* A loader that fails is told of, and `auto` goes on without it. */
+static void failures_are_listed(void **unused)
+{
+	(void)unused;
+	carom_world_def def = carom_default_world_def();
+	carom_world *world = NULL;
+	carom_device_info *devices = NULL;
+	carom_error error;
+	size_t count = 0;
+	faults_arm(FAULTS_OPENCL, 1, CL_OUT_OF_HOST_MEMORY);
+	scenery_check(carom_device_list_create(&devices, &count, &error), &error);
+	if (!faults_disarm()) {
+		print_message("SKIPPED: there is no OpenCL\n");
+		carom_device_list_destroy(devices);
+		skip();
+	}
+	assert_true(count == 2 && devices[0].is_opencl && !devices[0].works && devices[1].is_default);
+	assert_string_equal(devices[0].reason, "clGetPlatformIDs fails: CL_OUT_OF_HOST_MEMORY (-6)");
+	carom_device_list_destroy(devices);
+	faults_arm(FAULTS_OPENCL, 1, CL_OUT_OF_HOST_MEMORY);
+	def.device = "auto";
+	scenery_check(carom_world_create(&def, &world, &error), &error);
+	faults_disarm();
+	carom_world_destroy(world);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {cmocka_unit_test(machines_without_opencl), cmocka_unit_test(failures_are_listed),
+		cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run)};
+	return cmocka_run_group_tests_name("faults_opencl", tests, walk_make_folder, walk_remove_folder);
+}
