@@ -1,7 +1,7 @@
 /* Events of bodies in slots, and the clusters in which they are answered: CONTRACT.md, "The step events". */
 
-#define LISTS_IN LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active)
-#define LISTS spans, neighbours, status, members, active
+#define LISTS_IN LIST_OUT(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(found)
+#define LISTS spans, neighbours, status, members, active, found
 
 /* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. Those whose discs stay apart
  * need not be asked. */
@@ -93,9 +93,23 @@ void unite(LIST_OUT(parents), int a, int b)
 	}
 }
 
-/* A number for a body of which events change something. It is known to others when the kernel has ended. */
-void activate(LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int s, int round)
+/* What the body hits first as the step begins: `partner` is a slot, or -1 - wall. */
+void found_add(LIST_OUT(spans), LIST_OUT(status), LIST_OUT(found), int s, int partner, float time, bool pause)
 {
+	int k = atomic_inc(&status[STATUS_FOUND]);
+	if (k >= status[STATUS_NODE_ROOM] * NODE_WIDTH / FOUND_WIDTH) {
+		atomic_xchg(&spans[SPAN(s, SPAN_FOUND)], FOUND_NO_ROOM);
+		return;
+	}
+	found[FOUND_WIDTH * k + FOUND_PARTNER] = partner;
+	found[FOUND_WIDTH * k + FOUND_TIME] = as_int(pause ? -time : time);
+	found[FOUND_WIDTH * k + FOUND_LINK] = atomic_xchg(&spans[SPAN(s, SPAN_FOUND)], k);
+}
+
+/* A body has a hit as the step begins: it gets a number, which is known to others when the kernel has ended. */
+void activate(LISTS_IN, LIST_OUT(owners), int s, int partner, float time, bool pause, int round)
+{
+	found_add(spans, status, found, s, partner, time, pause);
 	if (PEEK(owners, s) != -1 || atomic_cmpxchg(&owners[s], -1, -2) != -1)
 		return;
 	int id = atomic_inc(&status[STATUS_ACTIVE]);

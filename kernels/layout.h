@@ -188,6 +188,9 @@
 #define SPAN_HALF 1  /* then those that test it themselves */
 #define SPAN_END 2
 #define SPAN_CELL 3
+#define SPAN_FOUND 3 /* once the lists are made: the first of its hits that the step begins with, or one of the next two */
+#define FOUND_NONE -1
+#define FOUND_NO_ROOM -2 /* some were not kept: it is to be looked for them again */
 
 /* Cells: three ints a cell, of CELL_ROW cells a row */
 #define CELL_WIDTH 3
@@ -200,6 +203,12 @@
 #define NODE_WIDTH 2
 #define NODE_SLOT 0
 #define NODE_LINK 1
+
+/* Found: what lies in Nodes once the lists are made, three ints a hit and body */
+#define FOUND_WIDTH 3
+#define FOUND_PARTNER 0 /* its slot, or -1 - wall */
+#define FOUND_TIME 1    /* float bits; the sign: it is only a pause of the search */
+#define FOUND_LINK 2    /* as SPAN_FOUND */
 
 /* Status: ints, and some floats in their bits */
 #define STATUS_WIDTH 32
@@ -225,6 +234,7 @@
 #define STATUS_BUILDS 18  /* since the host asked: how often lists were made, */
 #define STATUS_STEPS 19   /* steps done, */
 #define STATUS_NUMBERS 24 /* there are for bodies that events change */
+#define STATUS_FOUND 25   /* hits in Found */
 #define STATUS_IDLE 22    /* not begun for want of lists, */
 #define STATUS_AGAIN 23   /* and not done since they needed more rounds */
 

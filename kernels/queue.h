@@ -16,18 +16,25 @@ disc disc_of_trajectory(RECORD_IN(slots), int s, trajectory k, float length)
 	return disc_of(slots, s, k.place, k.time, k.held > 0.0f, length);
 }
 
+/* The event of a member's hit with a partner: a slot, or -1 - wall. */
+float4 event_of(RECORD_IN(slots), int s, int partner, float time, bool pause)
+{
+	int k = slot_body(slots, s), other = partner < 0 ? partner : slot_body(slots, partner);
+	return (float4)(time, (float)max(k, other), (float)min(k, other), (float)partner + (pause ? (partner < 0 ? -0.5f : 0.5f) : 0.0f));
+}
+
 /* The first event of a member, by what is known now. */
 void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
 	float length)
 {
-	int s = active[id], wall, body_index = slot_body(slots, s), seen = 0;
+	int s = active[id], wall, seen = 0;
 	trajectory k = work_load(work, id);
 	disc disc_k = disc_of_trajectory(slots, s, k, length);
 	bool pause;
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
-		first = (float4)(t, (float)body_index, -1.0f - (float)wall, -1.0f - (float)wall - (pause ? 0.5f : 0.0f));
+		first = event_of(slots, s, -1 - wall, t, pause);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_END)]; i++) {
 		int other = neighbours[i], other_id;
 		trajectory o = trajectory_seen(slots, members, owners, work, other, leader, &other_id);
@@ -36,8 +43,7 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 		t = pair_time(TEX(vertices), slots, rules, s, k, other, o, length, &pause);
 		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
 			continue;
-		int partner = slot_body(slots, other);
-		float4 next = (float4)(t, (float)max(body_index, partner), (float)min(body_index, partner), (float)other + (pause ? 0.5f : 0.0f));
+		float4 next = event_of(slots, s, other, t, pause);
 		if (event_before(next, first)) {
 			first = next;
 			seen = other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
@@ -45,6 +51,24 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 	}
 	work[WORK_WIDTH * id + WORK_NEXT] = first;
 	members[MEMBER(id, MEMBER_SEEN)] = seen;
+}
+
+/* The same while no event has changed anything: it was found before. */
+void recall(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
+	float length)
+{
+	int s = active[id], k = spans[SPAN(s, SPAN_FOUND)];
+	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
+	for (; k >= 0; k = found[FOUND_WIDTH * k + FOUND_LINK]) {
+		int bits = found[FOUND_WIDTH * k + FOUND_TIME];
+		float4 next = event_of(slots, s, found[FOUND_WIDTH * k + FOUND_PARTNER], magnitude(as_float(bits)), bits < 0);
+		if (event_before(next, first))
+			first = next;
+	}
+	work[WORK_WIDTH * id + WORK_NEXT] = first;
+	members[MEMBER(id, MEMBER_SEEN)] = 0;
+	if (k == FOUND_NO_ROOM)
+		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
 }
 
 /* The member whose event is first. */
@@ -106,7 +130,7 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 	if (head < 0)
 		return; /* another cluster got into the way just now */
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
-		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length);
+		recall(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length);
 	for (;;) {
 		int id = first_member(members, work, head), other_id = -1;
 		float4 next = work[WORK_WIDTH * id + WORK_NEXT];

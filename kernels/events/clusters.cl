@@ -11,20 +11,22 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
 	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
-	if (wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall, &pause) <= 1.0f)
-		activate(status, members, active, owners, s, domain.z);
+	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
+	if (t <= 1.0f)
+		activate(LISTS, owners, s, -1 - wall, t, pause, domain.z);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
 		int other = neighbours[i];
 		if (boxes_apart(disc_k, slots, other, length)
 			|| stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
 			continue;
-		if (!(pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length, &pause) <= 1.0f))
+		t = pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length, &pause);
+		if (!(t <= 1.0f))
 			continue;
 		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
 		if (changes)
-			activate(status, members, active, owners, s, domain.z);
+			activate(LISTS, owners, s, other, t, pause, domain.z);
 		if (other_changes)
-			activate(status, members, active, owners, other, domain.z);
+			activate(LISTS, owners, other, s, t, pause, domain.z);
 		if (changes && other_changes)
 			unite(parents, s, other);
 	}

@@ -15,7 +15,7 @@ bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_IN(status), float4 bo
 }
 
 __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(spans), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))
@@ -34,5 +34,6 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 		member_reset(members, id);
 		owners[s] = -1;
 		parents[s] = s;
+		spans[SPAN(s, SPAN_FOUND)] = FOUND_NONE;
 	}
 }

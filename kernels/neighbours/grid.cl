@@ -8,7 +8,7 @@ __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(statu
 	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = 0;
 	status[STATUS_ACTIVE] = status[STATUS_NEIGHBOURS] = status[STATUS_NODES] = status[STATUS_PLACED] = 0;
 	status[STATUS_LEVELS] = 1;
-	status[STATUS_HITS] = status[STATUS_HELD] = 0;
+	status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
 	status[STATUS_BUILDS]++;
 	pace_choose(slots, domain.z, window, status);
 }
@@ -77,6 +77,7 @@ __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(statu
 	spans[SPAN(s, SPAN_START)] = start;
 	spans[SPAN(s, SPAN_HALF)] = start + list.ahead;
 	spans[SPAN(s, SPAN_END)] = start + all;
+	spans[SPAN(s, SPAN_FOUND)] = FOUND_NONE;
 	if (all > NEAR_MOST) {
 		near_list again;
 		again.ahead = 0;

@@ -25,7 +25,7 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 	status[STATUS_IDLE] += !good && length > 0.0f;
 	status[STATUS_AGAIN] += good && !left && again;
 	if (done || left)
-		status[STATUS_ACTIVE] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
+		status[STATUS_ACTIVE] = status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
 	if (left)
 		status[STATUS_STALE] = 1;
 	TEX_STORE(now, CLOCK_HIT, 0, hit);

@@ -23,10 +23,11 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 template <typename T> class Clusters : public Bodies<T>
 {
 public:
-	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active; owners last. */
+	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active, found; owners and parents last. */
 	Clusters(const Job<T> &job, int owners_at)
-		: Bodies<T>(job), spans(reinterpret_cast<const Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
-		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at)), parents(job.list(owners_at + 1))
+		: Bodies<T>(job), spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
+		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at)), parents(job.list(owners_at + 1)),
+		  found(reinterpret_cast<FoundHit *>(job.list(9)))
 	{
 	}
 
@@ -49,9 +50,10 @@ public:
 		}
 	}
 
-	/* A number for a body of a step that begins; others may ask for it when the kernel has ended. */
-	void activate(int32_t s, int32_t round) const
+	/* A body has a hit as the step begins, and so a number; others may ask for it when the kernel has ended. */
+	void activate(int32_t s, int32_t partner, const typename Bodies<T>::Found &hit, int32_t round) const
 	{
+		keep(s, partner, hit);
 		if (__atomic_load_n(&owners[s], __ATOMIC_RELAXED) != -1 || !take(s, -2))
 			return;
 		const int32_t id = fetch_add(&status[STATUS_ACTIVE], 1);
@@ -60,6 +62,18 @@ public:
 		members[id].round = round;
 		__atomic_store_n(&owners[s], id, __ATOMIC_RELEASE);
 		__atomic_store_n(&status[STATUS_ROUND], round, __ATOMIC_RELAXED);
+	}
+
+	/* What the body hits at first. In double (the tests' oracle) times have no room here, and are found again. */
+	void keep(int32_t s, int32_t partner, const typename Bodies<T>::Found &hit) const
+	{
+		const int32_t k = fetch_add(&status[STATUS_FOUND], 1);
+		if (sizeof(T) != sizeof(float) || k >= status[STATUS_NODE_ROOM] * NODE_WIDTH / FOUND_WIDTH) {
+			__atomic_store_n(&spans[s].found, FOUND_NO_ROOM, __ATOMIC_RELAXED);
+			return;
+		}
+		const float time = static_cast<float>(hit.time);
+		found[k] = {partner, as_bits(hit.is_pause ? -time : time), __atomic_exchange_n(&spans[s].found, k, __ATOMIC_RELAXED)};
 	}
 
 	bool take(int32_t s, int32_t id) const
@@ -79,11 +93,12 @@ public:
 		__atomic_store_n(&status[STATUS_ROUND], round + 1, __ATOMIC_RELAXED);
 	}
 
-	const Span *const spans;
+	Span *const spans;
 	const int32_t *const neighbours;
 	int32_t *const status;
 	Member *const members;
 	int32_t *const active, *const owners, *const parents;
+	FoundHit *const found;
 };
 
 /* One cluster, by its leader's number. */
@@ -101,7 +116,7 @@ public:
 		if (head < 0)
 			return;
 		for (int32_t m = head; m >= 0; m = members[m].link) {
-			look(m);
+			recall(m);
 			heap.add(m);
 		}
 		while (answer_first()) {
@@ -189,20 +204,35 @@ private:
 		return id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader ? id : -1;
 	}
 
+	/* The member's first event, while no event has changed anything. */
+	void recall(int32_t id)
+	{
+		int32_t k = clusters.spans[clusters.active[id]].found;
+		forget(id);
+		for (; k >= 0; k = clusters.found[k].link) {
+			const float time = as_float(clusters.found[k].time);
+			offer(id, clusters.found[k].partner, {T(std::abs(time)), std::signbit(time)}, 0);
+		}
+		if (k == FOUND_NO_ROOM)
+			look(id);
+	}
+
+	void forget(int32_t id)
+	{
+		work[id].next[NEXT_TIME] = NO_HIT;
+		members[id].seen = 0;
+	}
+
 	/* Finds the member's first event. */
 	void look(int32_t id)
 	{
-		const int32_t s = clusters.active[id], index = slots[s].body();
+		const int32_t s = clusters.active[id];
 		const Trajectory<T> way = work[id].trajectory(slots[s]);
 		const Disc<T> disc(slots[s], way.place, way.time, way.held > 0, clusters.length);
-		T *next = work[id].next;
 		int32_t wall;
 		const auto at_wall = clusters.wall_time(s, way, &wall);
-		next[NEXT_TIME] = at_wall.time;
-		next[NEXT_ROW] = static_cast<T>(index);
-		next[NEXT_COLUMN] = static_cast<T>(-1 - wall);
-		next[NEXT_PARTNER] = next[NEXT_COLUMN] - (at_wall.is_pause ? T(0.5) : T(0));
-		members[id].seen = 0;
+		forget(id);
+		offer(id, -1 - wall, at_wall, 0);
 		Sieve<T> sieve(disc);
 		const auto meet = [&](int32_t other) { look_at(id, way, other); };
 		for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
@@ -217,19 +247,26 @@ private:
 		sieve.sift(meet);
 	}
 
-	/* The member's next event is the one with this body, if that comes before. */
+	/* The member's next event may be the one with this body. */
 	void look_at(int32_t id, const Trajectory<T> &way, int32_t other)
 	{
-		const int32_t s = clusters.active[id], index = slots[s].body(), other_id = own_number(other), other_index = slots[other].body();
+		const int32_t other_id = own_number(other);
 		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
-		const auto found = clusters.pair_time(s, way, other, other_way);
-		const T event[4] = {found.time, static_cast<T>(std::max(index, other_index)), static_cast<T>(std::min(index, other_index)),
-			static_cast<T>(other) + (found.is_pause ? T(0.5) : T(0))};
+		offer(id, other, clusters.pair_time(clusters.active[id], way, other, other_way), other_id >= 0 ? members[other_id].events : 0);
+	}
+
+	/* A hit with another slot, or with wall -1 - partner, which has had so many events. */
+	void offer(int32_t id, int32_t partner, const typename Bodies<T>::Found &hit, int32_t seen)
+	{
+		const int32_t index = slots[clusters.active[id]].body(), other = partner < 0 ? partner : slots[partner].body();
+		const T pause = hit.is_pause ? T(partner < 0 ? -0.5 : 0.5) : T(0);
+		const T event[4] = {
+			hit.time, static_cast<T>(std::max(index, other)), static_cast<T>(std::min(index, other)), static_cast<T>(partner) + pause};
 		T *next = work[id].next;
-		if (!(event[NEXT_TIME] <= 1 && event_before(event, next)))
+		if (!(hit.time <= 1 && event_before(event, next)))
 			return;
 		std::copy(event, event + 4, next);
-		members[id].seen = other_id >= 0 ? members[other_id].events : 0;
+		members[id].seen = seen;
 	}
 
 	/* Is the event at time u a rapid one of a body that had enough of them? */

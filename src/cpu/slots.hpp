@@ -60,10 +60,18 @@ static_assert(sizeof(Member) == MEMBER_WIDTH * sizeof(int32_t) && offsetof(Membe
 	"members");
 
 struct Span {
-	int32_t start, half, end, cell;
+	int32_t start, half, end;
+	int32_t found; /* of a step; while lists are made: the cell */
 };
 
 static_assert(sizeof(Span) == SPAN_WIDTH * sizeof(int32_t), "spans");
+
+/* A hit that the step begins with. */
+struct FoundHit {
+	int32_t partner, time, link;
+};
+
+static_assert(sizeof(FoundHit) == FOUND_WIDTH * sizeof(int32_t), "found");
 
 /* The centre's motion in step units, with the radius about it. */
 template <typename T> struct Disc {

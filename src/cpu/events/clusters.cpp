@@ -5,12 +5,13 @@ namespace carom::cpu {
 template <typename T> static void seek_pair(const Clusters<T> &clusters, int32_t s, int32_t other, int32_t round)
 {
 	const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
-	if (!(clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot)).time <= 1))
+	const auto hit = clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot));
+	if (!(hit.time <= 1))
 		return;
 	if (!slot.is_static())
-		clusters.activate(s, round);
+		clusters.activate(s, other, hit, round);
 	if (!other_slot.is_static())
-		clusters.activate(other, round);
+		clusters.activate(other, s, hit, round);
 	if (!slot.is_static() && !other_slot.is_static())
 		clusters.unite(s, other);
 }
@@ -20,8 +21,9 @@ template <typename T> static void look_around(const Clusters<T> &clusters, int32
 	const Slot<T> &slot = clusters.slots[s];
 	Sieve<T> sieve(Disc<T>(slot, slot.place, 0, false, clusters.length));
 	int32_t wall;
-	if (clusters.wall_time(s, Trajectory<T>(slot), &wall).time <= 1)
-		clusters.activate(s, round);
+	const auto at_wall = clusters.wall_time(s, Trajectory<T>(slot), &wall);
+	if (at_wall.time <= 1)
+		clusters.activate(s, -1 - wall, at_wall, round);
 	const auto meet = [&](int32_t other) { seek_pair(clusters, s, other, round); };
 	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].half; k++) {
 		sieve.add(clusters.neighbours[k], clusters.slots[clusters.neighbours[k]], clusters.length);
@@ -33,7 +35,7 @@ template <typename T> static void look_around(const Clusters<T> &clusters, int32
 
 template <typename T> static void seek(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 9);
+	const Clusters<T> clusters(job, 10);
 	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
 		return;
 	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
@@ -72,18 +74,18 @@ template <typename T> static void muster(const Job<T> &job)
 
 template <typename T> static void resolve(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 12);
+	const Clusters<T> clusters(job, 13);
 	const int32_t round = job.domain[2];
 	if (clusters.status[STATUS_ROUND] < round)
 		return;
-	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(9));
-	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(10));
+	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(10));
+	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(11));
 	job.pool.run(clusters.status[STATUS_SEEDS], 16, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<int32_t> room;
 		for (int32_t id = begin; id < end; id++) {
 			const Member &member = clusters.members[id];
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
-				Queue<T>(clusters, work, boxes, job.list(11), id, round, room).run();
+				Queue<T>(clusters, work, boxes, job.list(12), id, round, room).run();
 		}
 	});
 }
@@ -120,8 +122,8 @@ template <typename T> static void check_one(const Clusters<T> &clusters, const W
 
 template <typename T> static void check(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 10);
-	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(9));
+	const Clusters<T> clusters(job, 11);
+	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(10));
 	const int32_t round = job.domain[2];
 	if (clusters.status[STATUS_ROUND] < round)
 		return;

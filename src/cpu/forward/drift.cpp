@@ -18,6 +18,7 @@ template <typename T> static void drift(const Job<T> &job)
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(3));
 	int32_t *status = job.list(4), *owners = job.list(7), *parents = job.list(8);
+	Span *spans = reinterpret_cast<Span *>(job.list(9));
 	Member *members = reinterpret_cast<Member *>(job.list(5));
 	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(6));
 	const bool commits = status[STATUS_COMMIT] != 0;
@@ -43,6 +44,7 @@ template <typename T> static void drift(const Job<T> &job)
 				members[id].reset();
 				owners[s] = -1;
 				parents[s] = s;
+				spans[s].found = FOUND_NONE;
 			}
 		}
 		if (stale)

@@ -34,7 +34,7 @@ template <typename T> static void pace(const Job<T> &job)
 	const float way = (std::sqrt(squares / many) + push / many * window) * window * speed_margin;
 	const float side = 1.01f * (radius + std::max(cell_part * way, 0.1f * radius));
 	for (int field : {STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS,
-			 STATUS_PLACED, STATUS_HITS, STATUS_HELD})
+			 STATUS_PLACED, STATUS_HITS, STATUS_HELD, STATUS_FOUND})
 		status[field] = 0;
 	status[STATUS_BUILDS]++;
 	status[STATUS_PACE] = as_bits(std::max(pace_part * way, 0.1f * radius));
@@ -62,8 +62,8 @@ template <typename T> static void reach(const Job<T> &job)
 			const T *place = slots[s].place;
 			const int32_t level = grid.level_of(reach_box(slots[s], T(as_float(need[s])), rules, vertices).half(place));
 			const Cell at = grid.cell_at(place[0], place[1], level);
-			spans[s].cell = grid.row_of(at.y, level) + grid.column_of(at.x, level);
-			fetch_add(&cells[CELL_WIDTH * spans[s].cell + CELL_COUNT], 1);
+			spans[s].found = grid.row_of(at.y, level) + grid.column_of(at.x, level);
+			fetch_add(&cells[CELL_WIDTH * spans[s].found + CELL_COUNT], 1);
 			levels |= 1 << level;
 		}
 		__atomic_fetch_or(&status[STATUS_LEVELS], levels, __ATOMIC_RELAXED);
@@ -105,7 +105,7 @@ template <typename T> static void sort(const Job<T> &job)
 		members[id].reset();
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		for (int32_t s = begin; s < end; s++) {
-			const int32_t place = fetch_add(&all[CELL_WIDTH * spans[s].cell + CELL_END], 1);
+			const int32_t place = fetch_add(&all[CELL_WIDTH * spans[s].found + CELL_END], 1);
 			to[place] = slots[s];
 			boxes[place] = reach_box(slots[s], T(as_float(need[s])), rules, vertices);
 			new_need[place] = forget ? 0 : need[s];
@@ -170,7 +170,7 @@ public:
 			__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
 		for (int32_t s = begin; s < end; s++) {
 			Span &span = spans[s];
-			span = fits ? Span{start + span.start, start + span.half, start + span.end, span.cell} : Span{0, 0, 0, span.cell};
+			span = fits ? Span{start + span.start, start + span.half, start + span.end, FOUND_NONE} : Span{0, 0, 0, FOUND_NONE};
 		}
 	}
 
@@ -291,7 +291,7 @@ template <typename T> static void gather(const Job<T> &job)
 				__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
 			} else {
 				std::copy(neighbours + spans[s].start, neighbours + spans[s].end, neighbours + to);
-				spans[s] = {to, to + spans[s].half - spans[s].start, to + own + more, spans[s].cell};
+				spans[s] = {to, to + spans[s].half - spans[s].start, to + own + more, FOUND_NONE};
 				to += own;
 				for (int32_t k = members[s].head; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
 					neighbours[to++] = nodes[NODE_WIDTH * k + NODE_SLOT];

@@ -36,7 +36,7 @@ template <typename T> static void settle(const Job<T> &job)
 	if (left)
 		status[STATUS_STALE] = 1;
 	if (done || left)
-		status[STATUS_ACTIVE] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
+		status[STATUS_ACTIVE] = status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
 }
 
 extern const Stage settle_clock;
