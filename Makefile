@@ -75,7 +75,7 @@ CMOCKA := $(call system_includes,cmocka)
 CAIRO_INCLUDES := $(call system_includes,cairo)
 CAIRO_LIBRARIES := $(if $(filter no,$(CAIRO)),,$(shell $(PKG_CONFIG) --libs cairo 2>/dev/null))
 LIBRARIES := $(shell $(PKG_CONFIG) --libs libpng jansson 2>/dev/null) -ldl -lpthread -lm
-BOX2D_INCLUDES := $(call system_includes,box2d)
+BOX2D_INCLUDES := $(call system_includes,box2d) -DBOX2D_VERSION='"$(shell $(PKG_CONFIG) --modversion box2d 2>/dev/null)"'
 PEER_LIBRARIES := $(if $(filter no,$(BOX2D)),,$(shell $(PKG_CONFIG) --libs box2d 2>/dev/null)) $(if $(filter no,$(CHIPMUNK)),,-lchipmunk)
 CMOCKA_LIBRARIES := $(shell $(PKG_CONFIG) --libs cmocka 2>/dev/null)
 
@@ -85,7 +85,8 @@ EXACT := -fno-tree-slp-vectorize -ffp-contract=off -fno-fast-math -fno-math-errn
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
 COMMON := $(OPTIMIZE) -fPIC -fvisibility=hidden -pthread -MMD -MP $(SANITIZERS)
 INCLUDES := -Iinclude -Isrc -Ikernels
-ALL_CFLAGS = -std=c11 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 $(COMMON) $(WARNINGS) -Wmissing-prototypes -Wstrict-prototypes \
+C11 := -std=c11 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700
+ALL_CFLAGS = $(C11) $(COMMON) $(WARNINGS) -Wmissing-prototypes -Wstrict-prototypes \
 	$(INCLUDES) $(PACKAGES) $(CPPFLAGS) $(CFLAGS) $(EXACT)
 ALL_CXXFLAGS = -std=c++17 $(COMMON) -fvisibility-inlines-hidden $(WARNINGS) $(INCLUDES) $(PACKAGES) $(CPPFLAGS) $(CXXFLAGS) $(EXACT)
 # C++ with no CFLAGS: a compiler that links with -Ofast makes the whole process flush denormals.
@@ -105,6 +106,8 @@ help:
 	@echo 'make                 build the command, the static and the shared library into build/'
 	@echo 'make demo            run scenes and write their pictures into build/demo/'
 	@echo 'make check           build and run the tests and the checks of the source'
+	@echo 'make static          ask Clang, clang-format, clang-tidy, cppcheck and doxygen what they find in the source'
+	@echo 'make doc             render include/carom.h, the manual of the library, into build/doc/html/'
 	@echo 'make bench           measure the tables of the paper, and scale, and write them into build/bench/'
 	@echo 'make install         install below PREFIX=$(PREFIX), staged in DESTDIR='
 	@echo 'make clean           remove build/'
@@ -148,7 +151,7 @@ $(BUILD)/src/cpu/%.o $(BUILD)/cpu_stages.o: private PACKAGES := $(EIGEN)
 $(BUILD)/tools/%.o: private PACKAGES :=
 $(BUILD)/tools/%.o: private INCLUDES := -Iinclude
 $(call object,$(wildcard tools/carom_plot*.c)): private PACKAGES := $(CAIRO_INCLUDES)
-$(BUILD)/tools/carom_peer_box2d.o: private PACKAGES := $(BOX2D_INCLUDES) -DBOX2D_VERSION='"$(shell $(PKG_CONFIG) --modversion box2d 2>/dev/null)"'
+$(BUILD)/tools/carom_peer_box2d.o: private PACKAGES := $(BOX2D_INCLUDES)
 $(BUILD)/tests/%.o: private PACKAGES += $(CMOCKA)
 $(BUILD)/tests/%.o: private INCLUDES += -Itests
 
@@ -211,6 +214,17 @@ check: all $(TEST_PROGRAMS)
 	$(if $(filter Darwin,$(SYSTEM)),@echo 'SKIPPED tests/test_faults_*: the linker of macOS has no --wrap')
 	@CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE_COMMAND)' tools/check $(BUILD) $(TEST_PROGRAMS)
 
+ALL_INCLUDES := $(INCLUDES) -Itests $(PACKAGES) $(EIGEN) $(CMOCKA) $(CAIRO_INCLUDES) $(BOX2D_INCLUDES)
+quoted = $(subst ','\'',$(1))
+
+static:
+	@C_FLAGS='$(C11) $(call quoted,$(ALL_INCLUDES))' CXX_FLAGS='-std=c++17 $(call quoted,$(ALL_INCLUDES))' sh tests/static.sh
+
+doc:
+	@mkdir -p $(BUILD)
+	@CAROM_VERSION='$(VERSION)' CAROM_BUILD='$(BUILD)' doxygen tools/Doxyfile
+	@echo '$(BUILD)/doc/html/index.html'
+
 # ---- The demo: scene, options of `carom run`, what the picture shows
 
 define DEMO
@@ -264,7 +278,7 @@ clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check demo bench install clean FORCE
+.PHONY: all help check static doc demo bench install clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all

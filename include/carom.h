@@ -1,4 +1,5 @@
-/* Carom: a portable 2D rigid-body simulator that finds every hit at its exact time.
+/** @file
+ * Carom: a portable 2D rigid-body simulator that finds every hit at its exact time.
  *
  * SPDX-License-Identifier: MIT
  *
@@ -25,22 +26,26 @@
 extern "C" {
 #endif
 
+/** What the shared library exports. */
 #if defined(__GNUC__)
 #define CAROM_API __attribute__((visibility("default")))
 #else
 #define CAROM_API
 #endif
 
+/** Also the number of the ABI, in the shared library's name. */
 #define CAROM_VERSION_MAJOR 0
+/** Below 1.0.0 a new one may change the interface. */
 #define CAROM_VERSION_MINOR 1
+/** A new one changes nothing of the interface. */
 #define CAROM_VERSION_PATCH 0
 
-/* "0.1.0" */
+/** The version of the library that runs: "0.1.0". */
 CAROM_API const char *carom_version(void);
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-/* name, sentence */
+/** What can be wrong: name, sentence. */
 #define CAROM_STATUS_LIST(X)                                 \
 	X(OK, "no error")                                        \
 	X(INVALID_ARGUMENT, "an argument is outside its range")  \
@@ -52,323 +57,351 @@ CAROM_API const char *carom_version(void);
 	X(IO, "a file could not be read or written")             \
 	X(STALLED, "simulated time can't get on")
 
+/** CAROM_OK, CAROM_INVALID_ARGUMENT, ...: the names of CAROM_STATUS_LIST. */
 typedef enum carom_status {
-#define CAROM_STATUS_ENUM(name, sentence) CAROM_##name,
+#define CAROM_STATUS_ENUM(name, sentence) CAROM_##name, /**< sentence */
 	CAROM_STATUS_LIST(CAROM_STATUS_ENUM)
 #undef CAROM_STATUS_ENUM
 } carom_status;
 
-/* Filled in by a function that fails; untouched by one that succeeds. */
+/** Filled in by a function that fails; untouched by one that succeeds. */
 typedef struct carom_error {
-	carom_status status;
-	int line, column;     /* of the scene file, from 1; 0 where there is none */
-	int opencl_code;      /* the OpenCL error code, 0 where there is none */
-	char text[1024];      /* what was found, where, and what is allowed; one line, no full stop at the end */
-	char build_log[4096]; /* the head of the OpenCL compiler's log, empty where there is none */
+	carom_status status;  /**< never CAROM_OK */
+	int line;             /**< of the scene file, from 1; 0 where there is none */
+	int column;           /**< likewise */
+	int opencl_code;      /**< the OpenCL error code, 0 where there is none */
+	char text[1024];      /**< what was found, where, and what is allowed; one line, no full stop at the end */
+	char build_log[4096]; /**< the head of the OpenCL compiler's log, empty where there is none */
 } carom_error;
 
-/* "CAROM_OK", ...; for a value that is no status "CAROM_?" */
+/** "CAROM_OK", ...; for a value that is no status "CAROM_?" */
 CAROM_API const char *carom_status_name(carom_status status);
-/* "no error", ... */
+/** "no error", ... */
 CAROM_API const char *carom_status_text(carom_status status);
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------- */
 
+/** A point or a direction. */
 typedef struct carom_vec2 {
-	float x, y;
+	float x; /**< to the right */
+	float y; /**< up */
 } carom_vec2;
 
-#define CAROM_MIN_VERTICES 3
-#define CAROM_MAX_VERTICES 64
+#define CAROM_MIN_VERTICES 3  /**< of a polygon */
+#define CAROM_MAX_VERTICES 64 /**< of a polygon */
 
+/** What a body looks like. */
 typedef enum carom_shape {
-	CAROM_CIRCLE,  /* a disc of `radius` */
-	CAROM_POLYGON, /* the convex polygon of `vertices`, either way round */
-	CAROM_REGULAR, /* `sides` vertices on a circle of `radius`, the first on the body's +x axis */
+	CAROM_CIRCLE,  /**< a disc of `radius` */
+	CAROM_POLYGON, /**< the convex polygon of `vertices`, either way round */
+	CAROM_REGULAR, /**< `sides` vertices on a circle of `radius`, the first on the body's +x axis */
 } carom_shape;
 
-#define CAROM_COLOR_AUTO 0xFF000000u /* a colour of the palette, by the body's index */
+#define CAROM_COLOR_AUTO 0xFF000000u /**< a colour of the palette, by the body's index */
 
-/* What a body is made from. Start from carom_default_body_def() and set the shape. */
+/** What a body is made from. Start from carom_default_body_def() and set the shape. */
 typedef struct carom_body_def {
-	carom_shape shape;
-	float radius;               /* m, > 0: CAROM_CIRCLE and CAROM_REGULAR */
-	uint32_t sides;             /* 3..64: CAROM_REGULAR */
-	uint32_t vertex_count;      /* 3..64: CAROM_POLYGON */
-	const carom_vec2 *vertices; /* m, `vertex_count` of them, convex, any origin: they are recentred on their centre of mass */
-	carom_vec2 position;        /* m, of the centre of mass; default (0, 0) */
-	carom_vec2 velocity;        /* m/s; default (0, 0) */
-	float angle;                /* rad; kept in [-pi, pi]; default 0 */
-	float angular_velocity;     /* rad/s; default 0 */
-	float density;              /* kg/m^2, > 0; default 1; used where mass is 0 */
-	float mass;                 /* kg, > 0; 0 (the default) takes it from the density */
-	float restitution;          /* 0..1: the part of the normal speed a hit gives back; a pair takes the larger of its two;
+	carom_shape shape;          /**< decides which of the next four count */
+	float radius;               /**< m, > 0: CAROM_CIRCLE and CAROM_REGULAR */
+	uint32_t sides;             /**< 3..64: CAROM_REGULAR */
+	uint32_t vertex_count;      /**< 3..64: CAROM_POLYGON */
+	const carom_vec2 *vertices; /**< m, `vertex_count` of them, convex, any origin: they are recentred on their centre of mass */
+	carom_vec2 position;        /**< m, of the centre of mass; default (0, 0) */
+	carom_vec2 velocity;        /**< m/s; default (0, 0) */
+	float angle;                /**< rad; kept in [-pi, pi]; default 0 */
+	float angular_velocity;     /**< rad/s; default 0 */
+	float density;              /**< kg/m^2, > 0; default 1; used where mass is 0 */
+	float mass;                 /**< kg, > 0; 0 (the default) takes it from the density */
+	float restitution;          /**< 0..1: the part of the normal speed a hit gives back; a pair takes the larger of its two;
 	                               NaN (the default) takes the world's */
-	carom_vec2 force;           /* N, constant, at the centre of mass; default (0, 0) */
-	float torque;               /* N m, constant; default 0 */
-	bool is_static;             /* infinite mass and inertia: never moves; velocities and forces must be 0 */
-	uint32_t color;             /* 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
-	const char *name;           /* for people; NULL (the default) for none */
+	carom_vec2 force;           /**< N, constant, at the centre of mass; default (0, 0) */
+	float torque;               /**< N m, constant; default 0 */
+	bool is_static;             /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
+	uint32_t color;             /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
+	const char *name;           /**< for people; NULL (the default) for none */
 } carom_body_def;
 
-/* What moves. */
+/** What moves. */
 typedef struct carom_body_state {
-	carom_vec2 position;    /* m */
-	float angle;            /* rad, in [-pi, pi] */
-	carom_vec2 velocity;    /* m/s */
-	float angular_velocity; /* rad/s */
+	carom_vec2 position;    /**< m */
+	float angle;            /**< rad, in [-pi, pi] */
+	carom_vec2 velocity;    /**< m/s */
+	float angular_velocity; /**< rad/s */
 } carom_body_state;
 
-/* What a body is: everything of it that does not move. The pointers live as long as the world and its bodies do:
+/** What a body is: everything of it that does not move. The pointers live as long as the world and its bodies do:
  * until the next carom_world_add or carom_world_destroy. */
 typedef struct carom_body_info {
-	carom_shape shape;          /* as it was given */
-	float radius;               /* m, of a circle or a regular polygon, else of the circle about the centre of mass that holds the body */
-	uint32_t vertex_count;      /* 1 for a circle */
-	const carom_vec2 *vertices; /* m, about the centre of mass, counter-clockwise; NULL for a circle */
-	float mass;                 /* kg; infinite for a static body */
-	float inertia;              /* kg m^2 about the centre of mass; infinite for a static body */
-	float density;              /* kg/m^2, as given; 0 where the mass was given */
-	float restitution;          /* 0..1 */
-	carom_vec2 force;           /* N */
-	float torque;               /* N m */
-	bool is_static;
-	carom_vec2 recentred_by; /* m: the centre of mass of the vertices as they were given; (0, 0) if none was moved */
-	uint32_t color;          /* 0xRRGGBB, or CAROM_COLOR_AUTO */
-	const char *name;        /* NULL for none */
+	carom_shape shape;          /**< as it was given */
+	float radius;               /**< m, of a circle or a regular polygon, else of the circle about the centre of mass that holds the body */
+	uint32_t vertex_count;      /**< 1 for a circle */
+	const carom_vec2 *vertices; /**< m, about the centre of mass, counter-clockwise; NULL for a circle */
+	float mass;                 /**< kg; infinite for a static body */
+	float inertia;              /**< kg m^2 about the centre of mass; infinite for a static body */
+	float density;              /**< kg/m^2, as given; 0 where the mass was given */
+	float restitution;          /**< 0..1 */
+	carom_vec2 force;           /**< N */
+	float torque;               /**< N m */
+	bool is_static;             /**< never moves */
+	carom_vec2 recentred_by;    /**< m: the centre of mass of the vertices as they were given; (0, 0) if none was moved */
+	uint32_t color;             /**< 0xRRGGBB, or CAROM_COLOR_AUTO */
+	const char *name;           /**< NULL for none */
 } carom_body_info;
 
+/** A disc without a radius, with the defaults above. */
 CAROM_API carom_body_def carom_default_body_def(void);
 
 /* ---- The pipeline: which alternative fills each slot ---------------------------------------------------------- */
 
-/* The names of the chosen alternatives; NULL takes the default. */
+/** The names of the chosen alternatives; NULL takes the default. */
 typedef struct carom_pipeline {
-	const char *step;    /* events (default), first_impact [2] */
-	const char *aabb;    /* tight (default), loose [2.1] */
-	const char *overlap; /* all_pairs [2.1]; aabb, overlap and reduce are of first_impact alone */
-	const char *inside;  /* naive (default), orourke: the test that toi bisection makes [2.1] */
-	const char *toi;     /* circle_quadratic (default), separating, bisection [2.1, 4.1] */
-	const char *walls;   /* half_planes */
-	const char *reduce;  /* tiled (default), four_six, six, classic [2.2] */
-	const char *impulse; /* pair_exact (default), accumulate [2.3] */
+	const char *step;    /**< events (default), first_impact [2] */
+	const char *aabb;    /**< tight (default), loose [2.1] */
+	const char *overlap; /**< all_pairs [2.1]; aabb, overlap and reduce are of first_impact alone */
+	const char *inside;  /**< naive (default), orourke: the test that toi bisection makes [2.1] */
+	const char *toi;     /**< circle_quadratic (default), separating, bisection [2.1, 4.1] */
+	const char *walls;   /**< half_planes */
+	const char *reduce;  /**< tiled (default), four_six, six, classic [2.2] */
+	const char *impulse; /**< pair_exact (default), accumulate [2.3] */
 	/* of pictures alone; all give the same */
-	const char *transforms; /* index (default): where bodies are is read on the device; to_cpu: it is read back and sent [3] */
-	const char *vertices;   /* sent are option1: body and ordinal, option2: first vertex and ordinal, option3 (default): coordinates [3] */
+	const char *transforms; /**< index (default): where bodies are is read on the device; to_cpu: it is read back and sent [3] */
+	const char *vertices;   /**< sent are option1: body and ordinal, option2: first vertex and ordinal, option3 (default): coordinates [3] */
 } carom_pipeline;
 
-/* Chooses `alternative` for `slot`, both by name. CAROM_UNKNOWN_NAME lists the known ones. */
+/** Chooses `alternative` for `slot`, both by name. CAROM_UNKNOWN_NAME lists the known ones. */
 CAROM_API carom_status carom_pipeline_set(carom_pipeline *pipeline, const char *slot, const char *alternative, carom_error *error);
-/* The chosen (or default) alternative of `slot`; NULL if there is no such slot. */
+/** The chosen (or default) alternative of `slot`; NULL if there is no such slot. */
 CAROM_API const char *carom_pipeline_get(const carom_pipeline *pipeline, const char *slot);
 
-/* One alternative of one slot, for listing. */
+/** One alternative of one slot, for listing. */
 typedef struct carom_stage_info {
-	const char *slot, *alternative;
-	bool is_default;
-	bool on_opencl, on_cpu;
+	const char *slot;        /**< lives as long as the library */
+	const char *alternative; /**< likewise */
+	bool is_default;         /**< what NULL in carom_pipeline takes */
+	bool on_opencl;          /**< there is a kernel of it */
+	bool on_cpu;             /**< there is the same in C++ */
 } carom_stage_info;
 
-/* Fills in the index-th (from 0, slots in the order in which a step runs them); false past the last. */
+/** Fills in the index-th (from 0, slots in the order in which a step runs them); false past the last. */
 CAROM_API bool carom_stage_list(size_t index, carom_stage_info *info);
 
 /* ---- Devices ------------------------------------------------------------------------------------------------ */
 
+/** A device, as carom_device_list_create and carom_world_get_device tell of it. */
 typedef struct carom_device_info {
-	char platform[128], name[256], version[128];
-	bool is_opencl;
-	bool works;              /* Carom can run on it */
-	bool is_default;         /* `auto` takes this one */
-	bool exact;              /* divides and takes roots correctly rounded: the same bits as every other exact device */
-	bool has_images;         /* of which Carom can use what it needs; else textures are buffers */
-	uint32_t compute_units;  /* CPU cores of the fallback */
-	uint32_t clock_mhz;      /* 0 where unknown */
-	uint64_t memory;         /* bytes */
-	uint64_t max_allocation; /* bytes of one texture */
-	uint32_t max_image_size; /* texels of an image's side */
-	bool uses_images;        /* of a world's device: its textures are images, not buffers */
-	char reason[256];        /* why it does not work; empty if it does */
+	char platform[128];      /**< as OpenCL has it; "Carom" of the fallback */
+	char name[256];          /**< likewise; "cpu (its model)" */
+	char version[128];       /**< of OpenCL; of Carom for the fallback */
+	bool is_opencl;          /**< not the CPU fallback */
+	bool works;              /**< Carom can run on it */
+	bool is_default;         /**< `auto` takes this one */
+	bool exact;              /**< divides and takes roots correctly rounded: the same bits as every other exact device */
+	bool has_images;         /**< of which Carom can use what it needs; else textures are buffers */
+	uint32_t compute_units;  /**< CPU cores of the fallback */
+	uint32_t clock_mhz;      /**< 0 where unknown */
+	uint64_t memory;         /**< bytes */
+	uint64_t max_allocation; /**< bytes of one texture */
+	uint32_t max_image_size; /**< texels of an image's side */
+	bool uses_images;        /**< of a world's device: its textures are images, not buffers */
+	char reason[256];        /**< why it does not work; empty if it does */
 } carom_device_info;
 
-/* Lists what there is: OpenCL devices, then the CPU fallback. *devices is an array of *count to be released with
+/** Lists what there is: OpenCL devices, then the CPU fallback. *devices is an array of *count to be released with
  * carom_device_list_destroy. No OpenCL at all is no error: the list then holds the fallback alone. Where OpenCL itself fails, an
  * entry that does not work says how. The environment's CAROM_MAX_IMAGE_SIZE (texels) and CAROM_MAX_ALLOCATION (bytes) lower those
  * limits of all devices, to try what a smaller one would do; CAROM_INVALID_ARGUMENT if one is no whole number above 0. */
 CAROM_API carom_status carom_device_list_create(carom_device_info **devices, size_t *count, carom_error *error);
+/** Releases the list. */
 CAROM_API void carom_device_list_destroy(carom_device_info *devices);
 
 /* ---- Worlds ------------------------------------------------------------------------------------------------- */
 
+/** Where an OpenCL device keeps state and pairs. The results are the same. */
 typedef enum carom_storage {
-	CAROM_STORAGE_AUTO,   /* images where the device has them, but buffers for the step events on CPUs */
-	CAROM_STORAGE_IMAGE,  /* OpenCL image2d */
-	CAROM_STORAGE_BUFFER, /* OpenCL buffers of the same layout */
+	CAROM_STORAGE_AUTO,   /**< images where the device has them, but buffers for the step events on CPUs */
+	CAROM_STORAGE_IMAGE,  /**< OpenCL image2d */
+	CAROM_STORAGE_BUFFER, /**< OpenCL buffers of the same layout */
 } carom_storage;
 
-/* What a world is made from. Start from carom_default_world_def(). */
+/** What a world is made from. Start from carom_default_world_def(). */
 typedef struct carom_world_def {
-	float time_step;               /* s, > 0: how long a step of events lasts, and the longest of first_impact; default 1/60 */
-	carom_vec2 gravity;            /* m/s^2; default (0, 0) */
-	float restitution;             /* 0..1, of the walls and of bodies that have none of their own; default 1 */
-	bool has_room;                 /* four walls that nothing leaves: bodies must start inside; default none */
-	carom_vec2 room_min, room_max; /* m, room_min < room_max */
-	float epsilon;                 /* part of a step, 2^-22..0.5: the accuracy of toi bisection [2.1]; default 2^-18 */
-	uint32_t iterations;           /* bisections a pass, >= 1 [2.1, `iter`]; 0 (the default) for all in one pass */
-	carom_pipeline pipeline;
-	const char *device;    /* auto (default), cpu, opencl, or part of a platform's or device's name, in any case; NULL: the
+	float time_step;         /**< s, > 0: how long a step of events lasts, and the longest of first_impact; default 1/60 */
+	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
+	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
+	bool has_room;           /**< four walls that nothing leaves: bodies must start inside; default none */
+	carom_vec2 room_min;     /**< m, the lower left corner */
+	carom_vec2 room_max;     /**< m, the upper right corner: above room_min in both */
+	float epsilon;           /**< part of a step, 2^-22..0.5: the accuracy of toi bisection [2.1]; default 2^-18 */
+	uint32_t iterations;     /**< bisections a pass, >= 1 [2.1, `iter`]; 0 (the default) for all in one pass */
+	carom_pipeline pipeline; /**< default: all NULL */
+	const char *device;      /**< auto (default), cpu, opencl, or part of a platform's or device's name, in any case; NULL: the
 	                          environment's CAROM_DEVICE, else auto */
-	carom_storage storage; /* default CAROM_STORAGE_AUTO; of an OpenCL device, the CPU fallback has its own */
-	uint32_t threads;      /* of the CPU fallback; 0 (the default) for one a core */
-	bool profile;          /* measure each kernel, for carom_world_profile; default false, since it takes time itself */
+	carom_storage storage;   /**< default CAROM_STORAGE_AUTO; of an OpenCL device, the CPU fallback has its own */
+	uint32_t threads;        /**< of the CPU fallback; 0 (the default) for one a core */
+	bool profile;            /**< measure each kernel, for carom_world_profile; default false, since it takes time itself */
 } carom_world_def;
 
+/** Bodies, their state, and the device that moves them. */
 typedef struct carom_world carom_world;
 
+/** The defaults above. */
 CAROM_API carom_world_def carom_default_world_def(void);
 
-/* An empty world on an opened device. Fails with CAROM_UNKNOWN_NAME for a device or alternative that is not there,
+/** An empty world on an opened device. Fails with CAROM_UNKNOWN_NAME for a device or alternative that is not there,
  * CAROM_INVALID_ARGUMENT for a field out of range (named in the error), CAROM_DEVICE, CAROM_OUT_OF_MEMORY. */
 CAROM_API carom_status carom_world_create(const carom_world_def *def, carom_world **world, carom_error *error);
+/** Releases the world and what it has on its device. */
 CAROM_API void carom_world_destroy(carom_world *world);
 
-/* Adds `count` bodies, all or none; *first (may be NULL) becomes the index of the first, the others follow it.
+/** Adds `count` bodies, all or none; *first (may be NULL) becomes the index of the first, the others follow it.
  * CAROM_INVALID_ARGUMENT names the body (as `bodies[k]`, k from 0 in `defs`) and the field. CAROM_LIMIT: a world holds
  * 4,194,304 bodies and 25,165,824 vertices of polygons at most. */
 CAROM_API carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error);
 
+/** How many were added. */
 CAROM_API size_t carom_world_body_count(const carom_world *world);
-/* CAROM_INVALID_ARGUMENT if there is no body of that index. */
+/** What a body is. CAROM_INVALID_ARGUMENT if there is no body of that index. */
 CAROM_API carom_status carom_world_get_body(const carom_world *world, uint32_t index, carom_body_info *info, carom_error *error);
 
-/* Reads or writes the states of `count` bodies from index `first` on. Reading waits for the device. After a step that
- * failed, the last good state is read: that after the steps that its report tells. */
+/** Reads the states of `count` bodies from index `first` on. Waits for the device. After a step that failed, the last good
+ * state is read: that after the steps that its report tells. */
 CAROM_API carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error);
+/** Writes the same, all or none. CAROM_INVALID_ARGUMENT: a number is not finite, a position outside the room, a static body moves. */
 CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error);
-/* A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none. */
+/** A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
 
-/* What a call of carom_world_step or carom_world_advance did. */
+/** What a call of carom_world_step or carom_world_advance did. */
 typedef struct carom_report {
-	uint64_t steps;  /* steps done */
-	uint64_t hits;   /* hits resolved */
-	uint64_t held;   /* how often a body was held until the end of a step of events, since it was hit too often in it */
-	double advanced; /* s, simulated */
+	uint64_t steps;  /**< steps done */
+	uint64_t hits;   /**< hits resolved */
+	uint64_t held;   /**< how often a body was held until the end of a step of events, since it was hit too often in it */
+	double advanced; /**< s, simulated */
 } carom_report;
 
-/* Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of first_impact lasts until the
+/** Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of first_impact lasts until the
  * first hit and at most `time_step` [2.2].
  * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED (first_impact alone): time can't get on, and the
  * state is the one at which it stood still. */
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
-/* Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. In a world without
+/** Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. In a world without
  * bodies nothing runs, and no time passes. */
 CAROM_API carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error);
-/* The same up to the simulated time `time` (s, not before carom_world_time), but at most `most_steps` steps. Calls for the same
+/** The same up to the simulated time `time` (s, not before carom_world_time), but at most `most_steps` steps. Calls for the same
  * time go on where the one before ended: cutting the way into several calls changes no bit. */
 CAROM_API carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error);
 
-/* Called now and then during a step or advance, on the calling thread, with what the call has done so far; returning false
+/** Called now and then during a step or advance, on the calling thread, with what the call has done so far; returning false
  * ends the call early (with CAROM_OK: the report tells how far it got). How often it is called changes no result, while
  * cutting one advance into several cuts steps short. */
 typedef bool (*carom_progress)(void *context, const carom_report *so_far);
-/* NULL for none. */
+/** Has `progress` called from now on, with `context`; NULL for none. */
 CAROM_API void carom_world_set_progress(carom_world *world, carom_progress progress, void *context);
 
-/* Simulated seconds since the world was created. */
+/** Simulated seconds since the world was created. */
 CAROM_API double carom_world_time(const carom_world *world);
+/** What the world was made from; it lives as long as the world. */
 CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
-/* The device the world runs on. */
+/** The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
-/* Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes on its device. Pictures come on top
+/** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes on its device. Pictures come on top
  * from the first one on: about 300 bytes a circle, or 100 a polygon and 50 a vertex of it. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
 
-/* What a kernel took since the world was created: by OpenCL's profiling events, or the wall clock on the CPU fallback. */
+/** What a kernel took since the world was created: by OpenCL's profiling events, or the wall clock on the CPU fallback. */
 typedef struct carom_kernel_time {
-	const char *kernel; /* "toi_first", ... */
-	double seconds;
-	uint64_t launches;
+	const char *kernel; /**< "toi_first", ... */
+	double seconds;     /**< all launches together */
+	uint64_t launches;  /**< how often it ran */
 } carom_kernel_time;
 
-/* Fills in the index-th kernel's (from 0, in the order of a step); false past the last, or where the world's def has no
+/** Fills in the index-th kernel's (from 0, in the order of a step); false past the last, or where the world's def has no
  * `profile`. */
 CAROM_API bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *time);
 
-/* What is measured of a state, in double precision on the host. Static bodies do not count. */
+/** What is measured of a state, in double precision on the host. Static bodies do not count. */
 typedef struct carom_measure {
-	double kinetic_energy;         /* J */
-	double potential_energy;       /* J, of gravity, 0 at the origin */
-	double momentum_x, momentum_y; /* kg m/s */
-	double angular_momentum;       /* kg m^2/s about the origin */
-	double max_penetration;        /* m: the deepest overlap of two bodies or of a body and a wall, 0 if none */
+	double kinetic_energy;   /**< J */
+	double potential_energy; /**< J, of gravity, 0 at the origin */
+	double momentum_x;       /**< kg m/s */
+	double momentum_y;       /**< kg m/s */
+	double angular_momentum; /**< kg m^2/s about the origin */
+	double max_penetration;  /**< m: the deepest overlap of two bodies or of a body and a wall, 0 if none */
 } carom_measure;
 
+/** Measures the present state. Waits for the device. */
 CAROM_API carom_status carom_world_measure(carom_world *world, carom_measure *measure, carom_error *error);
 
-/* A 64-bit hash (FNV-1a) of the state: of x, y, vx, vy, angle, angular velocity of each body in turn, as the bytes of
+/** A 64-bit hash (FNV-1a) of the state: of x, y, vx, vy, angle, angular velocity of each body in turn, as the bytes of
  * little-endian floats. Equal hashes mean equal bits. */
 CAROM_API carom_status carom_world_hash(carom_world *world, uint64_t *hash, carom_error *error);
 
 /* ---- Scenes: worlds as JSON files ----------------------------------------------------------------------------- */
 
+/** What a picture shows; its width follows from the picture's. */
 typedef struct carom_camera {
-	carom_vec2 center; /* m */
-	float height;      /* m from the bottom to the top of the picture, > 0 */
+	carom_vec2 center; /**< m */
+	float height;      /**< m from the bottom to the top of the picture, > 0 */
 } carom_camera;
 
-/* A scene as it was read. All of it may be changed before a world is made from it, but not the pointers' owner. */
+/** A scene as it was read. All of it may be changed before a world is made from it, but not the pointers' owner. */
 typedef struct carom_scene {
-	carom_world_def world;
-	bool has_camera;
-	carom_camera camera;
-	size_t body_count;
-	carom_body_def *bodies;
-	void *storage; /* owns the arrays and strings above */
+	carom_world_def world;  /**< all but the bodies */
+	bool has_camera;        /**< the scene tells what to show */
+	carom_camera camera;    /**< if has_camera */
+	size_t body_count;      /**< of `bodies` */
+	carom_body_def *bodies; /**< in the scene's order */
+	void *storage;          /**< owns the arrays and strings above */
 } carom_scene;
 
-/* Reads a scene of the format "carom-scene/1". CAROM_INVALID_SCENE gives line and column, or the JSON path, what was
+/** Reads a scene of the format "carom-scene/1". CAROM_INVALID_SCENE gives line and column, or the JSON path, what was
  * found and what is allowed; CAROM_IO a file that can't be read. */
 CAROM_API carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error *error);
-/* The same from memory; `name` stands for the file in errors. The text need not end in a NUL. */
+/** The same from memory; `name` stands for the file in errors. The text need not end in a NUL. */
 CAROM_API carom_status carom_scene_parse(const char *text, size_t length, const char *name, carom_scene **scene, carom_error *error);
+/** Releases the scene and all that its pointers point to. */
 CAROM_API void carom_scene_destroy(carom_scene *scene);
-/* A world with the scene's bodies. Errors name the body by its JSON path. */
+/** A world with the scene's bodies. Errors name the body by its JSON path. */
 CAROM_API carom_status carom_scene_create_world(const carom_scene *scene, carom_world **world, carom_error *error);
-/* Writes the world's present state as a scene file that reads back with the same bits; `camera` may be NULL. The file is
+/** Writes the world's present state as a scene file that reads back with the same bits; `camera` may be NULL. The file is
  * whole or, on failure, as it was before. */
 CAROM_API carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error);
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
-/* A part of the picture drawn again, enlarged, in a corner [figure 5]. */
+/** A part of the picture drawn again, enlarged, in a corner [figure 5]. */
 typedef struct carom_inset {
-	carom_vec2 min;  /* m, its lower left corner */
-	carom_vec2 size; /* m, > 0 */
+	carom_vec2 min;  /**< m, its lower left corner */
+	carom_vec2 size; /**< m, > 0 */
 } carom_inset;
 
+/** How to draw. Start from carom_default_render_def(). */
 typedef struct carom_render_def {
-	uint32_t width, height; /* pixels, 1..16384; default 1280 x 720 */
-	bool has_camera;        /* default false: the room, or where there is none the bodies, fill the picture */
-	carom_camera camera;
-	bool has_inset; /* default false */
-	carom_inset inset;
+	uint32_t width;      /**< pixels, 1..16384; default 1280 */
+	uint32_t height;     /**< pixels, 1..16384; default 720 */
+	bool has_camera;     /**< default false: the room, or where there is none the bodies, fill the picture */
+	carom_camera camera; /**< if has_camera */
+	bool has_inset;      /**< default false: no part is enlarged */
+	carom_inset inset;   /**< if has_inset */
 } carom_render_def;
 
+/** The defaults above. */
 CAROM_API carom_render_def carom_default_render_def(void);
-/* Draws the present state into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. CAROM_LIMIT:
+/** Draws the present state into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. CAROM_LIMIT:
  * there can be 2^24 edges in a picture, of which a circle has five; with an inset all count twice. */
 CAROM_API carom_status carom_world_render(carom_world *world, const carom_render_def *def, uint8_t *pixels, carom_error *error);
-/* Writes RGBA pixels, rows from the top, as a PNG file; whole or not at all. */
+/** Writes RGBA pixels, rows from the top, as a PNG file; whole or not at all. */
 CAROM_API carom_status carom_png_write(const char *path, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error);
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
-/* Begins a file under a temporary name beside `path`; writes go to *file. */
+/** A file being written: until it is whole, what was there before stays. */
 typedef struct carom_file carom_file;
+/** Begins a file under a temporary name beside `path`; writes go to *stream. */
 CAROM_API carom_status carom_file_create(const char *path, carom_file **file, FILE **stream, carom_error *error);
-/* Flushes and renames it to its own name; on failure what was there before stays. Either way the file is released. */
+/** Flushes and renames it to its own name; on failure what was there before stays. Either way the file is released. */
 CAROM_API carom_status carom_file_commit(carom_file *file, carom_error *error);
-/* Gives it up and removes the temporary file. */
+/** Gives it up and removes the temporary file. */
 CAROM_API void carom_file_destroy(carom_file *file);
 
 #ifdef __cplusplus

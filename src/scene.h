@@ -16,7 +16,7 @@ carom_scene *scene_create(const char *name);
 /* Memory for any type that lives as long as the scene; NULL if there is none. A million small pieces are cheap. */
 void *scene_allocate(carom_scene *scene, size_t size);
 
-const char *scene_skip_space(const char *text, const char *end);
+const char *scene_skip_space(const char *at, const char *end);
 /* The text between the brackets of the top-level "bodies" array; false if there is no such array. */
 bool scene_find_bodies(const char *text, const char *end, const char **bodies, const char **bodies_end);
 /* The end of the array element that starts at `text`: the next comma of its level, or `end`. */

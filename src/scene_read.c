@@ -148,17 +148,14 @@ carom_status carom_scene_parse(const char *text, size_t length, const char *name
 /* Everything there is to read: the size of a pipe isn't known beforehand. */
 static bool read_all(FILE *file, char **text, size_t *length)
 {
-	size_t capacity = 0, size = 1 << 16;
-	while (size <= SIZE_MAX / 2) {
-		char *grown = realloc(*text, size);
+	for (size_t capacity = 1 << 16; capacity <= SIZE_MAX / 2; capacity *= 2) {
+		char *grown = realloc(*text, capacity);
 		if (!grown)
 			return false;
 		*text = grown;
-		capacity = size;
 		*length += fread(*text + *length, 1, capacity - *length, file);
 		if (*length < capacity)
 			return !ferror(file);
-		size *= 2;
 	}
 	return false;
 }

@@ -15,7 +15,8 @@ struct writer {
 static void put_number(FILE *stream, float number)
 {
 	char text[SCENE_NUMBER_SIZE];
-	fwrite(text, 1, scene_format_number(number, text), stream);
+	size_t length = scene_format_number(number, text);
+	fwrite(text, 1, length, stream);
 }
 
 static void put_pair(FILE *stream, carom_vec2 pair)

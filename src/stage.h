@@ -124,7 +124,7 @@ extern const size_t carom_slot_count;
 
 /* Is the stage one of rendering? Those of a device are made ready when the first is run. */
 bool carom_stage_draws(carom_stage stage);
-bool carom_slot_draws(const char *slot);
+bool carom_slot_draws(const char *name);
 
 /* Fills in the defaults and checks every name. */
 carom_status carom_pipeline_resolve(const carom_pipeline *pipeline, carom_pipeline *resolved, carom_error *error);

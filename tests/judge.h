@@ -21,6 +21,6 @@ void judge_fill(carom_world *world, uint64_t seed);
 /* A world on the CPU's instance in double: what the others are held against. */
 carom_world *judge_oracle(const carom_world_def *def);
 /* Three steps, stage by stage. False where the device is not there. */
-bool judge(const char *slot, const char *alternative, const scenery_device *device, uint64_t seed, judgement *result);
+bool judge(const char *slot, const char *alternative, const scenery_device *device, uint64_t seed, judgement *b);
 
 #endif

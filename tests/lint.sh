@@ -3,23 +3,7 @@
 # everywhere, files stay short, the header stands alone. Prints "ok" or "FAIL" for each; run it from the repository's root.
 CC=${CC:-cc}
 CXX=${CXX:-c++}
-failed=0
-
-# report NAME FINDINGS: what was found is what is wrong.
-report() {
-	if [ -z "$2" ]; then
-		echo "ok   $1"
-	else
-		failed=1
-		echo "FAIL $1"
-		printf '%s\n' "$2" | sed 's/^/     /'
-	fi
-}
-
-# sources DIRECTORY...: the C and C++ files below them.
-sources() {
-	find "$@" -type f \( -name '*.c' -o -name '*.h' -o -name '*.cpp' -o -name '*.hpp' \) 2>/dev/null | sort
-}
+. tests/report.sh
 
 # includes PATTERN DIRECTORY...: the lines that include a header matching the extended regular expression.
 includes() {

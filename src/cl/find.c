@@ -88,7 +88,7 @@ static double rank(const carom_cl_found *f)
 	double speed = (double)f->info.compute_units * (double)(f->info.clock_mhz ? f->info.clock_mhz : 1);
 	if (!f->info.works)
 		return 0.0;
-	return f->type & CL_DEVICE_TYPE_CPU ? speed : 1e12 + speed;
+	return (f->type & CL_DEVICE_TYPE_CPU) ? speed : 1e12 + speed;
 }
 
 /* By rank; few and stable, so that equal devices keep the loader's order. */

@@ -27,12 +27,12 @@ static void read_model(char *model, size_t size)
 
 static uint64_t physical_memory()
 {
-	long pages = -1, size = -1;
 #ifdef _SC_PHYS_PAGES
-	pages = sysconf(_SC_PHYS_PAGES);
-	size = sysconf(_SC_PAGESIZE);
+	long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+	if (pages > 0 && size > 0)
+		return static_cast<uint64_t>(pages) * static_cast<uint64_t>(size);
 #endif
-	return pages > 0 && size > 0 ? static_cast<uint64_t>(pages) * static_cast<uint64_t>(size) : uint64_t(1) << 30;
+	return uint64_t(1) << 30;
 }
 
 void describe_machine(carom_device_info &info)

@@ -76,7 +76,7 @@ template <typename T> struct Distances {
 	void mask(T width)
 	{
 		for (int32_t i = 0; i < count; i++)
-			far[i] = (x[i] >= 0) & (x[i] < width) ? far[i] : T(1);
+			far[i] = ((x[i] >= 0) & (x[i] < width)) ? far[i] : T(1);
 	}
 };
 
@@ -122,7 +122,7 @@ private:
 			const T light = fill.channels[c];
 			T *ground = tile.light[c] + from;
 			for (int32_t i = 0; i < distances.count; i++)
-				ground[i] = (distances.x[i] >= 0) & (distances.x[i] < width) ? light : ground[i];
+				ground[i] = ((distances.x[i] >= 0) & (distances.x[i] < width)) ? light : ground[i];
 		}
 	}
 

@@ -1,0 +1,130 @@
+#!/bin/sh
+# What tools find in the source that the build does not ask, for `make static`: the kernels as clang's front end reads them, the layout of the
+# text, what clang-tidy, cppcheck and doxygen say. Prints "ok" or "FAIL" for each check, and SKIPPED where there is no such tool (a
+# failure with CAROM_NO_SKIP=1); tools/bootstrap --developer installs them. Run it from the root of the repository.
+# C_FLAGS and CXX_FLAGS are what a compiler needs to read the C and the C++.
+. tests/report.sh
+jobs=$(nproc 2>/dev/null || echo 2)
+folder=$(mktemp -d "${TMPDIR:-/tmp}/carom-static-XXXXXX") || exit 1
+trap 'rm -rf "$folder"' EXIT
+
+# tool NAME VERSION: the command of that version, or nothing where there is another or none: others find other things.
+tool() {
+	for name in "$1-$2" "$1"; do
+		"$name" --version 2>/dev/null | grep -qE "(^| )$2(\.|$)" && echo "$name" && return
+	done
+}
+
+# ---- The kernels. The programs are put together from the tables of the library, as it does itself.
+
+# headers NUMBER: the headers of the first program (of steps) or the second (of pictures)
+headers() {
+	sed -n '/^static const char \*const headers/,/^};/p' src/cl/program.c | tr -d '\n\t' | tr '{' '\n' | grep '^"' | sed -n "$1p" | tr -cs 'a-z_' ' '
+}
+
+# The slots in their order, each with its default alternative and whether it is one of pictures.
+slots() {
+	sed -nE 's/^\t\{"([a-z_]+)", .*, "?([A-Za-z0-9_]+)"?, (true|false)\},$/\1 \2 \3/p' src/stage.c | grep -v '^step '
+}
+
+# program FILE: the files of a program with that alternative and beside it the defaults
+program() {
+	slot=$(basename "$(dirname "$1")")
+	draws=$(slots | awk -v slot="$slot" '$1 == slot { print $3 }')
+	printf 'kernels/%s.h\n' $(case $draws in true) headers 2 ;; false) headers 1 ;; esac)
+	slots | while read -r name standard pictures; do
+		case "$pictures $name $standard" in
+		"$draws $slot NULL" | "$draws "*" NULL") ls kernels/"$name"/*.cl ;;
+		"$draws $slot "*) echo "$1" ;;
+		"$draws "*) echo "kernels/$name/$standard.cl" ;;
+		esac
+	done
+}
+
+# Every alternative is in a program; most programs are one.
+programs() {
+	for file in kernels/*/*.cl; do
+		program "$file" >"$folder/parts"
+		grep -qx "$file" "$folder/parts" || { echo "$file is in no program" && continue; }
+		text=$folder/$(cksum <"$folder/parts" | cut -d ' ' -f 1).cl
+		[ -e "$text" ] || while read -r part; do
+			echo "#line 1 \"$part\""
+			cat "$part"
+		done <"$folder/parts" >"$text"
+	done
+}
+
+# A line of options for each program in each storage, with reads counted or not, for 32 and 64 bits. A work-item's number, a size_t, may become
+# an int: on each of the two this is one kind of conversion, which the other still warns of.
+translations() {
+	for text in "$folder"/*.cl; do
+		for target in '--target=spir -Wno-sign-conversion' '--target=spir64 -Wno-shorten-64-to-32'; do
+			for storage in '' -DCAROM_IMAGES; do
+				for count in '' -DCAROM_COUNT_READS; do
+					echo "$target $storage $count -o $folder/$((number += 1)).ll $text"
+				done
+			done
+		done
+	done
+}
+
+# in_parallel COMMAND...: with each line of standard input; prints what they said, each all at once.
+in_parallel() {
+	xargs -P "$jobs" -L 1 sh -c 'said=$("$@" 2>&1) || said="$said
+$*: exit status $?"; [ -z "$said" ] || printf "%s\n" "$said"' - "$@"
+}
+
+# Alternatives of one slot take the same arguments, and need not use all. Without its extensions OpenCL C 1.2 has no double.
+translate() {
+	translations | in_parallel "$command" -x cl -cl-std=CL1.2 -D__opencl_c_images=1 -cl-fp32-correctly-rounded-divide-sqrt -Xclang -finclude-default-header \
+		-Xclang -cl-ext=-all -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Werror -Wno-unused-parameter -S -emit-llvm | sort -u
+}
+
+contracted() {
+	grep -E 'fmuladd|llvm\.fma|_Z3(fma|mad)|= f(add|sub|mul|div) [a-z ]*(contract|fast)' "$folder"/*.ll
+	[ "$(find "$folder" -name '*.ll' | wc -l)" -eq "$(translations | wc -l)" ] || echo "some program was not translated"
+}
+
+# ---- The C and C++
+
+tidy() {
+	sources src tests tools | grep -E '\.c(pp)?$' | sort -r | while read -r file; do
+		case $file in
+		*.c) printf '%s -- %s\n' "$file" "$C_FLAGS" ;;
+		*) printf '%s -- %s\n' "$file" "$CXX_FLAGS" ;;
+		esac
+	done | in_parallel "$command" --quiet --warnings-as-errors='*' | grep -E ': (warning|error): |exit status' | sort -u
+}
+
+look_over() {
+	"$command" --quiet -j "$jobs" --std=c11 --std=c++17 --enable=warning,style,performance,portability \
+		--suppressions-list=tests/cppcheck.supp --template='{file}:{line}: {message} [{id}]' -Iinclude -Isrc -Ikernels -Itests src tests tools 2>&1
+}
+
+layout() {
+	{ sources include src kernels tests tools && find kernels -name '*.cl'; } | xargs "$command" --dry-run -Werror 2>&1 | grep 'error: '
+}
+
+manual() {
+	CAROM_VERSION='' CAROM_BUILD="$folder" "$command" tools/Doxyfile 2>&1
+}
+
+# ---- All of it
+
+# check NAME TOOL VERSION FUNCTION: what the function prints is wrong.
+check() {
+	command=$(tool "$2" "$3")
+	if [ -n "$command" ]; then
+		report "$1" "$($4)"
+	else
+		skip "$1" "there is no $2 $3"
+	fi
+}
+
+report "every kernel is in a program" "$(programs)"
+check "kernels are OpenCL C 1.2 without a warning" clang 14 translate
+check "no operation of the kernels is contracted" clang 14 contracted
+check "the sources are as .clang-format writes them" clang-format 14 layout
+check "doxygen renders carom.h without a warning" doxygen 1 manual
+check "cppcheck finds nothing" cppcheck 2.10 look_over
+exit "$failed"
