@@ -208,8 +208,8 @@ typedef struct carom_device_info {
 
 /** Lists what there is: OpenCL devices, then the CPU fallback. *devices is an array of *count to be released with
  * carom_device_list_destroy. No OpenCL at all is no error: the list then holds the fallback alone. Where OpenCL itself fails, an
- * entry that does not work says how. The environment's CAROM_MAX_IMAGE_SIZE (texels) and CAROM_MAX_ALLOCATION (bytes) lower those
- * limits of all devices, to try what a smaller one would do; CAROM_INVALID_ARGUMENT if one is no whole number above 0. */
+ * entry that does not work says how. The environment's CAROM_MAX_IMAGE_SIZE (texels, of OpenCL devices) and CAROM_MAX_ALLOCATION
+ * (bytes, of all) lower those limits, to try what a smaller device would do; CAROM_INVALID_ARGUMENT if one is no whole number above 0. */
 CAROM_API carom_status carom_device_list_create(carom_device_info **devices, size_t *count, carom_error *error);
 /** Releases the list. */
 CAROM_API void carom_device_list_destroy(carom_device_info *devices);

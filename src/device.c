@@ -40,11 +40,12 @@ static carom_status lower(const char *variable, uint64_t *limit, carom_error *er
 	return CAROM_OK;
 }
 
-/* Images must hold a row of bodies, or there are none for Carom. */
+/* Images, which OpenCL devices have, must hold a row of bodies, or there are none for Carom. */
 static carom_status heed_limits(carom_device_info *info, carom_error *error)
 {
 	uint64_t size = info->max_image_size, allocation = info->max_allocation;
-	TRY(lower("CAROM_MAX_IMAGE_SIZE", &size, error));
+	if (info->is_opencl)
+		TRY(lower("CAROM_MAX_IMAGE_SIZE", &size, error));
 	TRY(lower("CAROM_MAX_ALLOCATION", &allocation, error));
 	info->max_image_size = (uint32_t)size;
 	info->max_allocation = allocation;

@@ -58,7 +58,8 @@ static void limits_only_get_lower(void **unused)
 	assert_int_equal(count[0], count[1]);
 	for (size_t i = 0; i < count[0]; i++) {
 		assert_true(devices[1][i].max_allocation == devices[0][i].max_allocation);
-		assert_true(devices[1][i].max_image_size <= 5000 && devices[0][i].max_image_size >= devices[1][i].max_image_size);
+		assert_true(devices[1][i].max_image_size <= 5000 || !devices[1][i].is_opencl);
+		assert_true(devices[0][i].max_image_size >= devices[1][i].max_image_size);
 	}
 	carom_device_list_destroy(devices[0]);
 	carom_device_list_destroy(devices[1]);
@@ -101,8 +102,8 @@ static void sides_are_limited(void **unused)
 		carom_world_def def = scenery_first_impact(), events = runs_def();
 		carom_world *world;
 		carom_error error;
-		if (device->storage == CAROM_STORAGE_BUFFER || !(world = runs_world(&def, device, bodies, COUNT)))
-			continue; /* a buffer has no sides */
+		if (device->storage != CAROM_STORAGE_IMAGE || !(world = runs_world(&def, device, bodies, COUNT)))
+			continue;
 		assert_int_equal(carom_world_step(world, 1, NULL, &error), CAROM_LIMIT);
 		assert_names(&error, "at most 4096 bodies");
 		assert_true(runs_state(world, 1).position.x == 1.0f);

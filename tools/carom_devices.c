@@ -1,6 +1,6 @@
 /* carom devices: what there is to run on.
  * SPDX-License-Identifier: MIT */
-#include "carom_tool.h"
+#include "carom_check.h"
 
 static void print_facts(const carom_device_info *device)
 {
@@ -15,7 +15,7 @@ static void print_facts(const carom_device_info *device)
 	if (!device->is_opencl)
 		return;
 	if (device->has_images) {
-		printf("    images: sides up to %u texels\n", (unsigned)device->max_image_size);
+		printf("    images: texels of four floats and of four bytes, sides up to %u\n", (unsigned)device->max_image_size);
 	} else {
 		printf("    images: none that will do; textures are kept in buffers\n");
 	}
@@ -30,20 +30,27 @@ static void print_device(const carom_device_info *device)
 	} else if (device->exact) {
 		printf("    works; exact: the same bits as on every other exact device\n");
 	} else {
-		printf("    works; not exact: divides or takes roots otherwise rounded, so results differ in the last bits\n");
+		printf("    works; not exact: does not promise to round quotients and roots correctly; --check says what it does\n");
 	}
 	print_facts(device);
 }
 
+struct devices_options {
+	struct common_options common;
+	bool check;
+};
+
 static int devices_main(int argc, char **argv)
 {
-	struct common_options options = {0};
+	struct devices_options options = {{0}, false};
 	carom_error error;
 	carom_device_info *devices = NULL;
 	size_t count = 0;
-	int code = parse_options(&devices_command, argc, argv, &options);
+	int code = parse_options(&devices_command, argc, argv, &options.common);
 	if (code >= 0)
 		return code;
+	if (options.check)
+		return check_device(&options.common, print_device);
 	if (carom_device_list_create(&devices, &count, &error) != CAROM_OK)
 		return report(&error);
 	for (size_t k = 0; k < count; k++)
@@ -52,7 +59,11 @@ static int devices_main(int argc, char **argv)
 	return finish_output();
 }
 
-static const struct option options_table[] = {{NULL, NULL, NULL, 0, NULL}};
+static const struct option options_table[] = {
+	{"check", NULL, NULL, offsetof(struct devices_options, check),
+		"run a small reference scene on the device that --device chooses, and say whether all bits are right"},
+	{NULL, NULL, NULL, 0, NULL},
+};
 
 const struct command devices_command = {
 	.name = "devices",
@@ -60,7 +71,10 @@ const struct command devices_command = {
 	.summary = "Lists what OpenCL offers here, what Carom can do with each, and the default",
 	.details = "\nEach device by platform and name: parts of either are what --device takes. The CPU fallback is\n"
 			   "always there. The default is what --device auto takes: the fastest device that works. Every device\n"
-			   "is listed, whatever --device says.\n",
+			   "is listed, whatever --device says.\n"
+			   "\n--check tries one device instead: how it rounds, and whether a scene that is part of the command\n"
+			   "gives the same bits as everywhere, by both steps, in images and in buffers, and drawn. It ends\n"
+			   "with the exit code 0 only if all is right.\n",
 	.options = options_table,
 	.main = devices_main,
 };

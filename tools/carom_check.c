@@ -1,0 +1,179 @@
+/* carom devices --check: the test suite in small, for a user's own device. A reference scene, which needs no file, is run by both steps and drawn;
+ * what comes out is compared with what came out everywhere else.
+ * SPDX-License-Identifier: MIT */
+#include "carom_check.h"
+
+#include <inttypes.h>
+
+/* Bodies of all kinds in a crowded room, with gravity, static ones, and ones that lose energy. */
+enum { SIDE = 7, BODIES = SIDE * SIDE, STEPS = 60, WIDTH = 160, HEIGHT = 120 };
+
+/* What comes out, the same on every device that is exact. Numbers that change mean that results changed: tests/test_hashes.c guards the same. */
+static const struct reference {
+	const char *step;
+	uint64_t state, picture;
+} references[] = {
+	{"events", 0x39235d34465dbba0, 0x4140f8c99cb3dca2},
+	{"first_impact", 0x48414e12ae326f87, 0x785a005388d03490},
+};
+
+static const carom_vec2 kite[4] = {{0.375f, 0}, {0, 0.25f}, {-0.25f, 0}, {0, -0.25f}};
+
+/* Whole numbers and sums of powers of two, so that the scene is the same everywhere. */
+static carom_body_def reference_body(int k)
+{
+	carom_body_def body = carom_default_body_def();
+	const int turn = (k * 37 + 11) % 64, shape = (k * 5) % 8;
+	body.shape = shape < 3 ? CAROM_CIRCLE : shape < 6 ? CAROM_REGULAR : CAROM_POLYGON;
+	body.radius = 0.25f + (float)(turn % 8) / 64;
+	body.sides = (uint32_t)(3 + turn % 5);
+	body.vertices = kite;
+	body.vertex_count = 4;
+	body.position = (carom_vec2){(float)(k % SIDE - SIDE / 2), (float)(k / SIDE - SIDE / 2)};
+	body.angle = (float)turn / 16;
+	body.restitution = k % 5 ? 1 : 0.5f;
+	body.is_static = k % 11 == 5;
+	if (!body.is_static) {
+		body.velocity = (carom_vec2){(float)((k * 29) % 64 - 32) / 8, (float)((k * 53) % 64 - 32) / 8};
+		body.angular_velocity = (float)((k * 13) % 32 - 16) / 4;
+		body.density = 1 + (float)(k % 3);
+	}
+	return body;
+}
+
+static carom_world_def reference_def(const carom_world_def *where)
+{
+	carom_world_def def = *where;
+	def.has_room = true;
+	def.room_min = (carom_vec2){-4, -4};
+	def.room_max = (carom_vec2){4, 4};
+	def.gravity = (carom_vec2){0.5f, -2};
+	def.restitution = 0.75f;
+	return def;
+}
+
+static uint64_t hash_of(const uint8_t *bytes, size_t size)
+{
+	uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
+	for (size_t i = 0; i < size; i++)
+		hash = (hash ^ bytes[i]) * 0x100000001b3u;
+	return hash;
+}
+
+static carom_status run_reference(carom_world *world, uint64_t *state, uint64_t *picture, carom_error *error)
+{
+	static uint8_t pixels[4 * WIDTH * HEIGHT];
+	carom_body_def bodies[BODIES];
+	carom_render_def def = carom_default_render_def();
+	carom_status status;
+	for (int k = 0; k < BODIES; k++)
+		bodies[k] = reference_body(k);
+	def.width = WIDTH;
+	def.height = HEIGHT;
+	status = carom_world_add(world, bodies, BODIES, NULL, error);
+	if (!status)
+		status = carom_world_step(world, STEPS, NULL, error);
+	if (!status)
+		status = carom_world_hash(world, state, error);
+	if (!status)
+		status = carom_world_render(world, &def, pixels, error);
+	*picture = hash_of(pixels, sizeof pixels);
+	return status;
+}
+
+static bool is_right(const char *step, const char *storage, const char *what, uint64_t found, uint64_t expected)
+{
+	printf("    %s%s%s: %016" PRIx64, step, storage, what, found);
+	if (found == expected)
+		printf(", right\n");
+	else
+		printf(", WRONG: %016" PRIx64 " is right\n", expected);
+	return found == expected;
+}
+
+/* One step on one storage; a failure of the device is told, and is as wrong as a wrong hash. */
+static bool check_reference(const carom_world_def *where, const struct reference *reference, const char *storage)
+{
+	carom_world_def def = reference_def(where);
+	carom_world *world = NULL;
+	carom_error error;
+	uint64_t state = 0, picture = 0;
+	bool right = false;
+	def.pipeline.step = reference->step;
+	if (carom_world_create(&def, &world, &error) || run_reference(world, &state, &picture, &error)) {
+		printf("    %s%s: FAILED\n", reference->step, storage);
+		fflush(stdout);
+		report(&error);
+	} else {
+		right = is_right(reference->step, storage, "", state, reference->state);
+		right = is_right(reference->step, storage, ", drawn", picture, reference->picture) && right;
+	}
+	carom_world_destroy(world);
+	return right;
+}
+
+static bool check_references(const carom_world_def *where, const char *storage)
+{
+	bool right = true;
+	for (size_t i = 0; i < sizeof references / sizeof *references; i++)
+		right = check_reference(where, &references[i], storage) && right;
+	return right;
+}
+
+static bool check_storages(carom_world_def where, const carom_device_info *device)
+{
+	bool right = true;
+	if (!device->is_opencl)
+		return check_references(&where, "");
+	if (where.storage != CAROM_STORAGE_BUFFER && device->has_images) {
+		where.storage = CAROM_STORAGE_IMAGE;
+		right = check_references(&where, " in images");
+		where.storage = CAROM_STORAGE_AUTO;
+	}
+	if (where.storage != CAROM_STORAGE_IMAGE) {
+		where.storage = CAROM_STORAGE_BUFFER;
+		right = check_references(&where, " in buffers") && right;
+	}
+	return right;
+}
+
+/* Denormals are told, but no bodies are so small or so slow that it matters. */
+static carom_status check_numbers(const carom_world_def *where, const carom_device_info *device, bool *right, carom_error *error)
+{
+	struct numbers_found found;
+	carom_status status = find_numbers(where, &found, error);
+	if (status)
+		return status;
+	printf("    quotients: %d of %d correctly rounded\n", found.quotients, found.count);
+	if (device->is_opencl)
+		printf("    square roots: %d of %d hits as on the CPU fallback\n", found.roots, found.hits);
+	printf("    products and sums: %s\n", found.contracted ? "some are rounded once (contraction)" : "each is rounded");
+	printf("    denormals: %s\n", found.denormals ? "kept" : "made 0");
+	*right = found.quotients == found.count && found.roots == found.hits && !found.contracted;
+	return CAROM_OK;
+}
+
+int check_device(const struct common_options *options, void (*print_device)(const carom_device_info *device))
+{
+	carom_world_def where = carom_default_world_def();
+	carom_world *world = NULL;
+	carom_device_info device;
+	carom_error error;
+	bool right;
+	carom_status status = options->set_count ? wrong(&error, "--set: a check runs the default pipeline") : apply_options(options, &where, &error);
+	if (!status)
+		status = carom_world_create(&where, &world, &error);
+	if (!status)
+		status = carom_world_get_device(world, &device, &error);
+	carom_world_destroy(world);
+	if (status)
+		return report(&error);
+	print_device(&device);
+	fflush(stdout);
+	status = check_numbers(&where, &device, &right, &error);
+	if (status)
+		return report(&error);
+	right = check_storages(where, &device) && right;
+	printf("%s\n", right ? "right: the bits that every exact device gives" : "WRONG: results of this device can't be trusted to the last bit");
+	return finish_output() == EXIT_DONE && right ? EXIT_DONE : EXIT_FAILED;
+}
