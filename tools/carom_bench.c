@@ -187,8 +187,9 @@ static int bench_main(int argc, char **argv)
 	int code = parse_options(&bench_command, argc, argv, &options.common);
 	if (code >= 0)
 		return code;
+	catch_interruptions();
 	if (run_bench(&options, options.common.argument_count ? options.common.arguments[0] : "all", &error) != CAROM_OK)
-		return report(&error);
+		return interrupted_code(report(&error));
 	return finish_output();
 }
 
@@ -212,7 +213,8 @@ const struct command bench_command = {
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"
 			   "states, alternatives take turns, and everything is warmed up before. The device is --device, or what is\n"
 			   "chosen by default; table4 measures the CPU fallback beside it. --set fills the slots that the table\n"
-			   "does not vary; the others are the defaults. In scale, --set step=NAME measures that step.\n",
+			   "does not vary; the others are the defaults. In scale, --set step=NAME measures that step.\n"
+			   "An interruption ends it after the figure at hand; then no file is written.\n",
 	.options = options_table,
 	.main = bench_main,
 };

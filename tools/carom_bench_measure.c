@@ -173,6 +173,8 @@ static carom_status measure_row(const struct bench_part *part, const struct benc
 				continue;
 			show(options, result, part, row->bodies, run + 1, part->subjects[subject].label);
 			status = measure_run(&worlds[subject], part, path, row, run, error);
+			if (status == CAROM_OK)
+				status = fail_interrupted(error);
 		}
 	}
 	return status;

@@ -136,6 +136,8 @@ static carom_status measure_engines(struct scale_result *result, size_t shape, s
 				continue;
 			show(options, scale_shapes[shape].title, cells->bodies, scale_engines[engine].label);
 			status = measure_batch(&runners[engine], &cells->cells[engine], run, error);
+			if (status == CAROM_OK)
+				status = fail_interrupted(error);
 		}
 	}
 	for (size_t k = 0; k < SCALE_ENGINES; k++)

@@ -111,9 +111,14 @@ static int write_scene(const struct generate_options *options, const carom_body_
 		put_scene(stdout, bodies, options->placement.count, half);
 		return finish_output();
 	}
+	catch_interruptions();
 	if (carom_file_create(options->out, &file, &stream, &error) != CAROM_OK)
 		return report(&error);
 	put_scene(stream, bodies, options->placement.count, half);
+	if (fail_interrupted(&error) != CAROM_OK) {
+		carom_file_destroy(file);
+		return interrupted_code(report(&error));
+	}
 	return carom_file_commit(file, &error) == CAROM_OK ? EXIT_DONE : report(&error);
 }
 

@@ -158,15 +158,16 @@ static int run_world(struct run *run)
 	if (status != CAROM_OK)
 		code = report(&error);
 	if (run->interrupted) {
-		fprintf(stderr, "carom: interrupted after %llu steps\n", steps);
-		code = EXIT_FAILED;
-	}
-	if (code != EXIT_DONE && (run->options->out || run->options->png))
+		fprintf(stderr, "carom: interrupted after %llu steps; what is written and printed is of the state then\n", steps);
+	} else if (code != EXIT_DONE && (run->options->out || run->options->png)) {
 		fprintf(stderr, "carom: what is written shows the last good state, after %llu steps\n", steps);
+	}
 	int written = write_outputs(run);
 	if (code == EXIT_DONE)
 		code = written;
-	return code == EXIT_DONE && run->options->hash ? print_hash(run) : code;
+	if (code == EXIT_DONE && run->options->hash)
+		code = print_hash(run);
+	return code == EXIT_DONE && run->interrupted ? interrupted_code(code) : code;
 }
 
 /* Destroys the scene, and that before the run: the world has what it needs, and of a million bodies two copies are enough. */
@@ -225,9 +226,10 @@ const struct command run_command = {
 			   "counts those, and --time counts simulated seconds. With --time, the step before the end or before a\n"
 			   "frame is cut short to end there.\n"
 			   "With --steps no step is cut short, and a frame shows the end of the step that its time falls into.\n"
-			   "\nOutputs are written when the run ends, also when it is interrupted (SIGINT, SIGTERM) or a step\n"
-			   "fails: they then show the last good state, and the exit code is 1. A file is whole or as it was\n"
-			   "before.\n",
+			   "\nOutputs are written when the run ends, also when a step fails: they then show the last good state, and\n"
+			   "the exit code is 1. An interruption (SIGINT, SIGTERM) ends the run after the steps at hand: all that was\n"
+			   "asked for is written and printed, of the state then, how many steps it had is said, and the exit code is\n"
+			   "130 (143); a second one ends the process at once. A file is whole or as it was before.\n",
 	.options = options_table,
 	.main = run_main,
 };

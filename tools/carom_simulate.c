@@ -6,28 +6,6 @@
 #include "carom_run.h"
 
 #include <math.h>
-#include <signal.h>
-#include <string.h>
-
-/* Set by the handler, which can reach nothing but a global. */
-static volatile sig_atomic_t interrupted;
-
-static void on_signal(int number)
-{
-	(void)number;
-	interrupted = 1;
-}
-
-/* The first signal ends the run after the present steps, the second the process. What the caller ignores stays ignored. */
-static void catch_signal(int number)
-{
-	struct sigaction action, before;
-	memset(&action, 0, sizeof action);
-	action.sa_handler = on_signal;
-	action.sa_flags = (int)SA_RESETHAND | SA_RESTART;
-	if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-		sigaction(number, &action, NULL);
-}
 
 /* The library calls it now and then. */
 static bool go_on(void *context, const carom_report *so_far)
@@ -38,8 +16,8 @@ static bool go_on(void *context, const carom_report *so_far)
 	double simulated = run->total.advanced + so_far->advanced;
 	bool counted = options->steps != NO_STEPS;
 	show_progress(&run->progress, counted ? (double)steps / (double)options->steps : simulated / options->time, steps, simulated);
-	run->interrupted = interrupted;
-	return !interrupted;
+	run->interrupted = is_interrupted();
+	return !run->interrupted;
 }
 
 /* Adds what a call did, also where it failed in the middle. */
@@ -133,9 +111,7 @@ carom_status simulate(struct run *run, carom_error *error)
 {
 	double begun = wall_seconds();
 	carom_status status;
-	interrupted = 0;
-	catch_signal(SIGINT);
-	catch_signal(SIGTERM);
+	catch_interruptions();
 	carom_world_set_progress(run->world, go_on, run);
 	begin_progress(&run->progress, run->options->common.quiet);
 	status = run->options->steps != NO_STEPS ? run_steps(run, run->options->steps, error) : run_time(run, run->options->time, error);

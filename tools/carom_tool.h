@@ -14,7 +14,7 @@
 enum {
 	EXIT_DONE = 0,
 	EXIT_FAILED = 1, /* the work failed: a device, a disk */
-	EXIT_WRONG = 2,  /* the call or the input was wrong */
+	EXIT_WRONG = 2,  /* the call or the input was wrong; 128 and the signal's number where there was an interruption */
 };
 
 #define MAX_ARGUMENTS 4
@@ -65,6 +65,16 @@ read_option read_number;   /* into a double, finite */
 read_option read_positive; /* into a double, above 0 */
 /* What the common options say of the world. */
 carom_status apply_options(const struct common_options *options, carom_world_def *world, carom_error *error);
+
+/* ---- carom_interrupt.c */
+
+/* From now on the first SIGINT or SIGTERM is only taken down, the second ends the process. */
+void catch_interruptions(void);
+bool is_interrupted(void);
+/* The exit code: 128 and the signal's number, as shells count, or `code` where there was none. */
+int interrupted_code(int code);
+/* An error where there was one, for commands that have nothing to show then. */
+carom_status fail_interrupted(carom_error *error);
 
 /* ---- carom_report.c */
 

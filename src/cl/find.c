@@ -63,7 +63,7 @@ static void describe(const carom_cl_api *cl, carom_cl_found *f)
 	carom_device_info *info = &f->info;
 	char platform[4096] = "";
 	refuse(info, "clGetPlatformInfo", cl->clGetPlatformInfo(f->platform, CL_PLATFORM_NAME, sizeof platform, platform, NULL));
-	snprintf(info->platform, sizeof info->platform, "%s", platform);
+	snprintf(info->platform, sizeof info->platform, "%.*s", (int)sizeof info->platform - 1, platform);
 	cl_ulong width = carom_cl_get_number(cl, f, CL_DEVICE_IMAGE2D_MAX_WIDTH), height = carom_cl_get_number(cl, f, CL_DEVICE_IMAGE2D_MAX_HEIGHT);
 	f->type = carom_cl_get_number(cl, f, CL_DEVICE_TYPE);
 	get_text(cl, f, CL_DEVICE_NAME, info->name, sizeof info->name);
