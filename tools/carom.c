@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "carom_tool.h"
 
+#include <signal.h>
 #include <string.h>
 
 static const struct command *const commands[] = {
@@ -39,6 +40,7 @@ static int fail_call(const char *found)
 
 int main(int argc, char **argv)
 {
+	signal(SIGXFSZ, SIG_IGN); /* a file that may grow no further is an error like a full disk */
 	if (argc < 2)
 		return fail_call("the command is missing");
 	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
