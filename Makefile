@@ -10,7 +10,11 @@ CHIPMUNK ?= $(call yes_if,printf '%s\n' '$(hash)include <chipmunk/chipmunk.h>' '
 OPTIMIZE ?= -O3
 WERROR ?= -Werror
 
-ifneq ($(SANITIZE),)
+ifeq ($(SANITIZE),thread)
+override BUILD := $(BUILD)/sanitize-thread
+OPTIMIZE := -O1 -g
+SANITIZERS := -fsanitize=thread -fno-omit-frame-pointer
+else ifneq ($(SANITIZE),)
 override BUILD := $(BUILD)/sanitize
 OPTIMIZE := -O1 -g
 SANITIZERS := -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
@@ -108,12 +112,14 @@ help:
 	@echo 'make check           build and run the tests and the checks of the source'
 	@echo 'make static          ask Clang, clang-format, clang-tidy, cppcheck and doxygen what they find in the source'
 	@echo 'make doc             render include/carom.h, the manual of the library, into build/doc/html/'
+	@echo 'make check-threads   build and run the test of threads with the thread sanitizer'
 	@echo 'make bench           measure the tables of the paper, and scale, and write them into build/bench/'
 	@echo 'make install         install below PREFIX=$(PREFIX), staged in DESTDIR='
 	@echo 'make clean           remove build/'
 	@echo 'CAIRO=no             build the command without cairo, and so without the charts of `carom bench`'
 	@echo 'BOX2D=no CHIPMUNK=no build it without these two, which `carom bench scale` measures beside Carom if they are installed'
 	@echo 'SANITIZE=1           build into build/sanitize/ with the address and undefined behaviour sanitizers'
+	@echo 'SANITIZE=thread      build into build/sanitize-thread/ with the thread sanitizer'
 	@echo 'V=1                  show the commands'
 	@echo 'CC= CXX= CFLAGS= CXXFLAGS= CPPFLAGS= LDFLAGS= OPTIMIZE= WERROR=   as usual'
 
@@ -225,6 +231,13 @@ doc:
 	@CAROM_VERSION='$(VERSION)' CAROM_BUILD='$(BUILD)' doxygen tools/Doxyfile
 	@echo '$(BUILD)/doc/html/index.html'
 
+# Races that hide from a run show here. All else is one thread's alone.
+check-threads:
+	@$(MAKE) SANITIZE=thread run-threads
+
+run-threads: $(BUILD)/tests/test_threads
+	$<
+
 # ---- The demo: scene, options of `carom run`, what the picture shows
 
 define DEMO
@@ -278,7 +291,7 @@ clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check static doc demo bench install clean FORCE
+.PHONY: all help check check-threads run-threads static doc demo bench install clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all

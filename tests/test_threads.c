@@ -1,0 +1,126 @@
+/* 24 worlds in four threads, each with threads of its own: what they compute is what each computes alone. Under the thread sanitizer
+ * this is also where races show (`make check-threads`).
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runs.h"
+
+enum { WORLDS = 24, THREADS = 4, STEPS = 3, WIDTH = 64, HEIGHT = 48 };
+
+/* What comes of a world; `error` tells where nothing did. */
+typedef struct outcome {
+	uint64_t state, picture;
+	carom_error error;
+} outcome;
+
+static const scenery_device *device_of(int index)
+{
+	return &scenery_devices[(size_t)index % scenery_device_count];
+}
+
+static uint64_t hash_of(const uint8_t *bytes, size_t size)
+{
+	uint64_t hash = 14695981039346656037u;
+	for (size_t k = 0; k < size; k++)
+		hash = (hash ^ bytes[k]) * 1099511628211u;
+	return hash;
+}
+
+/* Enough for every stage of the CPU device to share its work among threads: they take up to 4,096 bodies at once. */
+static size_t bodies_of(int index, bool events)
+{
+	const bool shared = strcmp(device_of(index)->name, "cpu") == 0;
+	return !shared ? 30 : events ? 6000 : 600;
+}
+
+/* Everything of a world's life. No assertions: those are of the main thread. */
+static carom_status live(int index, outcome *out)
+{
+	const bool events = (size_t)index / scenery_device_count % 2 == 0;
+	const size_t count = bodies_of(index, events);
+	const float half = 0.7f * sqrtf((float)count) + 2.0f;
+	carom_world_def def = runs_room(half, half);
+	carom_body_def *bodies = malloc(count * sizeof *bodies);
+	carom_render_def render = carom_default_render_def();
+	carom_measure measure;
+	carom_world *world = NULL;
+	uint8_t pixels[4 * WIDTH * HEIGHT] = {0};
+	scenery_random random = {(uint64_t)index};
+	def.device = device_of(index)->name;
+	def.storage = device_of(index)->storage;
+	def.pipeline.step = events ? "events" : "first_impact";
+	def.threads = 3;
+	render.width = WIDTH;
+	render.height = HEIGHT;
+	scenery_bodies(&random, SCENERY_MIXED, count, 1.4f, 5.0f, bodies);
+	carom_status status = carom_world_create(&def, &world, &out->error);
+	if (!status)
+		status = carom_world_add(world, bodies, count, NULL, &out->error);
+	if (!status)
+		status = carom_world_step(world, STEPS, NULL, &out->error);
+	if (!status)
+		status = carom_world_measure(world, &measure, &out->error);
+	if (!status)
+		status = carom_world_hash(world, &out->state, &out->error);
+	if (!status)
+		status = carom_world_render(world, &render, pixels, &out->error);
+	out->picture = hash_of(pixels, sizeof pixels);
+	carom_world_destroy(world);
+	free(bodies);
+	return status;
+}
+
+typedef struct worker {
+	int first;
+	bool with_opencl;
+	outcome *outcomes;
+	carom_status statuses[WORLDS];
+} worker;
+
+static void *work(void *argument)
+{
+	worker *w = argument;
+	for (int i = w->first; i < WORLDS; i += THREADS)
+		if (w->with_opencl || strcmp(device_of(i)->name, "cpu") == 0)
+			w->statuses[i] = live(i, &w->outcomes[i]);
+	return NULL;
+}
+
+static bool has_opencl(void)
+{
+	const carom_world_def def = carom_default_world_def();
+	carom_world *world = scenery_world(&def, &scenery_devices[1]);
+	carom_world_destroy(world);
+	return world != NULL;
+}
+
+static void worlds_are_independent(void **unused)
+{
+	(void)unused;
+	static outcome together[WORLDS], alone[WORLDS];
+	static worker workers[THREADS];
+	pthread_t threads[THREADS];
+	const bool with_opencl = has_opencl();
+	for (int i = 0; i < THREADS; i++) {
+		workers[i] = (worker){.first = i, .with_opencl = with_opencl, .outcomes = together};
+		assert_int_equal(pthread_create(&threads[i], NULL, work, &workers[i]), 0);
+	}
+	for (int i = 0; i < THREADS; i++)
+		assert_int_equal(pthread_join(threads[i], NULL), 0);
+	for (int i = 0; i < WORLDS; i++) {
+		scenery_check(workers[i % THREADS].statuses[i], &together[i].error);
+		if (!with_opencl && strcmp(device_of(i)->name, "cpu") != 0)
+			continue;
+		scenery_check(live(i, &alone[i]), &alone[i].error);
+		assert_true(together[i].state == alone[i].state && together[i].picture == alone[i].picture);
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_are_independent)};
+	return cmocka_run_group_tests_name("threads", tests, NULL, NULL);
+}
