@@ -5,6 +5,9 @@
 #include <string.h>
 
 #include "faults/walk.h"
+#include "runs.h"
+
+static int grown; /* lists that could not */
 
 /* What can be done without, fewer threads say, is no failure. Where its own memory ends jansson takes some scenes for broken. */
 static void there_is_no_memory(const char *call, carom_status status, const carom_error *error)
@@ -12,6 +15,7 @@ static void there_is_no_memory(const char *call, carom_status status, const caro
 	const bool blamed = call && strncmp(call, "jansson", 7) == 0 && status == CAROM_INVALID_SCENE;
 	if (status && (!call || (status != CAROM_OUT_OF_MEMORY && !blamed) || error->status != status || !*error->text))
 		fail_msg("%s failed: %s: %s", call ? call : "nothing", carom_status_name(status), error->text);
+	grown += status && strstr(error->text, "Neighbours, ") && strstr(error->text, "can't be made");
 }
 
 static void worlds_that_open(void **unused)
@@ -33,8 +37,54 @@ static void worlds_that_run(void **unused)
 	}
 }
 
+static void lists_that_grow(void **unused)
+{
+	(void)unused;
+	grown = 0;
+	SCENERY_EACH_DEVICE(device)
+		walk_growing(device, FAULTS_MEMORY, there_is_no_memory);
+	assert_true(grown > 0);
+}
+
+/* To a world that has run. */
+static void bodies_are_added_all_or_none(void **unused)
+{
+	(void)unused;
+	enum { MORE = 200 };
+	static carom_body_def bodies[MORE];
+	const carom_body_def first = scenery_box(0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 1.0f);
+	const char *failed = "";
+	uint64_t n;
+	for (int i = 0; i < MORE; i++) {
+		bodies[i] = scenery_box((float)i, 9.0f, 0.0f, 0.0f, 1.0f, 1.0f);
+		bodies[i].vertices = first.vertices;
+		bodies[i].name = "a name that takes some bytes";
+	}
+	for (n = 1; failed; n++) {
+		const carom_world_def def = runs_def();
+		carom_world *world = runs_world(&def, &scenery_devices[0], &first, 1);
+		uint32_t index = 7;
+		carom_error error;
+		runs_step(world, 2);
+		const uint64_t hash = runs_hash(world);
+		faults_arm(FAULTS_MEMORY, n, 0);
+		const carom_status status = carom_world_add(world, bodies, MORE, &index, &error);
+		failed = faults_disarm();
+		if (failed) {
+			there_is_no_memory(failed, status, &error);
+			assert_true(status && index == 7 && carom_world_body_count(world) == 1 && runs_hash(world) == hash);
+			scenery_check(carom_world_add(world, bodies, MORE, &index, &error), &error);
+		}
+		assert_true(index == 1 && carom_world_body_count(world) == 1 + MORE);
+		runs_step(world, 1);
+		carom_world_destroy(world);
+	}
+	assert_true(n > 6);
+}
+
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run)};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow),
+		cmocka_unit_test(bodies_are_added_all_or_none)};
 	return cmocka_run_group_tests_name("faults_memory", tests, walk_make_folder, walk_remove_folder);
 }

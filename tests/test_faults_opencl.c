@@ -6,6 +6,8 @@
 #include "cl/api.h"
 #include "faults/walk.h"
 
+static int grown; /* lists that could not */
+
 static void opencl_failed(const char *call, carom_status status, const carom_error *error)
 {
 	if (!call)
@@ -13,6 +15,9 @@ static void opencl_failed(const char *call, carom_status status, const carom_err
 	/* what is released is gone, whatever the call says */
 	if (!status ? strncmp(call, "clRelease", 9) != 0 : error->status != status || !strstr(error->text, ": CL_"))
 		fail_msg("%s failed: %s: %s", call, carom_status_name(status), error->text);
+	if ((strcmp(call, "clCreateBuffer") == 0 || strcmp(call, "clCreateImage") == 0) && !strstr(error->text, " KiB), can't be made: CL_"))
+		fail_msg("%s: no texture is named", error->text);
+	grown += strstr(error->text, "Neighbours, ") && strstr(error->text, "can't be made");
 }
 
 static void worlds_that_open(void **unused)
@@ -29,6 +34,14 @@ static void worlds_that_run(void **unused)
 	SCENERY_EACH_DEVICE(device)
 		if (strcmp(device->name, "cpu") != 0)
 			walk_running(device, device->storage == CAROM_STORAGE_IMAGE ? "first_impact" : "events", FAULTS_OPENCL, opencl_failed);
+}
+
+static void lists_that_grow(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+		if (device->storage == CAROM_STORAGE_BUFFER && walk_growing(device, FAULTS_OPENCL, opencl_failed))
+			assert_true(grown > 0);
 }
 
 /* Without OpenCL Carom runs on the CPU by itself, and says what is missing where OpenCL is asked for. */
@@ -87,6 +100,6 @@ static void failures_are_listed(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(machines_without_opencl), cmocka_unit_test(failures_are_listed),
-		cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run)};
+		cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow)};
 	return cmocka_run_group_tests_name("faults_opencl", tests, walk_make_folder, walk_remove_folder);
 }

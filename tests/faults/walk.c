@@ -95,6 +95,7 @@ typedef struct walk {
 	uint64_t steps;             /* done */
 	double times[STEPS + 1];    /* s, likewise, since the start */
 	double begun;               /* s: the world's time at the start */
+	bool grows;                 /* the lists, and steps are all there is */
 	char scene[128], picture[128];
 	uint8_t expected[4 * WIDTH * HEIGHT];
 } walk;
@@ -154,6 +155,11 @@ static void begin_anew(walk *w)
 	carom_error error;
 	scenery_check(carom_world_set_states(w->world, 0, BODIES, w->start, &error), &error);
 	carom_textures_destroy(w->world);
+	profile(w, &error); /* the device forgets its launches */
+	if (w->grows) {
+		scenery_check(carom_textures_update(w->world, &error), &error);
+		w->world->events.room = w->world->events.node_room = 1; /* say the lists, which hold more */
+	}
 	w->world->batch = 1;
 	w->steps = 0;
 	w->begun = carom_world_time(w->world);
@@ -184,12 +190,13 @@ static void go_through(walk *w, faults_kind kind, uint64_t n, walk_judge *judge,
 {
 	const char *const before = *failed;
 	static carom_status (*const all[])(walk *, carom_error *) = {take_steps, measure, hash, write_scene, draw, profile};
+	const size_t count = w->grows ? 1 : COUNT(all);
 	carom_error error = {.status = CAROM_OK};
 	carom_status status = CAROM_OK;
 	size_t i = 0;
 	begin_anew(w);
 	faults_arm(kind, n, walk_code(n));
-	while (i < COUNT(all) && !faults_failed() && !(status = all[i](w, &error)))
+	while (i < count && !faults_failed() && !(status = all[i](w, &error)))
 		i++;
 	*failed = faults_disarm();
 	if (!status && (!*failed || i == COUNT(all)))
@@ -202,7 +209,7 @@ static void go_through(walk *w, faults_kind kind, uint64_t n, walk_judge *judge,
 		is_old(w->picture);
 	if (strcmp(before, *failed) == 0)
 		return;
-	for (; i < COUNT(all); i++)
+	for (; i < count; i++)
 		scenery_check(all[i](w, &error), &error);
 	assert_true(runs_hash(w->world) == w->hashes[STEPS]);
 }
@@ -243,20 +250,32 @@ static carom_world *crowd(const scenery_device *device, const char *step)
 	return runs_world(&def, device, bodies, BODIES);
 }
 
-void walk_running(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge)
+static bool walk_world(const scenery_device *device, const char *step, bool grows, faults_kind kind, walk_judge *judge)
 {
 	carom_world *world = crowd(device, step);
 	const char *failed = "";
 	if (!world)
-		return;
+		return false;
 	walk *w = walk_of(world);
 	uint64_t n = 0;
+	w->grows = grows;
 	while (failed)
 		go_through(w, kind, ++n, judge, &failed);
-	print_message("%s, %s: %llu calls\n", device->name, step, (unsigned long long)n - 1);
+	print_message("%s, %s%s: %llu calls\n", device->name, step, grows ? " with lists that grow" : "", (unsigned long long)n - 1);
 	unlink(w->scene);
 	unlink(w->picture);
 	carom_world_destroy(world);
 	nothing_is_alive(NULL);
 	free(w);
+	return true;
+}
+
+void walk_running(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge)
+{
+	walk_world(device, step, false, kind, judge);
+}
+
+bool walk_growing(const scenery_device *device, faults_kind kind, walk_judge *judge)
+{
+	return walk_world(device, "events", true, kind, judge);
 }

@@ -16,6 +16,9 @@ void walk_opening(const scenery_device *device, const char *step, faults_kind ki
  * steps that are reported, files are as they were before, and what failed works when it is tried again. */
 void walk_running(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge);
 
+/* The first steps of events alone, whose lists of neighbours are too small and grow, likewise. False where there is no such device. */
+bool walk_growing(const scenery_device *device, faults_kind kind, walk_judge *judge);
+
 /* The code that the n-th call gives. */
 int walk_code(uint64_t nth);
 
