@@ -113,6 +113,7 @@ help:
 	@echo 'make static          ask Clang, clang-format, clang-tidy, cppcheck and doxygen what they find in the source'
 	@echo 'make doc             render include/carom.h, the manual of the library, into build/doc/html/'
 	@echo 'make check-threads   build and run the test of threads with the thread sanitizer'
+	@echo 'make conformance     run the tests on every OpenCL implementation that is installed, and from several compilers'
 	@echo 'make bench           measure the tables of the paper, and scale, and write them into build/bench/'
 	@echo 'make install         install below PREFIX=$(PREFIX), staged in DESTDIR='
 	@echo 'make clean           remove build/'
@@ -238,6 +239,10 @@ check-threads:
 run-threads: $(BUILD)/tests/test_threads
 	$<
 
+# On every OpenCL implementation that is installed, and from several compilers; ROWS are those of tools/conformance, all by default.
+conformance: all $(TEST_PROGRAMS)
+	@MAKE='$(MAKE_COMMAND)' tools/conformance $(BUILD) $(ROWS)
+
 # ---- The demo: scene, options of `carom run`, what the picture shows
 
 define DEMO
@@ -291,7 +296,7 @@ clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check check-threads run-threads static doc demo bench install clean FORCE
+.PHONY: all help check check-threads run-threads conformance static doc demo bench install clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all
