@@ -255,7 +255,7 @@ CAROM_API void carom_world_destroy(carom_world *world);
 
 /** Adds `count` bodies, all or none; *first (may be NULL) becomes the index of the first, the others follow it.
  * CAROM_INVALID_ARGUMENT names the body (as `bodies[k]`, k from 0 in `defs`) and the field. CAROM_LIMIT: a world holds
- * 4,194,304 bodies and 25,165,824 vertices of polygons at most. */
+ * 4,194,304 bodies and 25,165,824 vertices of polygons at most; equal polygons mostly share theirs. */
 CAROM_API carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error);
 
 /** How many were added. */
@@ -304,7 +304,7 @@ CAROM_API double carom_world_time(const carom_world *world);
 CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 /** The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
-/** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes on its device. Pictures come on top
+/** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes at most on its device. Pictures come on top
  * from the first one on: about 300 bytes a circle, or 100 a polygon and 50 a vertex of it. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
 

@@ -65,7 +65,7 @@ rules_of_hit event_rules(float restitution, bool rapid)
 }
 
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. False if a body leaves its reach. */
-bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need), float4 rules,
+bool answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need), float4 rules,
 	int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER);
@@ -78,7 +78,7 @@ bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reac
 	body b = body_of(slots, s, k, length);
 	if (wall && !pause) {
 		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), is_rapid(members, id, was, u));
-		j = wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &total);
+		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &total);
 	} else if (!wall) {
 		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
 		o = moved(slots, other, o, u, length);
@@ -87,7 +87,7 @@ bool answer(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reac
 		body c = body_of(slots, other, o, length);
 		bool rapid = is_rapid(members, id, was, u), other_rapid = is_rapid(members, other_id, other_was, u);
 		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rapid || other_rapid);
-		j = first ? pair_push(TEX(vertices), b, c, 0.0f, how, length, &total) : pair_push(TEX(vertices), c, b, 0.0f, how, length, &total);
+		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &total) : pair_push(VERTICES, c, b, 0.0f, how, length, &total);
 	}
 	if (total > 0.0f)
 		members[MEMBER(id, MEMBER_HITS)]++;

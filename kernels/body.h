@@ -67,12 +67,40 @@ float step_length(TEX_IN(uniforms), TEX_IN(clock))
 	return smaller(CHANNEL(world, WORLD_TIME_STEP), CHANNEL(time, TIME_REMAINING));
 }
 
-/* The j-th vertex of a polygon whose first texel is `first`, in the polygon's frame [2, figure 2]. */
-float2 vertex_load(TEX_IN(vertices), int first, int j)
+/* The j-th vertex of a polygon whose first is at `first`, in the polygon's frame [2, figure 2], and the normal of the side that begins there and ends
+ * at `to`. The step events has them side by side, in Outlines. */
+#ifdef CAROM_OUTLINES
+#define VERTICES_IN RECORD_IN(vertices)
+#define VERTICES vertices
+
+float2 vertex_load(VERTICES_IN, int first, int j)
+{
+	float4 corner = vertices[first + j];
+	return (float2)(CHANNEL(corner, OUTLINE_X), CHANNEL(corner, OUTLINE_Y));
+}
+
+float2 normal_load(VERTICES_IN, int first, int j, float2 to)
+{
+	float4 corner = vertices[first + j];
+	return (float2)(CHANNEL(corner, OUTLINE_NORMAL_X), CHANNEL(corner, OUTLINE_NORMAL_Y));
+}
+#else
+#define VERTICES_IN TEX_IN(vertices)
+#define VERTICES TEX(vertices)
+
+float2 vertex_load(VERTICES_IN, int first, int j)
 {
 	float4 two = ROW_LOAD(vertices, first + (j >> 1));
 	return (j & 1) ? (float2)(CHANNEL(two, VERTICES_X1), CHANNEL(two, VERTICES_Y1)) : (float2)(CHANNEL(two, VERTICES_X0), CHANNEL(two, VERTICES_Y0));
 }
+
+float2 normal_load(VERTICES_IN, int first, int j, float2 to)
+{
+	float2 from = vertex_load(VERTICES, first, j), e = (float2)(to.x - from.x, to.y - from.y);
+	float size = norm(e);
+	return (float2)(e.y / size, -e.x / size);
+}
+#endif
 
 /* How far a body's way bends out of the box about its two ends, with the distance that counts as touching. */
 float aabb_pad(body k)

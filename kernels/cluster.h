@@ -5,14 +5,14 @@
 
 /* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. Those whose discs stay apart
  * need not be asked. */
-float pair_time(TEX_IN(vertices), RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length, bool *pause)
+float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length, bool *pause)
 {
 	float t0 = larger(k.time, o.time), rest = 1.0f - t0;
 	k = moved(slots, s, k, t0, length);
 	o = moved(slots, other, o, t0, length);
 	body a = body_of(slots, s, k, length), b = body_of(slots, other, o, length);
 	bool in_order = slot_body(slots, s) > slot_body(slots, other);
-	float4 found = in_order ? pair_first(TEX(vertices), a, b, rules) : pair_first(TEX(vertices), b, a, rules);
+	float4 found = in_order ? pair_first(VERTICES, a, b, rules) : pair_first(VERTICES, b, a, rules);
 	float hit = CHANNEL(found, HITTIMES_HIT);
 	*pause = !(CHANNEL(found, HITTIMES_DONE) > 0.0f);
 	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;
@@ -28,7 +28,7 @@ bool near_walls(body k, float4 room)
 }
 
 /* When the trajectory hits which wall first. */
-float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, int *which, bool *pause)
+float wall_time(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, int *which, bool *pause)
 {
 	float4 room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	float rest = 1.0f - k.time, first = NO_HIT;
@@ -42,7 +42,7 @@ float wall_time(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), float4 rul
 	for (int wall = 0; wall < 4; wall++) {
 		float offset, done = 1.0f;
 		float2 n = wall_normal(room, wall, &offset);
-		float t = b.count == 1 ? circle_wall(b, n, offset) : polygon_wall(TEX(vertices), b, n, offset, &done);
+		float t = b.count == 1 ? circle_wall(b, n, offset) : polygon_wall(VERTICES, b, n, offset, &done);
 		float u = t <= rest ? smaller(k.time + t, 1.0f) : NO_HIT;
 		if (u < first || (u == first && u <= 1.0f)) { /* of equal ones the least column: the last wall */
 			first = u;

@@ -59,14 +59,14 @@ float2 relative_rotation(pose p)
 }
 
 /* The least m . v over the body's vertices (a circle's: its rim), and which vertex it is. */
-float lowest(TEX_IN(vertices), body k, float2 m, int *which)
+float lowest(VERTICES_IN, body k, float2 m, int *which)
 {
 	float low = INFINITY;
 	*which = 0;
 	if (k.count == 1)
 		return -k.radius;
 	for (int j = 0; j < k.count; j++) {
-		float h = inner(m, vertex_load(TEX(vertices), k.first, j));
+		float h = inner(m, vertex_load(VERTICES, k.first, j));
 		if (h < low) {
 			low = h;
 			*which = j;
@@ -75,19 +75,12 @@ float lowest(TEX_IN(vertices), body k, float2 m, int *which)
 	return low;
 }
 
-float2 face_normal(float2 p, float2 q)
-{
-	float2 e = (float2)(q.x - p.x, q.y - p.y);
-	float size = norm(e);
-	return (float2)(e.y / size, -e.x / size);
-}
-
 /* The face of polygon a that keeps b farthest away. */
-axis face_axis(TEX_IN(vertices), body a, body b, pose p)
+axis face_axis(VERTICES_IN, body a, body b, pose p)
 {
 	axis best;
 	float2 d = turn_back(p.ra, p.d), relative = relative_rotation(p);
-	float2 from = vertex_load(TEX(vertices), a.first, 0);
+	float2 from = vertex_load(VERTICES, a.first, 0);
 	best.swapped = false;
 	best.corner = false;
 	best.face = best.deepest = 0;
@@ -95,11 +88,11 @@ axis face_axis(TEX_IN(vertices), body a, body b, pose p)
 	best.offset = 0.0f;
 	best.gap = -INFINITY;
 	for (int e = 0; e < a.count; e++) {
-		float2 to = vertex_load(TEX(vertices), a.first, e + 1 < a.count ? e + 1 : 0);
-		float2 n = face_normal(from, to);
+		float2 to = vertex_load(VERTICES, a.first, e + 1 < a.count ? e + 1 : 0);
+		float2 n = normal_load(VERTICES, a.first, e, to);
 		float offset = inner(n, from);
 		int deepest;
-		float low = lowest(TEX(vertices), b, turn_back(relative, n), &deepest);
+		float low = lowest(VERTICES, b, turn_back(relative, n), &deepest);
 		float gap = (inner(n, d) - offset) + low;
 		if (gap > best.gap) {
 			best.face = e;
@@ -114,7 +107,7 @@ axis face_axis(TEX_IN(vertices), body a, body b, pose p)
 }
 
 /* An axis from corner `from` of a to the point `to` of b, both in a's frame; `fallback` where that is none or is worse. */
-axis corner_axis(TEX_IN(vertices), body a, body b, pose p, float2 from, float2 to, axis fallback)
+axis corner_axis(VERTICES_IN, body a, body b, pose p, float2 from, float2 to, axis fallback)
 {
 	float2 e = (float2)(to.x - from.x, to.y - from.y);
 	float size = norm(e);
@@ -124,40 +117,40 @@ axis corner_axis(TEX_IN(vertices), body a, body b, pose p, float2 from, float2 t
 	k.corner = true;
 	k.n = (float2)(e.x / size, e.y / size);
 	/* over all of a, or an axis from the wrong corner would count a's own body as gap */
-	k.offset = -lowest(TEX(vertices), a, (float2)(-k.n.x, -k.n.y), &k.deepest);
-	k.gap = (inner(k.n, turn_back(p.ra, p.d)) - k.offset) + lowest(TEX(vertices), b, turn_back(relative_rotation(p), k.n), &k.deepest);
+	k.offset = -lowest(VERTICES, a, (float2)(-k.n.x, -k.n.y), &k.deepest);
+	k.gap = (inner(k.n, turn_back(p.ra, p.d)) - k.offset) + lowest(VERTICES, b, turn_back(relative_rotation(p), k.n), &k.deepest);
 	return k.gap > fallback.gap ? k : fallback;
 }
 
 /* Where the deepest point of b lies beyond an end of the face, b may be nearest to that end's corner instead. */
-axis refined_axis(TEX_IN(vertices), body a, body b, pose p, axis face)
+axis refined_axis(VERTICES_IN, body a, body b, pose p, axis face)
 {
-	float2 from = vertex_load(TEX(vertices), a.first, face.face);
-	float2 to = vertex_load(TEX(vertices), a.first, face.face + 1 < a.count ? face.face + 1 : 0);
+	float2 from = vertex_load(VERTICES, a.first, face.face);
+	float2 to = vertex_load(VERTICES, a.first, face.face + 1 < a.count ? face.face + 1 : 0);
 	float2 point = turn_back(p.ra, p.d), edge = (float2)(to.x - from.x, to.y - from.y);
 	if (b.count > 1) {
-		float2 v = turn(relative_rotation(p), vertex_load(TEX(vertices), b.first, face.deepest));
+		float2 v = turn(relative_rotation(p), vertex_load(VERTICES, b.first, face.deepest));
 		point = (float2)(point.x + v.x, point.y + v.y);
 	}
 	float along = inner(edge, (float2)(point.x - from.x, point.y - from.y));
 	if (along < 0.0f)
-		return corner_axis(TEX(vertices), a, b, p, from, point, face);
+		return corner_axis(VERTICES, a, b, p, from, point, face);
 	if (along > inner(edge, edge))
-		return corner_axis(TEX(vertices), a, b, p, to, point, face);
+		return corner_axis(VERTICES, a, b, p, to, point, face);
 	return face;
 }
 
-axis polygon_axis(TEX_IN(vertices), body a, body b, pose p)
+axis polygon_axis(VERTICES_IN, body a, body b, pose p)
 {
-	axis face = face_axis(TEX(vertices), a, b, p);
+	axis face = face_axis(VERTICES, a, b, p);
 	/* a circle is judged by its centre, which is still outside when its rim is a little inside */
 	if (face.gap + (b.count == 1 ? b.radius : 0.0f) > 0.0f)
-		return refined_axis(TEX(vertices), a, b, p, face);
+		return refined_axis(VERTICES, a, b, p, face);
 	return face;
 }
 
 /* The axis with the largest gap: above 0 exactly when the bodies are apart, and then never above their distance. */
-axis best_axis(TEX_IN(vertices), body a, body b, pose p)
+axis best_axis(VERTICES_IN, body a, body b, pose p)
 {
 	axis first, second;
 	if (a.count == 1 && b.count == 1) {
@@ -172,11 +165,11 @@ axis best_axis(TEX_IN(vertices), body a, body b, pose p)
 		return first;
 	}
 	if (a.count > 1) {
-		first = polygon_axis(TEX(vertices), a, b, p);
+		first = polygon_axis(VERTICES, a, b, p);
 		if (b.count == 1)
 			return first;
 	}
-	second = polygon_axis(TEX(vertices), b, a, pose_swapped(p));
+	second = polygon_axis(VERTICES, b, a, pose_swapped(p));
 	second.swapped = true;
 	return a.count > 1 && first.gap >= second.gap ? first : second;
 }
@@ -203,21 +196,21 @@ void contact_add_point(contact *c, pose p, float2 point)
 }
 
 /* The edge of b at its deepest vertex that lies flattest on the face, cut to the face's width: its ends that touch. */
-void contact_face(TEX_IN(vertices), body a, body b, pose p, axis k, float slop, contact *c)
+void contact_face(VERTICES_IN, body a, body b, pose p, axis k, float slop, contact *c)
 {
 	float2 relative = relative_rotation(p), d = turn_back(p.ra, p.d);
 	float2 m = turn_back(relative, k.n);
-	float2 before = vertex_load(TEX(vertices), b.first, k.deepest > 0 ? k.deepest - 1 : b.count - 1);
-	float2 middle = vertex_load(TEX(vertices), b.first, k.deepest);
-	float2 after = vertex_load(TEX(vertices), b.first, k.deepest + 1 < b.count ? k.deepest + 1 : 0);
+	float2 before = vertex_load(VERTICES, b.first, k.deepest > 0 ? k.deepest - 1 : b.count - 1);
+	float2 middle = vertex_load(VERTICES, b.first, k.deepest);
+	float2 after = vertex_load(VERTICES, b.first, k.deepest + 1 < b.count ? k.deepest + 1 : 0);
 	float2 e1 = (float2)(middle.x - before.x, middle.y - before.y), e2 = (float2)(after.x - middle.x, after.y - middle.y);
 	bool second = magnitude(inner(m, e2)) * norm(e1) < magnitude(inner(m, e1)) * norm(e2);
 	float2 v = turn(relative, second ? middle : before), u = turn(relative, second ? after : middle);
 	v = (float2)(v.x + d.x, v.y + d.y);
 	u = (float2)(u.x + d.x, u.y + d.y);
 
-	float2 from = vertex_load(TEX(vertices), a.first, k.face);
-	float2 to = vertex_load(TEX(vertices), a.first, k.face + 1 < a.count ? k.face + 1 : 0);
+	float2 from = vertex_load(VERTICES, a.first, k.face);
+	float2 to = vertex_load(VERTICES, a.first, k.face + 1 < a.count ? k.face + 1 : 0);
 	float2 tangent = (float2)(-k.n.y, k.n.x);
 	float width = inner(tangent, (float2)(to.x - from.x, to.y - from.y));
 	/* counter-clockwise edges run against each other: u comes first along the face */
@@ -253,7 +246,7 @@ void contact_face(TEX_IN(vertices), body a, body b, pose p, axis k, float slop, 
 }
 
 /* Where the bodies touch, or would if they were a little nearer: one point, or the two ends of a face contact. */
-contact contact_at(TEX_IN(vertices), body a, body b, pose p, axis k, float slop)
+contact contact_at(VERTICES_IN, body a, body b, pose p, axis k, float slop)
 {
 	contact c;
 	if (k.swapped) {
@@ -271,10 +264,10 @@ contact contact_at(TEX_IN(vertices), body a, body b, pose p, axis k, float slop)
 		float2 rim = (float2)(p.d.x - b.radius * c.n.x, p.d.y - b.radius * c.n.y);
 		contact_add(&c, p, a.count == 1 ? (float2)(0.0f, 0.0f) : rim, (float2)(0.0f, 0.0f));
 	} else if (k.corner) {
-		float2 v = turn(p.rb, vertex_load(TEX(vertices), b.first, k.deepest));
+		float2 v = turn(p.rb, vertex_load(VERTICES, b.first, k.deepest));
 		contact_add(&c, p, (float2)(p.d.x + v.x, p.d.y + v.y), v);
 	} else {
-		contact_face(TEX(vertices), a, b, p, k, slop, &c);
+		contact_face(VERTICES, a, b, p, k, slop, &c);
 	}
 	return c;
 }

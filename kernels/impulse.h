@@ -40,12 +40,12 @@ rules_of_hit first_impact_rules(float restitution)
 }
 
 /* Of body k's contact with a wall at time t of its step; *total: of the two points together. */
-float4 wall_push(TEX_IN(vertices), float4 room, body k, int wall, float t, rules_of_hit rules, float length, float *total)
+float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_hit rules, float length, float *total)
 {
 	float offset;
 	body walls = k;
 	float2 n = wall_normal(room, wall, &offset);
-	contact c = wall_contact(TEX(vertices), k, n, t, wall_slop(k));
+	contact c = wall_contact(VERTICES, k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
 	float2 j = contact_impulses(walls, k, c, rules.restitution, wall_stillness(k) * rules.stillness, larger(-(rules.micro * inner(n, k.a)), 0.0f));
 	*total = j.x + j.y;
@@ -54,11 +54,11 @@ float4 wall_push(TEX_IN(vertices), float4 room, body k, int wall, float t, rules
 }
 
 /* Of the contact of bodies a and b, the row's and the column's, at time t of their step. */
-float4 pair_push(TEX_IN(vertices), body a, body b, float t, rules_of_hit rules, float length, float *total)
+float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float length, float *total)
 {
 	pose p = pose_at(a, b, t);
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b) * rules.stillness;
-	contact c = contact_at(TEX(vertices), a, b, p, best_axis(TEX(vertices), a, b, p), slop);
+	contact c = contact_at(VERTICES, a, b, p, best_axis(VERTICES, a, b, p), slop);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
 	float2 j = c.swapped ? contact_impulses(b, a, c, rules.restitution, stillness, micro)
 						 : contact_impulses(a, b, c, rules.restitution, stillness, micro);
@@ -69,20 +69,20 @@ float4 pair_push(TEX_IN(vertices), body a, body b, float t, rules_of_hit rules, 
 	return c.swapped ? (float4)(push.x, push.y, inc, ref) : (float4)(-push.x, -push.y, ref, inc);
 }
 
-float4 hit_push(STATE_IN, TEX_IN(vertices), float4 hit, float length)
+float4 hit_push(STATE_IN, VERTICES_IN, float4 hit, float length)
 {
 	int column = (int)CHANNEL(hit, HIT_COLUMN);
 	float t = CHANNEL(hit, HIT_TIME), total;
 	body a = body_load(STATE, (int)CHANNEL(hit, HIT_ROW), length);
 	if (column >= 0) {
 		body b = body_load(STATE, column, length);
-		return pair_push(TEX(vertices), a, b, t, first_impact_rules(larger(a.restitution, b.restitution)), length, &total);
+		return pair_push(VERTICES, a, b, t, first_impact_rules(larger(a.restitution, b.restitution)), length, &total);
 	}
-	return wall_push(TEX(vertices), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), a, -1 - column, t,
+	return wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), a, -1 - column, t,
 		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION))), length, &total);
 }
 
-__kernel void impulse(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(impulse), int4 domain)
+__kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(impulse), int4 domain)
 {
 	(void)domain;
 	if (get_global_id(0) > 0)
@@ -91,6 +91,6 @@ __kernel void impulse(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(impulse
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	float4 result = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	if (CHANNEL(hit, HIT_TIME) <= 1.0f && CHANNEL(hit, HIT_DONE) > 0.0f)
-		result = hit_push(STATE, TEX(vertices), hit, length);
+		result = hit_push(STATE, VERTICES, hit, length);
 	TEX_STORE(impulse, 0, 0, result);
 }

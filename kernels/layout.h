@@ -137,13 +137,20 @@
 #define SLOT_MASS 2    /* record */
 #define MASS_INVERSE 0 /* 1 / kg; 0 for a static body */
 #define MASS_INVERSE_INERTIA 1
-#define MASS_FIRST 2 /* GEOMETRY_FIRST, GEOMETRY_COUNT */
+#define MASS_FIRST 2 /* in Outlines; GEOMETRY_COUNT */
 #define MASS_COUNT 3
 #define SLOT_PUSH 3 /* record */
 #define PUSH_X 0    /* m/s^2: gravity and force; 0 for a static body */
 #define PUSH_Y 1
 #define PUSH_TORQUE 2 /* rad/s^2 */
 #define PUSH_BODY 3   /* index of the body */
+
+/* Outlines: a record a vertex of polygons, from twice the body's GEOMETRY_FIRST on, which MASS_FIRST is: vertices once more, with what is
+ * wanted beside them */
+#define OUTLINE_X 0
+#define OUTLINE_Y 1
+#define OUTLINE_NORMAL_X 2 /* outward, 1 long, of the side from here to the next vertex */
+#define OUTLINE_NORMAL_Y 3
 
 /* Reach: a record a slot, the box (AABB's channels) that the body does not leave while the lists of neighbours are good */
 

@@ -24,7 +24,7 @@ float4 event_of(RECORD_IN(slots), int s, int partner, float time, bool pause)
 }
 
 /* The first event of a member, by what is known now. */
-void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
+void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
 	float length)
 {
 	int s = active[id], wall, seen = 0;
@@ -32,7 +32,7 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 	disc disc_k = disc_of_trajectory(slots, s, k, length);
 	bool pause;
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
-	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
+	float t = wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		first = event_of(slots, s, -1 - wall, t, pause);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_END)]; i++) {
@@ -40,7 +40,7 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 		trajectory o = trajectory_seen(slots, members, owners, work, other, leader, &other_id);
 		if (stay_apart(disc_k, disc_of_trajectory(slots, other, o, length)))
 			continue;
-		t = pair_time(TEX(vertices), slots, rules, s, k, other, o, length, &pause);
+		t = pair_time(VERTICES, slots, rules, s, k, other, o, length, &pause);
 		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
 			continue;
 		float4 next = event_of(slots, s, other, t, pause);
@@ -54,7 +54,7 @@ void look(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 }
 
 /* The same while no event has changed anything: it was found before. */
-void recall(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
+void recall(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
 	float length)
 {
 	int s = active[id], k = spans[SPAN(s, SPAN_FOUND)];
@@ -68,7 +68,7 @@ void recall(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 	work[WORK_WIDTH * id + WORK_NEXT] = first;
 	members[MEMBER(id, MEMBER_SEEN)] = 0;
 	if (k == FOUND_NO_ROOM)
-		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
 }
 
 /* The member whose event is first. */
@@ -121,7 +121,7 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 		atomic_add(&status[STATUS_HELD], held);
 }
 
-void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), LIST_OUT(owners),
+void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), LIST_OUT(owners),
 	LIST_OUT(parents), int leader, int round, float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
@@ -130,7 +130,7 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 	if (head < 0)
 		return; /* another cluster got into the way just now */
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
-		recall(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length);
+		recall(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length);
 	for (;;) {
 		int id = first_member(members, work, head), other_id = -1;
 		float4 next = work[WORK_WIDTH * id + WORK_NEXT];
@@ -150,24 +150,24 @@ void cluster_run(TEX_IN(vertices), TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN,
 				break;
 			}
 			if (members[MEMBER(other_id, MEMBER_EVENTS)] != members[MEMBER(id, MEMBER_SEEN)]) {
-				look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+				look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
 				continue;
 			}
 		}
-		if (!answer(TEX(vertices), TEX(uniforms), slots, reach, members, work, need, rules, active[id], id, other_id, next, length)) {
+		if (!answer(VERTICES, TEX(uniforms), slots, reach, members, work, need, rules, active[id], id, other_id, next, length)) {
 			atomic_or(&status[STATUS_LEFT], 1);
 			break;
 		}
-		look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
 		if (other_id >= 0)
-			look(TEX(vertices), TEX(uniforms), slots, LISTS, work, owners, rules, other_id, leader, length);
+			look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, other_id, leader, length);
 	}
 	cluster_count(status, members, work, head, finished);
 }
 
 /* Do two changed bodies of different clusters get in each other's way? */
-bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id, int other,
-	int other_id, float length)
+bool ways_meet(VERTICES_IN, RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id, int other, int other_id,
+	float length)
 {
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
 	bool pause;
@@ -177,5 +177,5 @@ bool ways_meet(TEX_IN(vertices), RECORD_IN(slots), LIST_OUT(members), __global c
 		return !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y);
 	}
 	return !stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length))
-		&& pair_time(TEX(vertices), slots, rules, s, k, other, o, length, &pause) <= 1.0f;
+		&& pair_time(VERTICES, slots, rules, s, k, other, o, length, &pause) <= 1.0f;
 }

@@ -29,13 +29,13 @@ void pace_choose(RECORD_IN(slots), int count, float window, LIST_OUT(status))
 }
 
 /* A static body's box is tight. */
-float4 static_box(TEX_IN(vertices), RECORD_IN(slots), int s)
+float4 static_box(VERTICES_IN, RECORD_IN(slots), int s)
 {
 	body k = body_of(slots, s, trajectory_start(slots, s), 1.0f);
 	float2 rotation = rotation_of(k.r), low = k.x, high = k.x;
 	float pad = ((magnitude(k.x.x) + magnitude(k.x.y)) + k.radius) * (4.0f * SLOP);
 	for (int j = 0; j < k.count && k.count > 1; j++) {
-		float2 v = turn(rotation, vertex_load(TEX(vertices), k.first, j));
+		float2 v = turn(rotation, vertex_load(VERTICES, k.first, j));
 		low = (float2)(smaller(low.x, k.x.x + v.x), smaller(low.y, k.x.y + v.y));
 		high = (float2)(larger(high.x, k.x.x + v.x), larger(high.y, k.x.y + v.y));
 	}
@@ -43,12 +43,12 @@ float4 static_box(TEX_IN(vertices), RECORD_IN(slots), int s)
 	return (float4)(low.x - grow, low.y - grow, high.x + grow, high.y + grow);
 }
 
-float4 reach_box(TEX_IN(vertices), RECORD_IN(slots), int s, float need, LIST_IN(status))
+float4 reach_box(VERTICES_IN, RECORD_IN(slots), int s, float need, LIST_IN(status))
 {
 	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), push = SLOT_LOAD(slots, s, SLOT_PUSH);
 	float window = as_float(status[STATUS_WINDOW]), radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 	if (slot_is_static(slots, s))
-		return static_box(TEX(vertices), slots, s);
+		return static_box(VERTICES, slots, s);
 	float speed = norm((float2)(at.z, at.w)) + norm((float2)(push.x, push.y)) * window;
 	float way = larger(larger(as_float(status[STATUS_PACE]), REACH_FACTOR * speed * window), REACH_FACTOR * need);
 	way += radius + ((magnitude(at.x) + magnitude(at.y)) + radius) * (8.0f * SLOP);

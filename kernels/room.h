@@ -22,7 +22,7 @@ float wall_stillness(body k)
 }
 
 /* Where polygon k touches a wall at time t: the outermost of the vertices that are hardly farther in than the deepest. */
-contact wall_contact(TEX_IN(vertices), body k, float2 n, float t, float slop)
+contact wall_contact(VERTICES_IN, body k, float2 n, float t, float slop)
 {
 	contact c;
 	float2 v = (float2)(k.v.x + t * k.a.x, k.v.y + t * k.a.y);
@@ -36,9 +36,9 @@ contact wall_contact(TEX_IN(vertices), body k, float2 n, float t, float slop)
 		return c;
 	float2 rotation = body_rotation(k, t), m = turn_back(rotation, n);
 	int deepest;
-	float limit = lowest(TEX(vertices), k, m, &deepest) + slop, first = INFINITY, last = -INFINITY;
+	float limit = lowest(VERTICES, k, m, &deepest) + slop, first = INFINITY, last = -INFINITY;
 	for (int j = 0; j < k.count; j++) {
-		float2 local_vertex = vertex_load(TEX(vertices), k.first, j);
+		float2 local_vertex = vertex_load(VERTICES, k.first, j);
 		float along = cross2(m, local_vertex);
 		if (inner(m, local_vertex) > limit)
 			continue;
@@ -59,4 +59,4 @@ contact wall_contact(TEX_IN(vertices), body k, float2 n, float t, float slop)
 
 /* The alternative's own of slot walls: when the body hits the wall, in parts of its step; not <= 1 if it doesn't. */
 float circle_wall(body k, float2 n, float offset);
-float polygon_wall(TEX_IN(vertices), body k, float2 n, float offset, float *done);
+float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done);

@@ -18,7 +18,7 @@ float4 hit_pause(float t)
 
 /* How long from time t on the bodies surely stay apart: each vertex of the incident body has a distance from the axis
  * that is at least gap + rate s - bend s^2 / 2. */
-float safe_time(TEX_IN(vertices), body a, body b, pose p, axis k, float t, float slop)
+float safe_time(VERTICES_IN, body a, body b, pose p, axis k, float t, float slop)
 {
 	float2 acceleration = (float2)(b.a.x - a.a.x, b.a.y - a.a.y);
 	float rest = 1.0f - t;
@@ -38,7 +38,7 @@ float safe_time(TEX_IN(vertices), body a, body b, pose p, axis k, float t, float
 		return first_root(larger((base - b.radius) - 0.5f * slop, 0.0f), rate, bend);
 	float least = INFINITY;
 	for (int j = 0; j < b.count; j++) {
-		float2 v = vertex_load(TEX(vertices), b.first, j);
+		float2 v = vertex_load(VERTICES, b.first, j);
 		float gap = larger((base + inner(m, v)) - 0.5f * slop, 0.0f);
 		least = smaller(least, first_root(gap, rate + (p.wa - p.wb) * cross2(m, v), bend));
 	}
@@ -63,7 +63,7 @@ float circles_touch(body a, body b, float slop)
 }
 
 /* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch. */
-float4 search_separating(TEX_IN(vertices), body a, body b)
+float4 search_separating(VERTICES_IN, body a, body b)
 {
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
 	float t = circles_touch(a, b, slop);
@@ -71,11 +71,11 @@ float4 search_separating(TEX_IN(vertices), body a, body b)
 		if (!(t <= 1.0f))
 			return hit_none();
 		pose p = pose_at(a, b, t);
-		axis k = best_axis(TEX(vertices), a, b, p);
+		axis k = best_axis(VERTICES, a, b, p);
 		bool touching = k.gap <= slop;
-		if (touching && contact_approaches(contact_at(TEX(vertices), a, b, p, k, slop), stillness))
+		if (touching && contact_approaches(contact_at(VERTICES, a, b, p, k, slop), stillness))
 			return hit_at(t);
-		float safe = safe_time(TEX(vertices), a, b, p, k, t, slop);
+		float safe = safe_time(VERTICES, a, b, p, k, t, slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	return hit_pause(smaller(t, 1.0f));

@@ -2,7 +2,7 @@
  * first hit comes along, for the reduction. */
 
 /* The alternative's own: a texel of HitTimes for two bodies [2.1, Bisection1]. */
-float4 pair_first(TEX_IN(vertices), body a, body b, float4 rules);
+float4 pair_first(VERTICES_IN, body a, body b, float4 rules);
 
 /* One byte of four. */
 uint byte_of(uint4 texel, int k)
@@ -16,8 +16,8 @@ uint4 overlap_load(BYTES_IN(overlap), bool any_there, int column, int i)
 	return any_there ? BYTES_LOAD(overlap, column, i) : (uint4)(0u, 0u, 0u, 0u);
 }
 
-__kernel void toi_first(STATE_IN, TEX_IN(vertices), TEX_IN(clock), BYTES_IN(tiles), BYTES_IN(overlap), BYTES_IN(before), TEX_OUT(hits),
-	TEX_OUT(tile_hits), int4 domain)
+__kernel void toi_first(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), BYTES_IN(overlap), BYTES_IN(before), TEX_OUT(hits), TEX_OUT(tile_hits),
+	int4 domain)
 {
 	int column = get_global_id(0), row = get_global_id(1);
 	if (column >= domain.x || row >= domain.y || column > row)
@@ -41,7 +41,7 @@ __kernel void toi_first(STATE_IN, TEX_IN(vertices), TEX_IN(clock), BYTES_IN(tile
 				if (!byte_of(old, k))
 					continue;
 				if (byte_of(now, k))
-					hit = pair_first(TEX(vertices), a, body_load(STATE, j, length), rules);
+					hit = pair_first(VERTICES, a, body_load(STATE, j, length), rules);
 				TEX_STORE(hits, j, i, hit);
 				first = earlier(first, candidate(hit, j, i));
 			}

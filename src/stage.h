@@ -28,6 +28,7 @@ typedef enum carom_role {
 	ROLE_REDUCED,        /* pair: the level before and the level to make */
 	ROLE_IMPULSE,        /* 1 x 1 */
 	/* of the step events: records and lists, which a kernel may change in place wherever they stand */
+	ROLE_OUTLINES,   /* records, one a vertex of polygons */
 	ROLE_SLOTS,      /* pair of records, SLOT_WIDTH a slot: a slot is a body, sorted by place */
 	ROLE_NEED,       /* pair of lists, float bits: m, how far from its place a body needs to get */
 	ROLE_REACH,      /* records, one a slot */

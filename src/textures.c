@@ -28,7 +28,7 @@ static carom_texel_format format_of(carom_role role)
 {
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED)
 		return TEXELS_LIST;
-	if (role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK)
+	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -119,7 +119,7 @@ void carom_textures_destroy(carom_world *world)
 		world->device->kind->destroy(world->device, world->levels[i]);
 		world->levels[i] = NULL;
 	}
-	world->capacity = world->vertex_capacity = 0;
+	world->capacity = world->vertex_capacity = world->polygon_capacity = 0;
 	world->bodies_current = world->device_current = world->prepared = false;
 	world->events.loaded = world->events.ahead = false;
 	world->canvas = (carom_canvas){0};
@@ -145,17 +145,18 @@ carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t
 	return world->device->kind->run(world->device, stage, textures, domain, error);
 }
 
-static uint32_t texels_of(const carom_body *body)
+/* Texels of Vertices: those of polygons, as the host has them, come first. */
+static uint32_t polygon_texels(const carom_world *world)
 {
-	return (body->vertex_count + 1) / 2;
+	return (uint32_t)(world->vertices.used / (2 * sizeof(carom_vec2)));
 }
 
-static size_t vertex_texels(const carom_world *world)
+static uint32_t circle_texels(const carom_world *world)
 {
-	size_t texels = 0;
+	uint32_t circles = 0;
 	for (size_t i = 0; i < world->body_count; i++)
-		texels += texels_of(&carom_world_bodies(world)[i]);
-	return texels;
+		circles += carom_world_bodies(world)[i].vertex_count == 1;
+	return circles;
 }
 
 /* The textures that every step has. */
@@ -166,9 +167,11 @@ static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t v
 		carom_role role;
 		bool pair;
 	} a_body[] = {{ROLE_LINEAR, true}, {ROLE_ROTATIONAL, true}, {ROLE_GEOMETRY, false}, {ROLE_FORCES, false}};
+	const bool pairs = world->step->pairs;
 	carom_status status = CAROM_OK;
 	for (size_t i = 0; !status && i < sizeof a_body / sizeof *a_body; i++)
-		status = carom_textures_create(world, a_body[i].role, a_body[i].pair, carom_row_width(capacity), carom_row_count(capacity), zero, error);
+		status = carom_textures_create(world, a_body[i].role, a_body[i].pair && pairs, carom_row_width(capacity), carom_row_count(capacity), zero,
+			error);
 	if (!status)
 		status = carom_textures_create(world, ROLE_VERTICES, false, carom_row_width(vertex_capacity), carom_row_count(vertex_capacity), zero, error);
 	if (!status)
@@ -178,9 +181,9 @@ static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t v
 	return status;
 }
 
-uint64_t carom_textures_memory(size_t body_count, size_t vertex_count)
+uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs)
 {
-	uint64_t texels = (uint64_t)carom_capacity(body_count) * 6 + carom_capacity((vertex_count + body_count) / 2);
+	uint64_t texels = (uint64_t)carom_capacity(body_count) * (pairs ? 6 : 4) + carom_capacity((vertex_count + body_count) / 2);
 	return 16 * (texels + UNIFORMS_WIDTH + 2 * CLOCK_WIDTH);
 }
 
@@ -208,32 +211,22 @@ static void fill_uniforms(const carom_world *world, float *u)
 	rules[RULES_RESTITUTION] = def->restitution;
 }
 
-/* A circle's only vertex is (radius, 0). */
-static void fill_vertices(const carom_world *world, const carom_body *body, float *texels)
-{
-	const carom_vec2 *vertices = world->vertices.items;
-	if (body->vertex_count == 1)
-		texels[VERTICES_X0] = body->radius;
-	for (uint32_t i = 0; body->vertex_count > 1 && i < body->vertex_count; i++) {
-		texels[4 * (i / 2) + (i % 2 ? VERTICES_X1 : VERTICES_X0)] = vertices[body->vertex_first + i].x;
-		texels[4 * (i / 2) + (i % 2 ? VERTICES_Y1 : VERTICES_Y0)] = vertices[body->vertex_first + i].y;
-	}
-}
-
 static carom_status upload_bodies(carom_world *world, carom_error *error)
 {
 	float uniforms[4 * UNIFORMS_WIDTH] = {0};
 	size_t most = world->capacity > world->vertex_capacity ? world->capacity : world->vertex_capacity;
 	float *geometry = calloc(most, 4 * sizeof *geometry), *forces = calloc(most, 4 * sizeof *forces), *vertices = calloc(most, 4 * sizeof *vertices);
-	uint32_t next = 0;
+	uint32_t circle = polygon_texels(world);
 	carom_status status;
 	if (!geometry || !forces || !vertices) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
 		goto end;
 	}
+	if (circle)
+		memcpy(vertices, world->vertices.items, world->vertices.used);
 	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
-		geometry[4 * i + GEOMETRY_FIRST] = (float)next;
+		geometry[4 * i + GEOMETRY_FIRST] = (float)(body->vertex_count == 1 ? circle : body->vertex_first / 2);
 		geometry[4 * i + GEOMETRY_COUNT] = (float)body->vertex_count;
 		geometry[4 * i + GEOMETRY_MASS] = body->mass;
 		geometry[4 * i + GEOMETRY_INERTIA] = body->inertia;
@@ -241,8 +234,8 @@ static carom_status upload_bodies(carom_world *world, carom_error *error)
 		forces[4 * i + FORCES_Y] = body->force.y;
 		forces[4 * i + FORCES_TORQUE] = body->torque;
 		forces[4 * i + FORCES_RESTITUTION] = body->restitution;
-		fill_vertices(world, body, vertices + 4 * (size_t)next);
-		next += texels_of(body);
+		if (body->vertex_count == 1) /* its only vertex is (radius, 0) */
+			vertices[4 * (size_t)circle++ + VERTICES_X0] = body->radius;
 	}
 	fill_uniforms(world, uniforms);
 	status = upload(world, ROLE_GEOMETRY, world->capacity, geometry, error);
@@ -299,11 +292,13 @@ static carom_status unload(carom_world *world, carom_error *error)
 
 carom_status carom_textures_hold(carom_world *world, carom_error *error)
 {
-	uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(vertex_texels(world));
+	const uint32_t polygons = polygon_texels(world);
+	const uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(polygons + circle_texels(world));
+	const uint32_t polygon_capacity = polygons ? carom_capacity(polygons) : 0;
 	carom_status status = unload(world, error);
 	if (status)
 		return status;
-	if (capacity != world->capacity || vertex_capacity != world->vertex_capacity) {
+	if (capacity != world->capacity || vertex_capacity != world->vertex_capacity || polygon_capacity != world->polygon_capacity) {
 		carom_textures_destroy(world);
 		status = create_all(world, capacity, vertex_capacity, error);
 		if (status) {
@@ -312,6 +307,7 @@ carom_status carom_textures_hold(carom_world *world, carom_error *error)
 		}
 		world->capacity = capacity;
 		world->vertex_capacity = vertex_capacity;
+		world->polygon_capacity = polygon_capacity;
 	}
 	if (!world->bodies_current || !world->device_current)
 		world->events.loaded = false;

@@ -7,8 +7,7 @@
 #include "layout.h"
 #include "status.h"
 
-#define MAX_BODIES (1u << 22)   /* body indices and counts are exact as floats, and to spare */
-#define MAX_VERTICES (6u << 22) /* of polygons: with those of circles they take 2^24 texels at most, and so do the indices of these */
+#define MAX_BODIES (1u << 22) /* body indices and counts are exact as floats, and to spare */
 
 void *carom_array_grow(carom_array *array, size_t size)
 {
@@ -151,15 +150,13 @@ static bool append_state(carom_world *world, const carom_body_def *def, const ca
 
 static bool append_body(carom_world *world, const carom_body_def *def, carom_body *body, const carom_vec2 *vertices)
 {
-	size_t size = body->vertex_count > 1 ? body->vertex_count * sizeof *vertices : 0, name_size = def->name ? strlen(def->name) + 1 : 0;
+	size_t name_size = def->name ? strlen(def->name) + 1 : 0;
 	carom_body *slot = carom_array_grow(&world->bodies, sizeof *slot);
-	carom_vec2 *corner = carom_array_grow(&world->vertices, size);
 	char *name = carom_array_grow(&world->names, name_size);
-	if (!slot || (size && !corner) || (name_size && !name) || !append_state(world, def, body))
+	if (!slot || (name_size && !name) || !append_state(world, def, body))
 		return false;
-	body->vertex_first = (uint32_t)((world->vertices.used - size) / sizeof *vertices);
-	if (size)
-		memcpy(corner, vertices, size);
+	if (body->vertex_count > 1 && !carom_outlines_add(world, body, vertices))
+		return false;
 	if (name_size) {
 		memcpy(name, def->name, name_size);
 		body->name = world->names.used - name_size + 1;
@@ -179,8 +176,8 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	if (outside_room(&world->def, def->position))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].position: (%g, %g) is outside the room", index, (double)def->position.x,
 			(double)def->position.y);
-	if (body.vertex_count > 1 && world->vertices.used / sizeof *vertices + body.vertex_count > MAX_VERTICES)
-		return carom_fail(error, CAROM_LIMIT, "bodies[%zu]: a world holds at most %u vertices of polygons", index, MAX_VERTICES);
+	if (body.vertex_count > 1 && !carom_outlines_have_room(world, body.vertex_count))
+		return carom_fail(error, CAROM_LIMIT, "bodies[%zu]: a world holds at most %u vertices of polygons", index, CAROM_MOST_VERTICES);
 	if (!append_body(world, def, &body, vertices))
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for body %zu", index);
 	return CAROM_OK;
@@ -200,6 +197,7 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 		world->bodies.used = used[0];
 		world->vertices.used = used[1];
 		world->names.used = used[2];
+		memset(world->notes, 0, sizeof world->notes);
 		world->linear.used = used[3];
 		world->rotational.used = used[4];
 		world->body_count = before;
@@ -355,7 +353,7 @@ uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_
 	if (carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
 		return 0;
 	step = step_named(pipeline.step);
-	return carom_textures_memory(body_count, vertex_count) + step->memory(&pipeline, def, body_count);
+	return carom_textures_memory(body_count, vertex_count, step->pairs) + step->memory(&pipeline, def, body_count, vertex_count);
 }
 
 static uint64_t hash_float(uint64_t hash, float x)

@@ -11,7 +11,7 @@ typedef struct carom_body {
 	carom_shape shape;
 	float radius;                        /* as given; 0 for a polygon */
 	float bound;                         /* of the circle about the centre of mass */
-	uint32_t vertex_first, vertex_count; /* in world->vertices; count 1 and none there for a circle */
+	uint32_t vertex_first, vertex_count; /* in world->vertices, the first an even number; count 1 and none there for a circle */
 	float mass, inertia, density, restitution, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color;
@@ -34,6 +34,12 @@ typedef struct carom_pair {
 } carom_pair;
 
 #define CAROM_MAX_LEVELS 16
+#define CAROM_NOTES 256 /* polygons that others are compared with */
+
+/* Where one of them has its vertices; count 0: it is none. */
+typedef struct carom_note {
+	uint32_t first, count;
+} carom_note;
 
 /* What the step events has on the device, and how it is driven: none of it changes a result. */
 typedef struct carom_events {
@@ -66,7 +72,8 @@ struct carom_world {
 	carom_device *device;
 
 	carom_array bodies;   /* carom_body */
-	carom_array vertices; /* carom_vec2 */
+	carom_array vertices; /* carom_vec2, two a texel of Vertices: of polygons, an even number each; many of those that are equal share them */
+	carom_note notes[CAROM_NOTES];
 	carom_array names;
 	carom_array linear, rotational; /* four floats a body */
 	size_t body_count;
@@ -74,8 +81,9 @@ struct carom_world {
 	bool device_current; /* the device has the host's state */
 	bool host_current;   /* the host has the device's state */
 
-	uint32_t capacity;        /* bodies the textures hold, a power of two; 0 while there are none */
-	uint32_t vertex_capacity; /* texels of Vertices, likewise */
+	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
+	uint32_t vertex_capacity;  /* texels of Vertices, likewise, */
+	uint32_t polygon_capacity; /* and those of them that are polygons' */
 	carom_pair textures[ROLE_COUNT];
 	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
 	bool prepared;                           /* the step has its textures, too */
@@ -95,6 +103,14 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world *world
 	carom_error *error);
 carom_body *carom_world_bodies(const carom_world *world);
 
+/* outlines.c. Has the world room for so many vertices more? */
+#define CAROM_MOST_VERTICES (6u << 22) /* with those of circles they take 2^24 texels at most, and so do the indices of these */
+bool carom_outlines_have_room(const carom_world *world, uint32_t count);
+/* Keeps a polygon's vertices and sets body->vertex_first; false if there is no memory. */
+bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices);
+/* Fills in Outlines. */
+carom_status carom_outlines_send(carom_world *world, carom_error *error);
+
 /* textures.c: texels of a texture of one texel an item, folded into rows */
 uint32_t carom_row_width(uint32_t items);
 uint32_t carom_row_count(uint32_t items);
@@ -111,7 +127,7 @@ carom_status carom_textures_hold(carom_world *world, carom_error *error);
 carom_status carom_textures_update(carom_world *world, carom_error *error);
 /* Brings the state back to the host. */
 carom_status carom_textures_fetch(carom_world *world, carom_error *error);
-uint64_t carom_textures_memory(size_t body_count, size_t vertex_count);
+uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs);
 /* Runs a stage over the world's textures: fronts to read, backs to write. */
 carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w, carom_error *error);
 void carom_swap(carom_world *world, carom_role role);

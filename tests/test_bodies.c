@@ -334,11 +334,36 @@ static void the_rest_is_kept(void **unused)
 	carom_world_destroy(world);
 }
 
+/* Of 600 polygons, more than are remembered, each has its own vertices, and an equal one those of one before or a copy. */
+static void equal_polygons_share_vertices(void **unused)
+{
+	(void)unused;
+	carom_world *world = new_world();
+	carom_body_info info, twin;
+	carom_error error;
+	carom_body_def bad = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, -1.0f);
+	for (uint32_t i = 0; i < 600; i++) {
+		carom_body_def two[2] = {scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f + (float)(i / 5)), bad};
+		two[0].shape = CAROM_REGULAR;
+		two[0].sides = 3 + i % 5;
+		assert_int_equal(carom_world_add(world, two, 2, NULL, &error), CAROM_INVALID_ARGUMENT); /* and leaves nothing behind */
+		scenery_check(carom_world_add(world, two, 1, NULL, &error), &error);
+		scenery_check(carom_world_add(world, two, 1, NULL, &error), &error);
+	}
+	for (uint32_t i = 0; i < 600; i++) {
+		scenery_check(carom_world_get_body(world, 2 * i, &info, &error), &error);
+		scenery_check(carom_world_get_body(world, 2 * i + 1, &twin, &error), &error);
+		assert_int_equal(info.vertex_count, 3 + i % 5);
+		assert_true(info.vertices[0].x == 1.0f + (float)(i / 5) && info.vertices == twin.vertices);
+	}
+	carom_world_destroy(world);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_out_of_range), cmocka_unit_test(static_bodies_stand_still),
 		cmocka_unit_test(masses_have_reciprocals), cmocka_unit_test(shapes_out_of_range), cmocka_unit_test(polygons_that_are_none),
 		cmocka_unit_test(either_way_round), cmocka_unit_test(centre_of_mass_is_the_origin), cmocka_unit_test(regular_polygons),
-		cmocka_unit_test(discs_and_given_masses), cmocka_unit_test(the_rest_is_kept)};
+		cmocka_unit_test(discs_and_given_masses), cmocka_unit_test(the_rest_is_kept), cmocka_unit_test(equal_polygons_share_vertices)};
 	return cmocka_run_group_tests_name("bodies", tests, NULL, NULL);
 }

@@ -227,13 +227,14 @@ static uint64_t memory_taken(const carom_world_def *def, size_t count)
 {
 	carom_world *world = scenery_world(def, &scenery_devices[0]);
 	carom_device_class counting = *world->device->kind;
-	const carom_body_def body = scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f);
 	carom_error error;
 	real_create = counting.create;
 	counting.create = counting_create;
 	taken = 0;
-	for (size_t i = 0; i < count; i++)
+	for (size_t i = 0; i < count; i++) { /* each has vertices of its own */
+		const carom_body_def body = scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f + (float)i);
 		scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
+	}
 	world->device->kind = &counting;
 	scenery_check(carom_textures_update(world, &error), &error);
 	carom_world_destroy(world);

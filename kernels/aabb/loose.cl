@@ -1,6 +1,6 @@
 /* UpdateAABB [2.1], the cheaper way: the box about the four updated corners of the body's own box. */
 
-__kernel void aabb(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(aabb), int4 domain)
+__kernel void aabb(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(aabb), int4 domain)
 {
 	int i = get_global_id(0);
 	if (i >= domain.x)
@@ -8,9 +8,9 @@ __kernel void aabb(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(aabb), int
 	body k = body_load(STATE, i, step_length(TEX(uniforms), TEX(clock)));
 	float2 own_low = (float2)(-k.radius, -k.radius), own_high = (float2)(k.radius, k.radius);
 	if (k.count > 1) {
-		own_low = own_high = vertex_load(TEX(vertices), k.first, 0);
+		own_low = own_high = vertex_load(VERTICES, k.first, 0);
 		for (int j = 1; j < k.count; j++) {
-			float2 v = vertex_load(TEX(vertices), k.first, j);
+			float2 v = vertex_load(VERTICES, k.first, j);
 			own_low = (float2)(smaller(own_low.x, v.x), smaller(own_low.y, v.y));
 			own_high = (float2)(larger(own_high.x, v.x), larger(own_high.y, v.y));
 		}

@@ -1,10 +1,10 @@
 /* UpdateAABB [2.1]: the box about the updated vertices, over the whole step. */
 
-void enclose(TEX_IN(vertices), body k, float t, float2 *low, float2 *high)
+void enclose(VERTICES_IN, body k, float t, float2 *low, float2 *high)
 {
 	float2 x = place(k.x, k.v, k.a, t), rotation = body_rotation(k, t);
 	for (int j = 0; j < k.count; j++) {
-		float2 v = turn(rotation, vertex_load(TEX(vertices), k.first, j));
+		float2 v = turn(rotation, vertex_load(VERTICES, k.first, j));
 		*low = (float2)(smaller(low->x, x.x + v.x), smaller(low->y, x.y + v.y));
 		*high = (float2)(larger(high->x, x.x + v.x), larger(high->y, x.y + v.y));
 	}
@@ -17,7 +17,7 @@ void enclose_circle(body k, float t, float2 *low, float2 *high)
 	*high = (float2)(larger(high->x, x.x + k.radius), larger(high->y, x.y + k.radius));
 }
 
-__kernel void aabb(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(aabb), int4 domain)
+__kernel void aabb(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(aabb), int4 domain)
 {
 	int i = get_global_id(0);
 	if (i >= domain.x)
@@ -28,7 +28,7 @@ __kernel void aabb(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(aabb), int
 		if (k.count == 1)
 			enclose_circle(k, (float)end, &low, &high);
 		else
-			enclose(TEX(vertices), k, (float)end, &low, &high);
+			enclose(VERTICES, k, (float)end, &low, &high);
 	}
 	float pad = aabb_pad(k);
 	ROW_STORE(aabb, i, (float4)(low.x - pad, low.y - pad, high.x + pad, high.y + pad));

@@ -1,7 +1,6 @@
 /* All the hits of a step: bodies that hit form clusters, and each cluster is a queue of events that one work-item runs. */
 
-__kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents),
-	int4 domain)
+__kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	int s = get_global_id(0), wall;
 	bool pause;
@@ -11,7 +10,7 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
 	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
-	float t = wall_time(TEX(vertices), TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
+	float t = wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		activate(LISTS, owners, s, -1 - wall, t, pause, domain.z);
 	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
@@ -19,7 +18,7 @@ __kernel void events_seek(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), REC
 		if (boxes_apart(disc_k, slots, other, length)
 			|| stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
 			continue;
-		t = pair_time(TEX(vertices), slots, rules, s, k, other, trajectory_start(slots, other), length, &pause);
+		t = pair_time(VERTICES, slots, rules, s, k, other, trajectory_start(slots, other), length, &pause);
 		if (!(t <= 1.0f))
 			continue;
 		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
@@ -54,7 +53,7 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 	}
 }
 
-__kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
+__kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
 	LIST_OUT(need), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	if (PEEK(status, STATUS_ROUND) < domain.z)
@@ -63,11 +62,11 @@ __kernel void events_resolve(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), 
 	float length = step_length(TEX(uniforms), TEX(clock));
 	for (int id = get_global_id(0); id < seeds; id += get_global_size(0))
 		if (PEEK(members, MEMBER(id, MEMBER_HEAD)) >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
-			cluster_run(TEX(vertices), TEX(uniforms), slots, LISTS, work, reach, need, owners, parents, id, domain.z, length);
+			cluster_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, owners, parents, id, domain.z, length);
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
-__kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work), LIST_IN(owners),
+__kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work), LIST_IN(owners),
 	LIST_OUT(parents), int4 domain)
 {
 	if (PEEK(status, STATUS_ROUND) < domain.z)
@@ -87,7 +86,7 @@ __kernel void events_check(TEX_IN(vertices), TEX_IN(uniforms), TEX_IN(clock), RE
 			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
 			if (theirs == owner || PEEK(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
 				continue;
-			if (ways_meet(TEX(vertices), slots, members, work, rules, s, id, other, other_id, length))
+			if (ways_meet(VERTICES, slots, members, work, rules, s, id, other, other_id, length))
 				conflict(status, members, active, parents, owner, theirs, domain.z);
 		}
 	}

@@ -13,12 +13,12 @@ __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(statu
 	pace_choose(slots, domain.z, window, status);
 }
 
-__kernel void neighbours_reach(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need), LIST_OUT(status), LIST_OUT(spans), LIST_OUT(cells), int4 domain)
+__kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST_OUT(status), LIST_OUT(spans), LIST_OUT(cells), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x)
 		return;
-	float4 box = reach_box(TEX(vertices), slots, s, as_float(need[s]), status), at = SLOT_LOAD(slots, s, SLOT_PLACE);
+	float4 box = reach_box(VERTICES, slots, s, as_float(need[s]), status), at = SLOT_LOAD(slots, s, SLOT_PLACE);
 	int level = reach_level(box, at, as_float(status[STATUS_CELL]));
 	int cell = cell_index(cell_of((float2)(at.x, at.y), level_side(status, level)), level, domain.z, domain.w);
 	spans[SPAN(s, SPAN_CELL)] = cell;
@@ -44,8 +44,8 @@ __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 	}
 }
 
-__kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells),
-	RECORD_OUT(new_slots), LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+__kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells), RECORD_OUT(new_slots),
+	LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x)
@@ -53,7 +53,7 @@ __kernel void neighbours_sort(TEX_IN(vertices), RECORD_IN(slots), LIST_IN(need),
 	int to = atomic_inc(&cells[CELL_WIDTH * spans[SPAN(s, SPAN_CELL)] + CELL_END]);
 	for (int k = 0; k < SLOT_WIDTH; k++)
 		new_slots[SLOT_WIDTH * to + k] = SLOT_LOAD(slots, s, k);
-	reach[to] = reach_box(TEX(vertices), slots, s, as_float(need[s]), status);
+	reach[to] = reach_box(VERTICES, slots, s, as_float(need[s]), status);
 	new_need[to] = status[STATUS_COMMIT] ? 0 : need[s];
 	member_reset(members, to);
 	owners[to] = -1;

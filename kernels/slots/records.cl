@@ -14,7 +14,7 @@ __kernel void slots_load(STATE_IN, RECORD_OUT(slots), LIST_OUT(need), int4 domai
 	slots[SLOT_WIDTH * i + SLOT_PLACE] = ROW_LOAD(linear, i);
 	slots[SLOT_WIDTH * i + SLOT_TURN] = (float4)(CHANNEL(r, ROTATIONAL_ANGLE), CHANNEL(r, ROTATIONAL_VELOCITY), CHANNEL(r, ROTATIONAL_RADIUS),
 		CHANNEL(f, FORCES_RESTITUTION));
-	slots[SLOT_WIDTH * i + SLOT_MASS] = (float4)(inverse_mass, inverse_inertia, CHANNEL(g, GEOMETRY_FIRST), CHANNEL(g, GEOMETRY_COUNT));
+	slots[SLOT_WIDTH * i + SLOT_MASS] = (float4)(inverse_mass, inverse_inertia, 2.0f * CHANNEL(g, GEOMETRY_FIRST), CHANNEL(g, GEOMETRY_COUNT));
 	slots[SLOT_WIDTH * i + SLOT_PUSH] = push;
 	need[i] = 0;
 }

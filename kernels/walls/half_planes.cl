@@ -11,7 +11,7 @@ float circle_wall(body k, float2 n, float offset)
 	return t;
 }
 
-float wall_safe_time(TEX_IN(vertices), body k, float2 n, float offset, float t, float slop)
+float wall_safe_time(VERTICES_IN, body k, float2 n, float offset, float t, float slop)
 {
 	float rest = 1.0f - t, spin = magnitude(k.w + t * k.b) + magnitude(k.b) * rest;
 	float bend = ((spin * spin) * k.radius + norm(k.a)) + magnitude(k.b) * k.radius;
@@ -19,7 +19,7 @@ float wall_safe_time(TEX_IN(vertices), body k, float2 n, float offset, float t, 
 	float2 v = (float2)(k.v.x + t * k.a.x, k.v.y + t * k.a.y);
 	float base = inner(n, x) - offset, rate = inner(n, v), w = k.w + t * k.b, least = INFINITY;
 	for (int j = 0; j < k.count; j++) {
-		float2 p = vertex_load(TEX(vertices), k.first, j);
+		float2 p = vertex_load(VERTICES, k.first, j);
 		float gap = larger((base + inner(m, p)) - 0.5f * slop, 0.0f);
 		least = smaller(least, first_root(gap, rate - w * cross2(m, p), bend));
 	}
@@ -27,7 +27,7 @@ float wall_safe_time(TEX_IN(vertices), body k, float2 n, float offset, float t, 
 }
 
 /* As for pairs: conservative advancement. *done is 0 if the search was not finished. */
-float polygon_wall(TEX_IN(vertices), body k, float2 n, float offset, float *done)
+float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 {
 	float slop = wall_slop(k), stillness = wall_stillness(k), t = 0.0f;
 	if (((inner(n, k.x) - offset) - k.radius) - (norm(k.v) + norm(k.a)) > slop)
@@ -37,18 +37,18 @@ float polygon_wall(TEX_IN(vertices), body k, float2 n, float offset, float *done
 		if (!(t <= 1.0f))
 			return INFINITY;
 		float2 m = turn_back(body_rotation(k, t), n);
-		float gap = (inner(n, place(k.x, k.v, k.a, t)) - offset) + lowest(TEX(vertices), k, m, &deepest);
+		float gap = (inner(n, place(k.x, k.v, k.a, t)) - offset) + lowest(VERTICES, k, m, &deepest);
 		bool touching = gap <= slop;
-		if (touching && contact_approaches(wall_contact(TEX(vertices), k, n, t, slop), stillness))
+		if (touching && contact_approaches(wall_contact(VERTICES, k, n, t, slop), stillness))
 			return t;
-		float safe = wall_safe_time(TEX(vertices), k, n, offset, t, slop);
+		float safe = wall_safe_time(VERTICES, k, n, offset, t, slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	*done = 0.0f;
 	return smaller(t, 1.0f);
 }
 
-__kernel void walls(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(walls), int4 domain)
+__kernel void walls(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(walls), int4 domain)
 {
 	int group = get_global_id(0), count = domain.z;
 	if (group >= domain.x)
@@ -64,7 +64,7 @@ __kernel void walls(STATE_IN, TEX_IN(vertices), TEX_IN(clock), TEX_OUT(walls), i
 		for (int wall = 0; wall < 4; wall++) {
 			float offset, done = 1.0f;
 			float2 n = wall_normal(room, wall, &offset);
-			float t = k.count == 1 ? circle_wall(k, n, offset) : polygon_wall(TEX(vertices), k, n, offset, &done);
+			float t = k.count == 1 ? circle_wall(k, n, offset) : polygon_wall(VERTICES, k, n, offset, &done);
 			if (t <= 1.0f && t < CHANNEL(first, WALLS_HIT))
 				first = (float4)(t, (float)i, (float)wall, done);
 		}

@@ -129,8 +129,9 @@ carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_devic
 	carom_status status = collect(&all, &def->pipeline, draws, error);
 	if (status)
 		goto end;
-	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s", images ? " -DCAROM_IMAGES" : "",
-		def->count_reads ? " -DCAROM_COUNT_READS" : "", exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
+	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s%s", images ? " -DCAROM_IMAGES" : "",
+		!strcmp(carom_pipeline_get(&def->pipeline, "step"), "events") ? " -DCAROM_OUTLINES" : "", def->count_reads ? " -DCAROM_COUNT_READS" : "",
+		exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
 	built = cl->clCreateProgramWithSource(context, (cl_uint)all.count, (const char **)all.text, NULL, &code);
 	if (built)
 		code = cl->clBuildProgram(built, 1, &device, options, NULL, NULL);

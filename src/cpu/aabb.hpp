@@ -32,7 +32,7 @@ template <typename T, typename Hold> void find_boxes(const Job<T> &job, Hold hol
 	const Texels<T> boxes = job.texels(STATE_COUNT + 2);
 	job.pool.run(job.domain[0], 256, [&](int32_t begin, int32_t end) {
 		for (int32_t i = begin; i < end; i++) {
-			const Convex<T> convex = shapes.convex(i);
+			const HeldConvex<T> convex = shapes.convex(i);
 			Box<T> box;
 			hold(box, convex, T(0));
 			hold(box, convex, T(1));

@@ -28,13 +28,48 @@ template <typename T> Vec<T> vertex_at(const Texels<T> &vertices, int32_t first,
 				 : Vec<T>(vertices.of(texel, VERTICES_X0), vertices.of(texel, VERTICES_Y0));
 }
 
-/* A body with its vertices at hand. */
-template <typename T> struct Convex : Body<T> {
-	Eigen::Matrix<T, 2, Eigen::Dynamic, Eigen::ColMajor | Eigen::DontAlign, 2, CAROM_MAX_VERTICES> vertices;
+/* A vertex, and the outward normal of the side that follows it, 1 long: as records of Outlines lie in memory. */
+template <typename T> struct Corner {
+	Vec<T> vertex, normal;
+};
 
-	Vec<T> vertex(int32_t k) const { return vertices.col(k); }
+static_assert(sizeof(Corner<float>) == 4 * sizeof(float), "records");
+
+template <typename T> Vec<T> side_normal(const Vec<T> &from, const Vec<T> &to)
+{
+	const Vec<T> edge = to - from;
+	const T s = norm(edge);
+	return {edge.y() / s, -edge.x() / s};
+}
+
+/* A body with its corners at hand; a circle has none. */
+template <typename T> struct Convex : Body<T> {
+	const Corner<T> *corners;
+
+	Vec<T> vertex(int32_t k) const { return corners[k].vertex; }
+	Vec<T> normal(int32_t k) const { return corners[k].normal; }
 	int32_t after(int32_t k) const { return k + 1 == this->count ? 0 : k + 1; }
 	int32_t before(int32_t k) const { return k == 0 ? this->count - 1 : k - 1; }
+};
+
+/* One that holds its corners itself. */
+template <typename T> struct HeldConvex : Convex<T> {
+	HeldConvex(const Body<T> &body, const Texels<T> &vertices)
+	{
+		static_cast<Body<T> &>(*this) = body;
+		this->corners = held;
+		if (body.count == 1)
+			return;
+		for (int32_t k = 0; k < body.count; k++)
+			held[k].vertex = vertex_at(vertices, body.first, k);
+		for (int32_t k = 0; k < body.count; k++)
+			held[k].normal = side_normal<T>(this->vertex(k), this->vertex(this->after(k)));
+	}
+	HeldConvex(const HeldConvex &) = delete;
+	HeldConvex &operator=(const HeldConvex &) = delete;
+
+private:
+	Corner<T> held[CAROM_MAX_VERTICES];
 };
 
 /* The bodies of a step of `length` seconds. */
@@ -92,15 +127,7 @@ template <typename T> class Shapes : public State<T>
 public:
 	Shapes(const Job<T> &job, T step_length) : State<T>(job, step_length), vertices(job.texels(STATE_COUNT)) {}
 
-	Convex<T> convex(int32_t i) const
-	{
-		Convex<T> convex;
-		static_cast<Body<T> &>(convex) = this->body(i);
-		convex.vertices.resize(2, convex.count);
-		for (int32_t k = 0; k < convex.count; k++)
-			convex.vertices.col(k) = vertex_at(vertices, convex.first, k);
-		return convex;
-	}
+	HeldConvex<T> convex(int32_t i) const { return HeldConvex<T>(this->body(i), vertices); }
 
 private:
 	const Texels<T> vertices;

@@ -79,10 +79,8 @@ template <typename T> Axis<T> face_axis(const Convex<T> &a, const Convex<T> &b, 
 {
 	Axis<T> best{};
 	for (int32_t e = 0; e < a.count; e++) {
-		Vec<T> from = a.vertex(e), edge = a.vertex(a.after(e)) - from;
-		T s = norm(edge);
-		Vec<T> n(edge.y() / s, -edge.x() / s);
-		Axis<T> axis = axis_along(b, pose, n, inner(n, from), e);
+		const Vec<T> n = a.normal(e);
+		Axis<T> axis = axis_along(b, pose, n, inner(n, a.vertex(e)), e);
 		if (e == 0 || axis.gap > best.gap)
 			best = axis;
 	}

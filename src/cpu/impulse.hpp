@@ -37,7 +37,7 @@ template <typename T> struct Impulses {
 
 template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
 {
-	const Convex<T> body = shapes.convex(hit.row);
+	const HeldConvex<T> body = shapes.convex(hit.row);
 	T restitution = larger(shapes.restitution(hit.row), shapes.rule(RULES_RESTITUTION));
 	return {wall_contact(body, room_wall(shapes, hit.wall()), hit.time, wall_slop(body)), wall_stillness(body), restitution, 0, body.inverse_mass, 0,
 		body.inverse_inertia};
@@ -45,7 +45,7 @@ template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const
 
 template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
 {
-	const Convex<T> a = shapes.convex(hit.row), b = shapes.convex(hit.column);
+	const HeldConvex<T> a = shapes.convex(hit.row), b = shapes.convex(hit.column);
 	const Pose<T> at_hit = pose(a, b, hit.time);
 	const Axis<T> axis = best_axis(a, b, at_hit);
 	const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;

@@ -72,7 +72,7 @@ template <typename T> struct ReachRules {
 	T window, pace;
 };
 
-template <typename T> Box<T> static_box(const Slot<T> &slot, const Texels<T> &vertices)
+template <typename T> Box<T> static_box(const Slot<T> &slot, const Corner<T> *corners)
 {
 	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y], pad = (std::abs(x) + std::abs(y) + slot.radius()) * T(4 * SLOP);
 	const int32_t count = static_cast<int32_t>(slot.mass[MASS_COUNT]), first = static_cast<int32_t>(slot.mass[MASS_FIRST]);
@@ -80,16 +80,16 @@ template <typename T> Box<T> static_box(const Slot<T> &slot, const Texels<T> &ve
 	Box<T> box{x, y, x, y};
 	const Vec<T> rotation = rotation_of(slot.turn[TURN_ANGLE]);
 	for (int32_t k = 0; count > 1 && k < count; k++) {
-		const Vec<T> v = turn(rotation, vertex_at(vertices, first, k));
+		const Vec<T> v = turn(rotation, corners[first + k].vertex);
 		box = {std::min(box.min_x, x + v.x()), std::min(box.min_y, y + v.y()), std::max(box.max_x, x + v.x()), std::max(box.max_y, y + v.y())};
 	}
 	return {box.min_x - grow, box.min_y - grow, box.max_x + grow, box.max_y + grow};
 }
 
-template <typename T> Box<T> reach_box(const Slot<T> &slot, T need, const ReachRules<T> &rules, const Texels<T> &vertices)
+template <typename T> Box<T> reach_box(const Slot<T> &slot, T need, const ReachRules<T> &rules, const Corner<T> *corners)
 {
 	if (slot.is_static())
-		return static_box(slot, vertices);
+		return static_box(slot, corners);
 	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
 	const T speed = std::hypot(slot.place[LINEAR_VX], slot.place[LINEAR_VY]) + std::hypot(slot.push[PUSH_X], slot.push[PUSH_Y]) * rules.window;
 	T way = std::max(std::max(rules.pace, speed_margin * speed * rules.window), speed_margin * need);

@@ -143,10 +143,11 @@ template <typename T> struct Mover {
 template <typename T> class Bodies : public Mover<T>
 {
 public:
-	/* The kernel's first textures are Vertices, Uniforms and the clock, the next the slots. */
+	/* The kernel's first textures are Outlines, Uniforms and the clock, the next the slots. */
 	explicit Bodies(const Job<T> &job)
 		: Mover<T>{step_length(job.texels(2), job.texels(1))}, slots(reinterpret_cast<Slot<T> *>(job.records(3))), functions(job.functions),
-		  inside(job.inside), uniforms(job.texels(1)), vertices(job.texels(0)), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
+		  inside(job.inside), uniforms(job.texels(1)),
+		  corners(reinterpret_cast<const Corner<T> *>(job.records(0))), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
 		  has_room(rule(RULES_HAS_ROOM) > 0)
 	{
 	}
@@ -157,9 +158,7 @@ public:
 	void fill(Convex<T> &convex, const Slot<T> &slot, const Trajectory<T> &way) const
 	{
 		static_cast<Body<T> &>(convex) = this->body(slot, way);
-		convex.vertices.resize(2, convex.count);
-		for (int32_t k = 0; convex.count > 1 && k < convex.count; k++)
-			convex.vertices.col(k) = vertex_at(vertices, convex.first, k);
+		convex.corners = corners + convex.first;
 	}
 
 	/* A hit, or only a pause of the search for one. */
@@ -219,7 +218,8 @@ private:
 			&& std::max(disc.x, disc.x + disc.vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y, disc.y + disc.vy) + pad <= room(ROOM_MAX_Y);
 	}
 
-	const Texels<T> uniforms, vertices;
+	const Texels<T> uniforms;
+	const Corner<T> *const corners;
 	const SearchRules<T> rules;
 	const bool has_room;
 };

@@ -123,7 +123,7 @@ template <typename T, typename Find> void find_hits(const Job<T> &job, Find find
 	search_tiles(job, TOI_COUNT, [&](int32_t row, int32_t column, bool now) {
 		if (!now || (shapes.is_static(row) && shapes.is_static(column)))
 			return no_hit<T>();
-		const Convex<T> a = shapes.convex(row), b = shapes.convex(column);
+		const HeldConvex<T> a = shapes.convex(row), b = shapes.convex(column);
 		return find(Pair<T>(a, b, job.inside));
 	});
 }

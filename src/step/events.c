@@ -116,6 +116,7 @@ static carom_status begin(carom_world *world, carom_error *error)
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
 	status[STATUS_NUMBERS] = (int32_t)numbers_of(world->capacity);
 	TRY(send_status(world, status, error));
+	TRY(carom_outlines_send(world, error));
 	TRY(carom_run(world, STAGE_LOAD, (int32_t)world->body_count, 1, 0, 0, error));
 	carom_swap(world, ROLE_SLOTS);
 	carom_swap(world, ROLE_NEED);
@@ -201,14 +202,15 @@ static void choose_cells(carom_events *events, uint32_t capacity)
 }
 
 /* Neighbours have the room that they begin with: what more they need depends on how crowded it is. */
-static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count)
+static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	const uint64_t n = carom_capacity(body_count), records = 2 * SLOT_WIDTH + 1, lists = 2 + 2 + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
 	carom_events cells = {0};
 	(void)pipeline;
 	(void)def;
+	const uint64_t corners = vertex_count > body_count ? 2 * (uint64_t)carom_capacity((vertex_count + body_count) / 2) : 1;
 	choose_cells(&cells, (uint32_t)n);
-	return n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
+	return 16 * corners + n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
 		+ 4 * (CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
 }
 
@@ -218,6 +220,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	carom_events *events = &world->events;
 	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 2, .rounds = 2};
 	choose_cells(events, world->capacity);
+	TRY(create_list(world, ROLE_OUTLINES, false, world->polygon_capacity ? 2 * (uint64_t)world->polygon_capacity : 1, error));
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEED, true, n, error));
 	TRY(create_list(world, ROLE_REACH, false, n, error));
@@ -233,4 +236,4 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	return create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }
 
-const carom_step carom_step_events = {"events", prepare, run, begin, finish, unload, memory};
+const carom_step carom_step_events = {"events", false, prepare, run, begin, finish, unload, memory};

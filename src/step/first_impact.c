@@ -111,10 +111,11 @@ static uint64_t levels_memory(const carom_pipeline *pipeline, uint64_t capacity)
 	return all;
 }
 
-static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count)
+static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	uint64_t n = carom_capacity(body_count), pairs = n * n;
 	uint64_t hit_times = 16 * pairs * (extra_passes(pipeline, def) > 0 ? 2 : 1);
+	(void)vertex_count;
 	return hit_times + 2 * pairs + levels_memory(pipeline, n) + (16 + 8) * pairs / (TILE * TILE) + 16 * (n + n / WALLS_GROUP + 1);
 }
 
@@ -124,7 +125,7 @@ static bool fits(const carom_world *world, uint64_t capacity)
 	const carom_device_info *info = &world->device->info;
 	const bool has_sides = world->device->storage == CAROM_STORAGE_IMAGE || !info->is_opencl;
 	return (!has_sides || capacity <= info->max_image_size) && 16 * capacity * capacity <= info->max_allocation
-		&& memory(&world->pipeline, &world->def, capacity) <= info->memory;
+		&& memory(&world->pipeline, &world->def, capacity, 0) <= info->memory;
 }
 
 /* Asked for first, so that a scene too large fails at once and without filling the memory. */
@@ -165,4 +166,4 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	return CAROM_OK;
 }
 
-const carom_step carom_step_first_impact = {"first_impact", prepare, run, NULL, NULL, NULL, memory};
+const carom_step carom_step_first_impact = {"first_impact", true, prepare, run, NULL, NULL, NULL, memory};

@@ -8,6 +8,7 @@ struct carom_world;
 
 typedef struct carom_step {
 	const char *name;
+	bool pairs; /* it writes Linear and Rotational while it reads them */
 	/* Creates what the step needs besides the textures of the state; CAROM_LIMIT says which texture is too large. */
 	carom_status (*prepare)(struct carom_world *world, carom_error *error);
 	/* Hands one step to the device, from the world's front textures to its back textures, and swaps them. Never waits. */
@@ -18,7 +19,7 @@ typedef struct carom_step {
 	/* Brings the textures of the state up to date, of a step that keeps the state elsewhere (world->events.ahead). */
 	carom_status (*unload)(struct carom_world *world, carom_error *error);
 	/* Bytes of what prepare creates. */
-	uint64_t (*memory)(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count);
+	uint64_t (*memory)(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count);
 } carom_step;
 
 extern const carom_step carom_step_first_impact, carom_step_events;

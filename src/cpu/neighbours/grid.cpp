@@ -49,7 +49,7 @@ template <typename T> static ReachRules<T> reach_rules(const int32_t *status)
 
 template <typename T> static void reach(const Job<T> &job)
 {
-	const Texels<T> vertices = job.texels(0);
+	const Corner<T> *corners = reinterpret_cast<const Corner<T> *>(job.records(0));
 	const Slot<T> *slots = slots_of(job, 1);
 	const int32_t *need = job.list(2);
 	int32_t *status = job.list(3), *cells = job.list(5);
@@ -60,7 +60,7 @@ template <typename T> static void reach(const Job<T> &job)
 		int32_t levels = 0;
 		for (int32_t s = begin; s < end; s++) {
 			const T *place = slots[s].place;
-			const int32_t level = grid.level_of(reach_box(slots[s], T(as_float(need[s])), rules, vertices).half(place));
+			const int32_t level = grid.level_of(reach_box(slots[s], T(as_float(need[s])), rules, corners).half(place));
 			const Cell at = grid.cell_at(place[0], place[1], level);
 			spans[s].found = grid.row_of(at.y, level) + grid.column_of(at.x, level);
 			fetch_add(&cells[CELL_WIDTH * spans[s].found + CELL_COUNT], 1);
@@ -91,7 +91,7 @@ template <typename T> static void cells(const Job<T> &job)
 
 template <typename T> static void sort(const Job<T> &job)
 {
-	const Texels<T> vertices = job.texels(0);
+	const Corner<T> *corners = reinterpret_cast<const Corner<T> *>(job.records(0));
 	const Slot<T> *slots = slots_of(job, 1);
 	Slot<T> *to = slots_of(job, 6);
 	Box<T> *boxes = reinterpret_cast<Box<T> *>(job.records(8));
@@ -107,7 +107,7 @@ template <typename T> static void sort(const Job<T> &job)
 		for (int32_t s = begin; s < end; s++) {
 			const int32_t place = fetch_add(&all[CELL_WIDTH * spans[s].found + CELL_END], 1);
 			to[place] = slots[s];
-			boxes[place] = reach_box(slots[s], T(as_float(need[s])), rules, vertices);
+			boxes[place] = reach_box(slots[s], T(as_float(need[s])), rules, corners);
 			new_need[place] = forget ? 0 : need[s];
 			members[place].reset();
 			owners[place] = -1;

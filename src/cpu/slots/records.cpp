@@ -26,7 +26,7 @@ template <typename T> static void load(const Job<T> &job)
 			slot.turn[TURN_RESTITUTION] = state.restitution(i);
 			slot.mass[MASS_INVERSE] = im;
 			slot.mass[MASS_INVERSE_INERTIA] = ii;
-			slot.mass[MASS_FIRST] = state.geometry.of(i, GEOMETRY_FIRST);
+			slot.mass[MASS_FIRST] = 2 * state.geometry.of(i, GEOMETRY_FIRST);
 			slot.mass[MASS_COUNT] = state.geometry.of(i, GEOMETRY_COUNT);
 			const bool moves = im > 0;
 			slot.push[PUSH_X] = moves ? state.world(WORLD_GRAVITY_X) + state.forces.of(i, FORCES_X) * im : 0;

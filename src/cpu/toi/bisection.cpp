@@ -79,7 +79,7 @@ template <typename T> static void next(const Job<T> &job)
 			front.at(column, row, HITTIMES_HIT)};
 		if (hit.done != 0)
 			return hit;
-		const Convex<T> a = shapes.convex(row), b = shapes.convex(column);
+		const HeldConvex<T> a = shapes.convex(row), b = shapes.convex(column);
 		return bisect(Pair<T>(a, b, job.inside), hit.min, hit.max, rules);
 	});
 }

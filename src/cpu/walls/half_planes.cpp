@@ -75,7 +75,7 @@ template <typename T> static void find_first(GroupHit<T> &first, const Shapes<T>
 {
 	if (shapes.is_static(i))
 		return;
-	const Convex<T> convex = shapes.convex(i);
+	const HeldConvex<T> convex = shapes.convex(i);
 	for (int32_t k = 0; k < wall_count; k++) {
 		Wall<T> wall = room_wall(shapes, k);
 		WallHit<T> hit = body_hit(convex, wall);

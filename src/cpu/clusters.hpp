@@ -1,0 +1,104 @@
+/* The clusters of the step events: CONTRACT.md, "The step events". */
+#ifndef CAROM_CPU_CLUSTERS_HPP
+#define CAROM_CPU_CLUSTERS_HPP
+
+#include "cpu/reach.hpp"
+
+namespace carom::cpu {
+
+/* A body that no event has changed yet. */
+template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<T> &slot)
+{
+	work.keep(Trajectory<T>(slot));
+	work.next[NEXT_TIME] = NO_HIT;
+	work.box[0] = work.box[2] = slot.place[LINEAR_X];
+	work.box[1] = work.box[3] = slot.place[LINEAR_Y];
+	member.events = member.rapid = member.hits = 0;
+}
+
+/* What the threads that run clusters share. A number belongs to one cluster; only its thread changes what it numbers, but for what is
+ * reached by the atomic functions here. */
+template <typename T> class Clusters : public Bodies<T>
+{
+public:
+	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active, found; owners and parents last. */
+	Clusters(const Job<T> &job, int owners_at)
+		: Bodies<T>(job), spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
+		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at)), parents(job.list(owners_at + 1)),
+		  found(reinterpret_cast<FoundHit *>(job.list(9)))
+	{
+	}
+
+	bool ready() const { return this->length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL]; }
+
+	int32_t root_of(int32_t s) const
+	{
+		for (int32_t parent; (parent = __atomic_load_n(&parents[s], __ATOMIC_ACQUIRE)) != s;)
+			s = parent;
+		return s;
+	}
+
+	void unite(int32_t a, int32_t b) const
+	{
+		while ((a = root_of(a)) != (b = root_of(b))) {
+			int32_t child = std::max(a, b);
+			const int32_t hook = child;
+			if (__atomic_compare_exchange_n(&parents[hook], &child, std::min(a, b), false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE))
+				return;
+		}
+	}
+
+	/* A body has a hit as the step begins, and so a number; others may ask for it when the kernel has ended. */
+	void activate(int32_t s, int32_t partner, const typename Bodies<T>::Found &hit, int32_t round) const
+	{
+		keep(s, partner, hit);
+		if (__atomic_load_n(&owners[s], __ATOMIC_RELAXED) != -1 || !take(s, -2))
+			return;
+		const int32_t id = fetch_add(&status[STATUS_ACTIVE], 1);
+		active[id] = s;
+		members[id].owner = id;
+		members[id].round = round;
+		__atomic_store_n(&owners[s], id, __ATOMIC_RELEASE);
+		__atomic_store_n(&status[STATUS_ROUND], round, __ATOMIC_RELAXED);
+	}
+
+	/* What the body hits at first. In double (the tests' oracle) times have no room here, and are found again. */
+	void keep(int32_t s, int32_t partner, const typename Bodies<T>::Found &hit) const
+	{
+		const int32_t k = fetch_add(&status[STATUS_FOUND], 1);
+		if (sizeof(T) != sizeof(float) || k >= status[STATUS_NODE_ROOM] * NODE_WIDTH / FOUND_WIDTH) {
+			__atomic_store_n(&spans[s].found, FOUND_NO_ROOM, __ATOMIC_RELAXED);
+			return;
+		}
+		const float time = static_cast<float>(hit.time);
+		found[k] = {partner, as_bits(hit.is_pause ? -time : time), __atomic_exchange_n(&spans[s].found, k, __ATOMIC_RELAXED)};
+	}
+
+	bool take(int32_t s, int32_t id) const
+	{
+		int32_t nobody = -1;
+		return __atomic_compare_exchange_n(&owners[s], &nobody, id, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE);
+	}
+
+	/* The two are one in the next round. */
+	void conflict(int32_t a, int32_t b, int32_t round) const
+	{
+		unite(active[a], active[b]);
+		for (int32_t leader : {a, b}) {
+			__atomic_store_n(&members[leader].round, round + 1, __ATOMIC_RELAXED);
+			__atomic_store_n(&members[leader].head, -1, __ATOMIC_RELAXED);
+		}
+		__atomic_store_n(&status[STATUS_ROUND], round + 1, __ATOMIC_RELAXED);
+	}
+
+	Span *const spans;
+	const int32_t *const neighbours;
+	int32_t *const status;
+	Member *const members;
+	int32_t *const active, *const owners, *const parents;
+	FoundHit *const found;
+};
+
+}
+
+#endif
