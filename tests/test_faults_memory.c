@@ -46,6 +46,43 @@ static void lists_that_grow(void **unused)
 	assert_true(grown > 0);
 }
 
+/* On the CPU device's own threads: a world of its own for each, since threads keep what they have. */
+static void threads_that_run_out(void **unused)
+{
+	(void)unused;
+	enum { BODIES = 400, STEPS = 2 };
+	static carom_body_def bodies[BODIES];
+	carom_world_def def = runs_room(20.0f, 20.0f);
+	scenery_random random = {1};
+	uint64_t hashes[STEPS + 1] = {0};
+	const char *failed = "";
+	int on_threads = 0;
+	def.threads = 3;
+	def.time_step = 0.0625f;
+	scenery_bodies(&random, SCENERY_MIXED, BODIES, 1.4f, 6.0f, bodies);
+	for (uint64_t n = 0; failed; n++) { /* the first is but looked at */
+		carom_world *world = runs_world(&def, &scenery_devices[0], bodies, BODIES);
+		carom_report report = {0};
+		carom_error error;
+		for (int i = 0; n == 0 && i <= STEPS; i++) {
+			hashes[i] = runs_hash(world);
+			runs_step(world, i < STEPS);
+		}
+		faults_arm(FAULTS_MEMORY, n, 0);
+		const carom_status status = n ? carom_world_step(world, STEPS, &report, &error) : CAROM_OK;
+		failed = n ? faults_disarm() : "";
+		if (n && (status || failed)) {
+			there_is_no_memory(failed, status, &error);
+			on_threads += strstr(error.text, "the stage ") != NULL;
+			assert_true(status && runs_hash(world) == hashes[report.steps]);
+			runs_step(world, STEPS - report.steps);
+		}
+		assert_true(runs_hash(world) == hashes[STEPS]);
+		carom_world_destroy(world);
+	}
+	assert_true(on_threads > 0);
+}
+
 /* To a world that has run. */
 static void bodies_are_added_all_or_none(void **unused)
 {
@@ -85,6 +122,6 @@ static void bodies_are_added_all_or_none(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow),
-		cmocka_unit_test(bodies_are_added_all_or_none)};
+		cmocka_unit_test(threads_that_run_out), cmocka_unit_test(bodies_are_added_all_or_none)};
 	return cmocka_run_group_tests_name("faults_memory", tests, walk_make_folder, walk_remove_folder);
 }

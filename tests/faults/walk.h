@@ -9,7 +9,8 @@
 /* Judges an error, given the name of the call that failed. */
 typedef void walk_judge(const char *call, carom_status status, const carom_error *error);
 
-/* Reads a scene, lists the devices, and makes a world: the n-th call of the kind fails, for every n. Nothing may be left over. */
+/* Reads a scene, makes a world and draws it: the n-th call of the kind fails, for every n. Nothing may be left over, and what could not be
+ * drawn can be, when it is tried again. */
 void walk_opening(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge);
 
 /* Steps, measures, hashes, writes and draws a world that has no textures yet, likewise. After a failure the state is that after the
