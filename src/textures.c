@@ -50,6 +50,7 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_WALLS] = "Walls",
 	[ROLE_REDUCED] = "Reduced",
 	[ROLE_IMPULSE] = "Impulse",
+	[ROLE_OUTLINES] = "Outlines",
 	[ROLE_SLOTS] = "Slots",
 	[ROLE_NEED] = "Need",
 	[ROLE_REACH] = "Reach",

@@ -13,7 +13,7 @@ static int grown; /* lists that could not */
 static void there_is_no_memory(const char *call, carom_status status, const carom_error *error)
 {
 	const bool blamed = call && strncmp(call, "jansson", 7) == 0 && status == CAROM_INVALID_SCENE;
-	if (status && (!call || (status != CAROM_OUT_OF_MEMORY && !blamed) || error->status != status || !*error->text))
+	if (status && (!call || (status != CAROM_OUT_OF_MEMORY && !blamed) || error->status != status || !*error->text || strstr(error->text, "(null)")))
 		fail_msg("%s failed: %s: %s", call ? call : "nothing", carom_status_name(status), error->text);
 	grown += status && strstr(error->text, "Neighbours, ") && strstr(error->text, "can't be made");
 }
@@ -116,7 +116,7 @@ static void bodies_are_added_all_or_none(void **unused)
 		runs_step(world, 1);
 		carom_world_destroy(world);
 	}
-	assert_true(n > 6);
+	assert_true(n > 4);
 }
 
 int main(void)

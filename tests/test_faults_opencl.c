@@ -13,7 +13,7 @@ static void opencl_failed(const char *call, carom_status status, const carom_err
 	if (!call)
 		fail_msg("nothing failed, but: %s", error->text);
 	/* what is released is gone, whatever the call says */
-	if (!status ? strncmp(call, "clRelease", 9) != 0 : error->status != status || !strstr(error->text, ": CL_"))
+	if (!status ? strncmp(call, "clRelease", 9) != 0 : error->status != status || !strstr(error->text, ": CL_") || strstr(error->text, "(null)"))
 		fail_msg("%s failed: %s: %s", call, carom_status_name(status), error->text);
 	if ((strcmp(call, "clCreateBuffer") == 0 || strcmp(call, "clCreateImage") == 0) && !strstr(error->text, " KiB), can't be made: CL_"))
 		fail_msg("%s: no texture is named", error->text);
