@@ -2,6 +2,7 @@
 
 BUILD ?= build
 PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
 PKG_CONFIG ?= pkg-config
 CAIRO ?= yes
 BOX2D ?= $(call yes_if,$(PKG_CONFIG) --exists 'box2d >= 2.4' 'box2d < 3')
@@ -115,7 +116,10 @@ help:
 	@echo 'make check-threads   build and run the test of threads with the thread sanitizer'
 	@echo 'make conformance     run the tests on every OpenCL implementation that is installed, and from several compilers'
 	@echo 'make bench           measure the tables of the paper, and scale, and write them into build/bench/'
-	@echo 'make install         install below PREFIX=$(PREFIX), staged in DESTDIR='
+	@echo 'make install         install below PREFIX=$(PREFIX), libraries into LIBDIR=PREFIX/lib, staged in DESTDIR='
+	@echo 'make uninstall       remove what the same call of install installed'
+	@echo 'make dist            pack what git has as $(BUILD)/dist/$(RELEASE).tar.gz'
+	@echo 'make distcheck       build, install and try what is in it'
 	@echo 'make clean           remove build/'
 	@echo 'CAIRO=no             build the command without cairo, and so without the charts of `carom bench`'
 	@echo 'BOX2D=no CHIPMUNK=no build it without these two, which `carom bench scale` measures beside Carom if they are installed'
@@ -275,28 +279,46 @@ bench: all
 # ---- Installing
 
 $(BUILD)/carom.pc: $(BUILD)/pc.list
-	@printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' 'Name: carom' \
+	@printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$(patsubst $(PREFIX)/%,$${prefix}/%,$(LIBDIR))' '' 'Name: carom' \
 		'Description: 2D rigid bodies with every hit at its exact time' 'Version: $(VERSION)' 'Cflags: -I$${includedir}' \
 		'Libs: -L$${libdir} -lcarom' 'Requires.private: libpng jansson' 'Libs.private: -lstdc++ -ldl -lpthread -lm' > $@
-$(eval $(call remember,pc.list,$$(PREFIX) $$(VERSION)))
+$(eval $(call remember,pc.list,$$(PREFIX) $$(LIBDIR) $$(VERSION)))
 
 install: all $(BUILD)/carom.pc
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig \
-		$(DESTDIR)$(PREFIX)/share/man/man1
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(PREFIX)/share/man/man1
 	install -m 755 $(BUILD)/carom $(DESTDIR)$(PREFIX)/bin
 	install -m 644 include/carom.h $(DESTDIR)$(PREFIX)/include
-	install -m 644 $(BUILD)/libcarom.a $(DESTDIR)$(PREFIX)/lib
-	install -m 755 $(BUILD)/libcarom.so $(DESTDIR)$(PREFIX)/lib/libcarom.so.$(VERSION)
-	ln -sf libcarom.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libcarom.so.$(ABI)
-	ln -sf libcarom.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/libcarom.so
-	install -m 644 $(BUILD)/carom.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	install -m 644 $(BUILD)/libcarom.a $(DESTDIR)$(LIBDIR)
+	install -m 755 $(BUILD)/libcarom.so $(DESTDIR)$(LIBDIR)/libcarom.so.$(VERSION)
+	ln -sf libcarom.so.$(VERSION) $(DESTDIR)$(LIBDIR)/libcarom.so.$(ABI)
+	ln -sf libcarom.so.$(ABI) $(DESTDIR)$(LIBDIR)/libcarom.so
+	install -m 644 $(BUILD)/carom.pc $(DESTDIR)$(LIBDIR)/pkgconfig
 	install -m 644 tools/carom.1 $(DESTDIR)$(PREFIX)/share/man/man1
+
+uninstall:
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/,bin/carom include/carom.h share/man/man1/carom.1) \
+		$(addprefix $(DESTDIR)$(LIBDIR)/libcarom,.a .so .so.$(ABI) .so.$(VERSION)) $(DESTDIR)$(LIBDIR)/pkgconfig/carom.pc
+
+# ---- The release: what git tracks, with the same bytes whenever it is made from the same commit
+
+RELEASE := carom-$(VERSION)
+
+dist:
+	@git rev-parse --git-dir >/dev/null 2>&1 || { echo 'make: a release is made where git has the sources' >&2; exit 1; }
+	@git diff --quiet HEAD || echo 'make: what is not committed is not in it' >&2
+	@mkdir -p $(BUILD)/dist
+	@git archive --format=tar --prefix=$(RELEASE)/ HEAD | gzip -9n > $(BUILD)/dist/$(RELEASE).tar.gz
+	@cd $(BUILD)/dist && { sha256sum $(RELEASE).tar.gz 2>/dev/null || shasum -a 256 $(RELEASE).tar.gz; } > $(RELEASE).tar.gz.sha256
+	@echo '$(BUILD)/dist/$(RELEASE).tar.gz'
+
+distcheck: dist
+	@CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE_COMMAND)' sh tests/dist.sh $(BUILD)/dist/$(RELEASE).tar.gz
 
 clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check check-threads run-threads conformance static doc demo bench install clean FORCE
+.PHONY: all help check check-threads run-threads conformance static doc demo bench install uninstall dist distcheck clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all

@@ -122,11 +122,12 @@ carom_status carom_canvas_send_bodies(carom_world *world, carom_error *error)
 	TRY(carom_canvas_hold(world, ROLE_DRAWS, DRAWS_WIDTH * world->body_count, error));
 	stream = texels_for(world, ROLE_STREAM);
 	draws = texels_for(world, ROLE_DRAWS);
-	status = stream && draws ? CAROM_OK : carom_canvas_no_memory(world, error);
-	if (!status) {
+	if (stream && draws) {
 		fill_bodies(world, true, &next, &drawn, stream, draws);
 		fill_bodies(world, false, &next, &drawn, stream, draws);
 		status = upload(world, ROLE_STREAM, (uint32_t)vertices, stream, error);
+	} else {
+		status = carom_canvas_no_memory(world, error);
 	}
 	if (!status)
 		status = upload(world, ROLE_DRAWS, DRAWS_WIDTH * (uint32_t)drawn, draws, error);

@@ -122,8 +122,8 @@ static carom_status open_one(const carom_device_def *def, const carom_device_inf
 carom_status carom_device_open(const carom_device_def *def, carom_device **device, carom_error *error)
 {
 	const char *name = def->name ? def->name : getenv("CAROM_DEVICE");
-	carom_device_info *list;
-	size_t count;
+	carom_device_info *list = NULL;
+	size_t count = 0;
 	bool tried = false;
 	carom_status status = carom_device_list_create(&list, &count, error);
 	if (status)

@@ -21,7 +21,8 @@ struct carom_file {
 
 static carom_status fail_io(carom_error *error, const char *path, const char *did, int number, const char *advice)
 {
-	return carom_fail(error, CAROM_IO, "%s: %s: %s; %s", path, did, strerror(number), advice);
+	char reason[128];
+	return carom_fail(error, CAROM_IO, "%s: %s: %s; %s", path, did, carom_errno_text(number, reason, sizeof reason), advice);
 }
 
 /* Opens a name that nobody has: O_EXCL rather than a counter, which would be global state. */

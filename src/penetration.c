@@ -62,12 +62,15 @@ static void place_corners(carom_placed *at, const carom_body_info *body, const c
 
 static void place_box(carom_placed *at)
 {
-	double radius = at->corners ? 0 : at->radius;
-	double x = at->corners ? at->corners[0].x : at->x, y = at->corners ? at->corners[0].y : at->y;
-	at->min_x = x - radius, at->min_y = y - radius, at->max_x = x + radius, at->max_y = y + radius;
+	const carom_corner *corners = at->corners;
+	if (!corners) {
+		at->min_x = at->x - at->radius, at->min_y = at->y - at->radius, at->max_x = at->x + at->radius, at->max_y = at->y + at->radius;
+		return;
+	}
+	at->min_x = at->max_x = corners[0].x, at->min_y = at->max_y = corners[0].y;
 	for (uint32_t k = 1; k < at->corner_count; k++) {
-		at->min_x = least(at->min_x, at->corners[k].x), at->min_y = least(at->min_y, at->corners[k].y);
-		at->max_x = most(at->max_x, at->corners[k].x), at->max_y = most(at->max_y, at->corners[k].y);
+		at->min_x = least(at->min_x, corners[k].x), at->min_y = least(at->min_y, corners[k].y);
+		at->max_x = most(at->max_x, corners[k].x), at->max_y = most(at->max_y, corners[k].y);
 	}
 }
 

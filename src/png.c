@@ -71,6 +71,7 @@ static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels
 {
 	carom_status status = CAROM_OK;
 	struct complaint complaint = {0, false, ""};
+	char reason[128];
 	png_infop info = NULL;
 	png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning, &complaint, allocate, release);
 	bool written = false;
@@ -82,7 +83,7 @@ static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to write a PNG", path);
 	} else if (!written) {
 		status = carom_fail(error, CAROM_IO, "%s: can't be written: %s%s%s; free some space or write elsewhere", path, complaint.text,
-			complaint.number ? ": " : "", complaint.number ? strerror(complaint.number) : "");
+			complaint.number ? ": " : "", complaint.number ? carom_errno_text(complaint.number, reason, sizeof reason) : "");
 	}
 	png_destroy_write_struct(&png, &info);
 	return status;

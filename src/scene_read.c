@@ -164,6 +164,7 @@ carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error
 {
 	carom_status status;
 	char *text = NULL;
+	char reason[128];
 	size_t length = 0;
 	FILE *file;
 	if (!path || !scene)
@@ -175,7 +176,8 @@ carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error
 	} else if (errno == ENOMEM) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to read it", path);
 	} else {
-		status = carom_fail(error, CAROM_IO, "%s: can't be read: %s; give the path of a scene file", path, strerror(errno));
+		status = carom_fail(error, CAROM_IO, "%s: can't be read: %s; give the path of a scene file", path,
+			carom_errno_text(errno, reason, sizeof reason));
 	}
 	free(text);
 	if (file)

@@ -33,6 +33,13 @@ const char *carom_status_text(carom_status status)
 	return "unknown status";
 }
 
+const char *carom_errno_text(int number, char *text, size_t size)
+{
+	if (strerror_r(number, text, size))
+		snprintf(text, size, "error %d", number);
+	return text;
+}
+
 carom_status carom_fail(carom_error *error, carom_status status, const char *format, ...)
 {
 	if (error) {

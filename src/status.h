@@ -17,6 +17,9 @@ extern "C" {
 /* Fills in *error (unless NULL), the rest of it zero, and returns `status`: `return carom_fail(error, CAROM_IO, "...", ...)`. */
 carom_status carom_fail(carom_error *error, carom_status status, const char *format, ...) CAROM_PRINTF(3, 4);
 
+/* What an errno means, in `text`: strerror's own text may change under another thread. */
+const char *carom_errno_text(int number, char *text, size_t size);
+
 /* Returns what the call does, if that is an error. */
 #define TRY(call)                      \
 	do {                               \

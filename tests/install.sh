@@ -2,27 +2,14 @@
 # An installed copy is all that a program needs: README.md's example is built through pkg-config outside the repository, as C
 # and as C++, with the shared and with the static library, and must print what README.md says. Prints "ok" or "FAIL" for
 # each check; run it from the repository's root.
+. tests/report.sh
 CC=${CC:-cc}
 CXX=${CXX:-c++}
 build=${CAROM_BUILD:-build}
 root=$(mktemp -d "${TMPDIR:-/tmp}/carom-install-XXXXXX") || exit 1
 trap 'rm -rf "$root"' EXIT
-failed=0
 strict="-Wall -Wextra -Wpedantic -Werror"
 case $build in */sanitize) strict="$strict -fsanitize=address,undefined" ;; esac
-
-# attempt NAME COMMAND...: the command has to succeed, or what it printed is shown.
-attempt() {
-	name=$1
-	shift
-	if "$@" >"$root/log" 2>&1; then
-		echo "ok   $name"
-	else
-		failed=1
-		echo "FAIL $name"
-		sed 's/^/     /' "$root/log"
-	fi
-}
 
 # fenced LANGUAGE: README.md's first block in it.
 fenced() {
@@ -34,8 +21,27 @@ package() {
 	PKG_CONFIG_PATH="$root/usr/lib/pkgconfig" "${PKG_CONFIG:-pkg-config}" --define-variable=prefix="$root/usr" "$@" carom
 }
 
+install() {
+	${MAKE:-make} "$1" DESTDIR="$root" PREFIX=/usr BUILD="${build%/sanitize}"
+}
+
+# What there is below the staging folder is what was to be installed, and nothing else.
 installs() {
-	${MAKE:-make} install DESTDIR="$root" PREFIX=/usr BUILD="${build%/sanitize}" && test -x "$root/usr/bin/carom"
+	version=$(sed -n 's/^.define CAROM_VERSION_[MP][A-Z]* //p' include/carom.h | paste -sd. -)
+	install install && (cd "$root/usr" && find . ! -type d | LC_ALL=C sort) >"$root/installed" && diff - "$root/installed" <<-END
+		./bin/carom
+		./include/carom.h
+		./lib/libcarom.a
+		./lib/libcarom.so
+		./lib/libcarom.so.${version%%.*}
+		./lib/libcarom.so.$version
+		./lib/pkgconfig/carom.pc
+		./share/man/man1/carom.1
+	END
+}
+
+uninstalls() {
+	install uninstall && ! find "$root/usr" ! -type d | grep .
 }
 
 # compile NAME SOURCE COMPILER STANDARD PACKAGE_OPTION...
@@ -79,7 +85,9 @@ attempt "the C++ program with the static library runs" prints_what_is_said cpp_s
 if command -v groff >/dev/null 2>&1; then
 	attempt "the manual page is clean" page_is_clean
 else
-	echo "SKIPPED the manual page is clean: there is no groff"
+	skip "the manual page is clean" "there is no groff"
 fi
+
+attempt "make uninstall leaves nothing" uninstalls
 
 exit "$failed"

@@ -310,7 +310,7 @@ static void count_event(queue *q, queue_body *k, bool rapid)
 static void record(queue *q, queue_hit hit)
 {
 	if (q->hit_count == q->hit_room) {
-		q->hit_room *= 2;
+		q->hit_room += 1024;
 		q->hits = realloc(q->hits, q->hit_room * sizeof *q->hits);
 		assert_non_null(q->hits);
 	}

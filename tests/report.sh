@@ -12,6 +12,17 @@ report() {
 	fi
 }
 
+# attempt NAME COMMAND...: the command has to succeed, or what it printed is shown.
+attempt() {
+	tried=$1
+	shift
+	if said=$("$@" 2>&1); then
+		report "$tried" ""
+	else
+		report "$tried" "${said:-it failed}"
+	fi
+}
+
 # skip NAME REASON: not where CAROM_NO_SKIP is set.
 skip() {
 	echo "SKIPPED $1: $2"

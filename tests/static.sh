@@ -127,4 +127,5 @@ check "no operation of the kernels is contracted" clang 14 contracted
 check "the sources are as .clang-format writes them" clang-format 14 layout
 check "doxygen renders carom.h without a warning" doxygen 1 manual
 check "cppcheck finds nothing" cppcheck 2.10 look_over
+check "clang-tidy finds nothing" clang-tidy 14 tidy
 exit "$failed"

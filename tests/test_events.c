@@ -63,7 +63,7 @@ static void check_step(tally *sum, const forecast *f, carom_world *world, const 
 {
 	const carom_report report = runs_step(world, 1);
 	char what[128];
-	snprintf(what, sizeof what, "%s on %s, step %llu", s->name, device->name, (unsigned long long)(sum->steps + sum->unsure));
+	snprintf(what, sizeof what, "%s on %s, step %llu", s->name, device->name, (unsigned long long)sum->steps + sum->unsure);
 	sum->needed = fmax(sum->needed, forecast_check(f, world, what));
 	if (!f->sure) {
 		sum->unsure++;

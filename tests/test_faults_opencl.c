@@ -10,8 +10,10 @@ static int grown; /* lists that could not */
 
 static void opencl_failed(const char *call, carom_status status, const carom_error *error)
 {
-	if (!call)
+	if (!call) {
 		fail_msg("nothing failed, but: %s", error->text);
+		return;
+	}
 	/* what is released is gone, whatever the call says */
 	if (!status ? strncmp(call, "clRelease", 9) != 0 : error->status != status || !strstr(error->text, ": CL_") || strstr(error->text, "(null)"))
 		fail_msg("%s failed: %s: %s", call, carom_status_name(status), error->text);

@@ -119,11 +119,10 @@ static void pictures_are_drawn_in_blocks(void **unused)
 {
 	(void)unused;
 	enum { WIDTH = 5000, HEIGHT = 8, SIZE = 4 * WIDTH * HEIGHT };
+	static uint8_t pixels[2][SIZE];
 	const carom_body_def body = scenery_circle(0.0f, 0.0f, 1.0f, 0.0f, 0.5f);
 	const carom_world_def def = runs_def();
 	carom_render_def picture = carom_default_render_def();
-	uint8_t *pixels[2] = {calloc(1, SIZE), calloc(1, SIZE)};
-	assert_true(pixels[0] && pixels[1]);
 	picture.width = WIDTH;
 	picture.height = HEIGHT;
 	SCENERY_EACH_DEVICE(device) {
@@ -140,8 +139,6 @@ static void pictures_are_drawn_in_blocks(void **unused)
 		assert_true(pixels[0][0] == 0xFF || pixels[0][3] == 0xFF);
 		restore(NULL);
 	}
-	free(pixels[0]);
-	free(pixels[1]);
 }
 
 /* From room for next to nothing to room for all: the run ends as it does without a limit, or says what it lacks and keeps the state. */

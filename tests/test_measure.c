@@ -189,7 +189,7 @@ static outline outline_of(carom_world *world, uint32_t index)
 	assert_int_equal(carom_world_get_body(world, index, &info, NULL), CAROM_OK);
 	assert_int_equal(carom_world_get_states(world, index, 1, &at, NULL), CAROM_OK);
 	outline o = {.x = at.position.x, .y = at.position.y, .radius = info.radius, .is_static = info.is_static};
-	double c = cos(at.angle), s = sin(at.angle);
+	double c = cos((double)at.angle), s = sin((double)at.angle);
 	o.count = info.vertices ? info.vertex_count : 0;
 	for (uint32_t k = 0; k < o.count; k++) {
 		o.px[k] = o.x + c * info.vertices[k].x - s * info.vertices[k].y;

@@ -39,12 +39,11 @@ static void read_text(const char *path, char *text, size_t size)
 static void read_help(const char *name)
 {
 	char line[128];
-	assert_true(command_count < MAX_COMMANDS && strlen(name) < sizeof commands->name);
-	strcpy(commands[command_count].name, name);
+	assert_true(command_count < MAX_COMMANDS);
+	format(commands[command_count].name, sizeof commands->name, "%s", name);
 	format(line, sizeof line, "$C %s --help", name);
 	check(line, 0, NULL);
-	assert_true(strlen(call.out) < sizeof commands->help);
-	strcpy(commands[command_count++].help, call.out);
+	format(commands[command_count++].help, sizeof commands->help, "%s", call.out);
 }
 
 /* The subcommands stand in a list, each after two spaces. */

@@ -98,7 +98,7 @@ static void assert_same_body(const carom_body_def *a, const carom_body_def *b, c
 	if (a->name)
 		assert_string_equal(a->name, b->name);
 	assert_int_equal(!a->vertices, !b->vertices);
-	if (a->vertices)
+	if (a->vertices && b->vertices)
 		assert_same_bytes(a->vertices, b->vertices, a->vertex_count * sizeof *a->vertices, text);
 	assert_int_equal(x.shape, y.shape);
 	assert_int_equal(x.is_static, y.is_static);

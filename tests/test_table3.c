@@ -19,7 +19,7 @@ static void pictures_of(carom_world *world, picture made[2])
 static void six_combinations_give_one_picture(void **state)
 {
 	(void)state;
-	picture first[2] = {{0}}, found[2];
+	picture first[2] = {{0}}, found[2] = {{0}};
 	SCENERY_EACH_DEVICE(device) {
 		for (int k = 0; k < 6; k++) {
 			carom_world_def def = room(options[k / 2], transforms[k % 2]);

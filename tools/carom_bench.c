@@ -153,7 +153,8 @@ static carom_status check_name(const char *name, carom_error *error)
 	for (size_t k = 0; k < TABLE_COUNT; k++) {
 		if (strcmp(name, tables[k].name) == 0)
 			return CAROM_OK;
-		strcat(strcat(known, tables[k].name), ", ");
+		size_t used = strlen(known);
+		snprintf(known + used, sizeof known - used, "%s, ", tables[k].name);
 	}
 	return strcmp(name, "all") == 0 ? CAROM_OK : wrong(error, "%.80s: no such table; allowed: %sall", name, known);
 }

@@ -104,6 +104,8 @@ template <typename T> [[gnu::always_inline]] inline bool stay_apart(const Disc<T
 template <typename T> struct Mover {
 	T length;
 
+	explicit Mover(T step) : length(step) {}
+
 	Body<T> body(const Slot<T> &slot, const Trajectory<T> &way) const
 	{
 		Body<T> body;
@@ -145,7 +147,7 @@ template <typename T> class Bodies : public Mover<T>
 public:
 	/* The kernel's first textures are Outlines, Uniforms and the clock, the next the slots. */
 	explicit Bodies(const Job<T> &job)
-		: Mover<T>{step_length(job.texels(2), job.texels(1))}, slots(reinterpret_cast<Slot<T> *>(job.records(3))), functions(job.functions),
+		: Mover<T>(step_length(job.texels(2), job.texels(1))), slots(reinterpret_cast<Slot<T> *>(job.records(3))), functions(job.functions),
 		  inside(job.inside), uniforms(job.texels(1)),
 		  corners(reinterpret_cast<const Corner<T> *>(job.records(0))), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
 		  has_room(rule(RULES_HAS_ROOM) > 0)

@@ -31,7 +31,7 @@ void *faults_malloc(size_t size);
 size_t faults_alive(char *kinds, size_t size);
 /* How the machine looks to Carom. */
 typedef enum faults_loader { LOADER_REAL, LOADER_NONE, LOADER_OLD, LOADER_WITHOUT_PLATFORMS, LOADER_WITHOUT_DEVICES } faults_loader;
-void faults_loader_set(faults_loader loader);
+void faults_loader_set(faults_loader how);
 
 /* For the wrapped calls alone: does this one fail? */
 int faults_strike(faults_kind kind, const char *call);

@@ -127,7 +127,7 @@ public:
 			slots.resize(2 * (count + static_cast<size_t>(more)));
 		return slots.data() + count;
 	}
-	void keep(int32_t *end) { count = static_cast<size_t>(end - slots.data()); }
+	void keep(const int32_t *end) { count = static_cast<size_t>(end - slots.data()); }
 	void add(const Finds &other) { keep(std::copy(other.begin(), other.end(), next(other.size()))); }
 	int32_t size() const { return static_cast<int32_t>(count); }
 	const int32_t *begin() const { return slots.data(); }
