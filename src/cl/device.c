@@ -289,7 +289,8 @@ carom_status carom_cl_open(const carom_device_def *def, const carom_device_info 
 		goto end;
 	mine = same_device(found, count, which);
 	if (!mine || !mine->info.works) {
-		status = carom_fail(error, CAROM_DEVICE, "the device '%s' is gone%s%s", which->name, count ? ": " : "", count ? found[0].info.reason : "");
+		const char *why = mine ? mine->info.reason : count ? found[0].info.reason : "";
+		status = carom_fail(error, CAROM_DEVICE, "the device '%s' is gone%s%s", which->name, *why ? ": " : "", why);
 		goto end;
 	}
 	d->base.kind = &cl_class;
