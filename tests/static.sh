@@ -101,6 +101,14 @@ look_over() {
 		--suppressions-list=tests/cppcheck.supp --template='{file}:{line}: {message} [{id}]' -Iinclude -Isrc -Ikernels -Itests src tests tools 2>&1
 }
 
+# A name that two files give to two types is no error to a linker, but may mix up what they do. GCC sees it when it links its own code.
+define_twice() {
+	for file in src/cpu/*.cpp src/cpu/*/*.cpp; do
+		echo "$file -o $folder/$((number += 1)).o"
+	done | in_parallel "$command" $CXX_FLAGS -flto -O0 -fPIC -w -c
+	"$command" -flto -O0 -shared -Wodr -o "$folder/cpu.so" "$folder"/*.o 2>&1 | grep -E 'Wodr|error' | sort -u
+}
+
 layout() {
 	{ sources include src kernels tests tools && find kernels -name '*.cl'; } | xargs "$command" --dry-run -Werror 2>&1 | grep 'error: '
 }
@@ -127,5 +135,6 @@ check "no operation of the kernels is contracted" clang 14 contracted
 check "the sources are as .clang-format writes them" clang-format 14 layout
 check "doxygen renders carom.h without a warning" doxygen 1 manual
 check "cppcheck finds nothing" cppcheck 2.10 look_over
+check "each name of the C++ is one thing" g++ '[0-9]+' define_twice
 check "clang-tidy finds nothing" clang-tidy 14 tidy
 exit "$failed"

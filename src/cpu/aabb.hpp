@@ -6,7 +6,7 @@
 
 namespace carom::cpu {
 
-template <typename T> struct Box {
+template <typename T> struct Hull {
 	Vec<T> min = Vec<T>::Constant(infinite<T>), max = Vec<T>::Constant(-infinite<T>);
 
 	void hold(const Vec<T> &point)
@@ -33,7 +33,7 @@ template <typename T, typename Hold> void find_boxes(const Job<T> &job, Hold hol
 	job.pool.run(job.domain[0], 256, [&](int32_t begin, int32_t end) {
 		for (int32_t i = begin; i < end; i++) {
 			const HeldConvex<T> convex = shapes.convex(i);
-			Box<T> box;
+			Hull<T> box;
 			hold(box, convex, T(0));
 			hold(box, convex, T(1));
 			T pad = padding(convex);

@@ -6,7 +6,7 @@
 
 namespace carom::cpu {
 
-template <typename T> struct Box {
+template <typename T> struct PixelBox {
 	T x0, y0, x1, y1;
 
 	bool empty() const { return !(x0 < x1); }
@@ -39,13 +39,13 @@ template <typename T> bool in_sight(const Vec<T> &v)
 }
 
 /* The pixels that may be touched; an empty box for none. */
-template <typename T> Box<T> touched(const Vec<T> &low, const Vec<T> &high, T margin, const Box<T> &clip)
+template <typename T> PixelBox<T> touched(const Vec<T> &low, const Vec<T> &high, T margin, const PixelBox<T> &clip)
 {
 	if (!in_sight(low) || !in_sight(high))
 		return {};
-	const Box<T> box{larger(floor_pixel(low.x() - margin), clip.x0), larger(floor_pixel(low.y() - margin), clip.y0),
+	const PixelBox<T> box{larger(floor_pixel(low.x() - margin), clip.x0), larger(floor_pixel(low.y() - margin), clip.y0),
 		smaller(-floor_pixel(-(high.x() + margin)), clip.x1), smaller(-floor_pixel(-(high.y() + margin)), clip.y1)};
-	return box.x0 < box.x1 && box.y0 < box.y1 ? box : Box<T>{};
+	return box.x0 < box.x1 && box.y0 < box.y1 ? box : PixelBox<T>{};
 }
 
 /* What of the ink is seen of a shape of that mean breadth and length. */
@@ -65,7 +65,7 @@ public:
 	void hide(int32_t shape) const { put(SHAPES_WIDTH * shape + SHAPE_BOX, {0, 0, 0, 0}); }
 
 	/* False: it is not seen. */
-	bool shape(int32_t shape, const Box<T> &box, const Ink<T> &ink, int32_t first_edge, int32_t count) const
+	bool shape(int32_t shape, const PixelBox<T> &box, const Ink<T> &ink, int32_t first_edge, int32_t count) const
 	{
 		put(SHAPES_WIDTH * shape + SHAPE_BOX, {box.x0, box.y0, box.x1, box.y1});
 		if (box.empty())
@@ -102,14 +102,14 @@ template <typename T> struct Line {
 	Vec<T> from, along;
 	T reach, breadth, color, opacity;
 
-	void write(const ShapeWriter<T> &to, int32_t shape, int32_t edge, const Box<T> &clip) const
+	void write(const ShapeWriter<T> &to, int32_t shape, int32_t edge, const PixelBox<T> &clip) const
 	{
 		const T half = T(0.5) * breadth;
 		const Vec<T> end = from + reach * along, wide(half * std::abs(along.y()), half * std::abs(along.x()));
 		const Vec<T> low(smaller(from.x(), end.x()) - wide.x(), smaller(from.y(), end.y()) - wide.y());
 		const Vec<T> high(larger(from.x(), end.x()) + wide.x(), larger(from.y(), end.y()) + wide.y());
 		const T size = norm(high - low), mean = (reach * breadth) / larger(size, T(1)), out = growth(mean);
-		const Box<T> box = reach > 0 ? touched(low, high, out, clip) : Box<T>{};
+		const PixelBox<T> box = reach > 0 ? touched(low, high, out, clip) : PixelBox<T>{};
 		if (!to.shape(shape, box, seen<T>({color, color, 0, opacity}, mean, size), edge, LINE_EDGES))
 			return;
 		const Vec<T> d = box.first_pixel() - from, aside(along.y(), -along.x());

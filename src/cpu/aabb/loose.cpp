@@ -2,9 +2,9 @@
 
 namespace carom::cpu {
 
-template <typename T> static Box<T> local_box(const Convex<T> &convex)
+template <typename T> static Hull<T> local_box(const Convex<T> &convex)
 {
-	Box<T> local;
+	Hull<T> local;
 	if (convex.is_circle()) {
 		local.hold({-convex.radius, -convex.radius});
 		local.hold({convex.radius, convex.radius});
@@ -15,11 +15,11 @@ template <typename T> static Box<T> local_box(const Convex<T> &convex)
 }
 
 /* The box of the turned corners of the local box: larger than tight's, at four points whatever the body [2.1]. */
-template <typename T> static void hold_corners(Box<T> &box, const Convex<T> &convex, T t)
+template <typename T> static void hold_corners(Hull<T> &box, const Convex<T> &convex, T t)
 {
 	Vec<T> x = convex.place_at(t);
 	Vec<T> rotation = convex.is_circle() ? Vec<T>(1, 0) : rotation_of(convex.angle_at(t));
-	Box<T> local = local_box(convex);
+	Hull<T> local = local_box(convex);
 	for (const Vec<T> &corner : {local.min, Vec<T>(local.max.x(), local.min.y()), local.max, Vec<T>(local.min.x(), local.max.y())})
 		box.hold(x + turn(rotation, corner));
 }

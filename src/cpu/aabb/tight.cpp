@@ -3,7 +3,7 @@
 namespace carom::cpu {
 
 /* The paper's AABB, from the vertices where they are [2.1]. */
-template <typename T> static void hold_vertices(Box<T> &box, const Convex<T> &convex, T t)
+template <typename T> static void hold_vertices(Hull<T> &box, const Convex<T> &convex, T t)
 {
 	Vec<T> x = convex.place_at(t);
 	if (convex.is_circle()) {

@@ -20,10 +20,12 @@ template <typename T> struct Columns {
 	}
 };
 
-template <typename T> struct Box {
+template <typename T> struct Sides {
 	T min_x, min_y, max_x, max_y;
 
-	Box(const Columns<T> &columns, int32_t k) : min_x(columns.min_x[k]), min_y(columns.min_y[k]), max_x(columns.max_x[k]), max_y(columns.max_y[k]) {}
+	Sides(const Columns<T> &columns, int32_t k) : min_x(columns.min_x[k]), min_y(columns.min_y[k]), max_x(columns.max_x[k]), max_y(columns.max_y[k])
+	{
+	}
 
 	/* Without branches, so that compilers can make vectors of it. */
 	bool is_apart(const Columns<T> &columns, int32_t k) const
@@ -37,7 +39,7 @@ template <typename T> static void find_near(const Columns<T> &rows, int32_t row_
 {
 	std::fill(near, near + count, 0);
 	for (int32_t i = 0; i < row_count; i++) {
-		const Box<T> row(rows, i);
+		const Sides<T> row(rows, i);
 		for (int32_t k = 0; k < count; k++)
 			near[k] |= row.is_apart(columns, k) ? 0 : 1;
 	}
@@ -53,7 +55,7 @@ template <typename T> static TileBytes look_at(const Columns<T> &rows, int32_t r
 {
 	TileBytes tile;
 	for (int32_t i = 0; i < row_count; i++) {
-		const Box<T> row(rows, i);
+		const Sides<T> row(rows, i);
 		for (int32_t k = 0; k < (on_diagonal ? i : TILE); k++) {
 			bool overlap = !row.is_apart(columns, k);
 			tile.bytes[i][k] = overlap;

@@ -9,7 +9,7 @@ template <typename T> struct Scene {
 	const Texels<T> draws, marks, placed;
 	const ShapeWriter<T> to;
 	const T line;
-	const Box<T> picture, clip;
+	const PixelBox<T> picture, clip;
 
 	Scene(const Job<T> &job, const Texels<T> &view)
 		: draws(job.texels(FROM_DRAWS)), marks(job.texels(FROM_MARKS)), placed(job.texels(FROM_PLACED)),
@@ -42,7 +42,7 @@ template <typename T> static void draw_circle(const Scene<T> &scene, int32_t ver
 {
 	const Vec<T> to_rim = scene.offset(vertex), c = scene.center(vertex);
 	const T radius = norm(to_rim), breadth = ((T(DISC_AREA) * radius) * radius) / larger(2 * radius, T(1)), r = radius + growth(breadth);
-	const Box<T> box = touched<T>({c.x() - r, c.y() - r}, {c.x() + r, c.y() + r}, 0, scene.clip);
+	const PixelBox<T> box = touched<T>({c.x() - r, c.y() - r}, {c.x() + r, c.y() + r}, 0, scene.clip);
 	if (!scene.to.shape(shape, box, seen(ink, breadth, 2 * radius), edge, 1)) {
 		scene.to.hide(shape + 1);
 		return;
@@ -89,7 +89,7 @@ template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t ve
 	const Extent<T> all = measure(scene, vertex, count);
 	const Vec<T> c = scene.center(vertex);
 	const T size = norm(all.high - all.low), breadth = all.area / larger(size, T(1)), out = growth(breadth);
-	const Box<T> box = touched<T>(c + all.low, c + all.high, out, scene.clip);
+	const PixelBox<T> box = touched<T>(c + all.low, c + all.high, out, scene.clip);
 	if (!scene.to.shape(shape, box, seen(ink, breadth, size), edge, count))
 		return;
 	const Vec<T> d = box.first_pixel() - c;
