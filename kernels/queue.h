@@ -169,13 +169,14 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 bool ways_meet(VERTICES_IN, RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id, int other, int other_id,
 	float length)
 {
+	float4 a = work[WORK_WIDTH * id + WORK_BOX], b = work[WORK_WIDTH * other_id + WORK_BOX];
+	float reach = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
+	if (a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y)
+		return false;
+	if (members[MEMBER(id, MEMBER_EVENTS)] > 1 || members[MEMBER(other_id, MEMBER_EVENTS)] > 1)
+		return true;
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
 	bool pause;
-	if (members[MEMBER(id, MEMBER_EVENTS)] > 1 || members[MEMBER(other_id, MEMBER_EVENTS)] > 1) {
-		float4 a = work[WORK_WIDTH * id + WORK_BOX], b = work[WORK_WIDTH * other_id + WORK_BOX];
-		float reach = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
-		return !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y);
-	}
 	return !stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length))
 		&& pair_time(VERTICES, slots, rules, s, k, other, o, length, &pause) <= 1.0f;
 }

@@ -60,10 +60,10 @@ float level_side(LIST_IN(status), int level)
 	return as_float(status[STATUS_CELL]) * (float)(1 << level);
 }
 
-/* The level whose cells are at least as large as what the box extends from its place. */
-int reach_level(float4 box, float4 at, float side)
+/* The level whose cells are at least half as large as the box, which is in the cell of its middle. */
+int reach_level(float4 box, float side)
 {
-	float half_size = larger(larger(at.x - box.x, box.z - at.x), larger(at.y - box.y, box.w - at.y));
+	float half_size = 0.5f * larger(box.z - box.x, box.w - box.y);
 	int level = 0;
 	while (level < CELL_LEVELS - 1 && side < half_size) {
 		side *= 2.0f;
@@ -147,7 +147,7 @@ INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIS
 		float4 b = reach[other];
 		if ((other == s) | (b.x > box.z) | (b.z < box.x) | (b.y > box.w) | (b.w < box.y))
 			continue;
-		if (!one_level && reach_level(b, SLOT_LOAD(slots, other, SLOT_PLACE), side) != level)
+		if (!one_level && reach_level(b, side) != level)
 			continue;
 		if (slot_is_static(slots, other) && slot_is_static(slots, s))
 			continue;
@@ -161,7 +161,7 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 	int rows, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	float4 box = reach[s];
-	int own = reach_level(box, SLOT_LOAD(slots, s, SLOT_PLACE), as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
+	int own = reach_level(box, as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
 	for (int level = max(own - NEAR_LEVELS, 0); level < CELL_LEVELS; level++) {
 		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
 			continue;

@@ -18,9 +18,9 @@ __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIS
 	int s = get_global_id(0);
 	if (s >= domain.x)
 		return;
-	float4 box = reach_box(VERTICES, slots, s, as_float(need[s]), status), at = SLOT_LOAD(slots, s, SLOT_PLACE);
-	int level = reach_level(box, at, as_float(status[STATUS_CELL]));
-	int cell = cell_index(cell_of((float2)(at.x, at.y), level_side(status, level)), level, domain.z, domain.w);
+	float4 box = reach_box(VERTICES, slots, s, as_float(need[s]), status);
+	int level = reach_level(box, as_float(status[STATUS_CELL]));
+	int cell = cell_index(cell_of((float2)(0.5f * (box.x + box.z), 0.5f * (box.y + box.w)), level_side(status, level)), level, domain.z, domain.w);
 	spans[SPAN(s, SPAN_CELL)] = cell;
 	atomic_inc(&cells[CELL_WIDTH * cell + CELL_COUNT]);
 	if (level > 0) /* most are of level 0, which counts as there */

@@ -41,6 +41,9 @@ template <typename T> struct Box {
 		const T x = std::max(min_x - other.max_x, other.min_x - max_x), y = std::max(min_y - other.max_y, other.min_y - max_y);
 		return std::max(x, y) <= 0;
 	}
+	T half() const { return T(0.5) * std::max(max_x - min_x, max_y - min_y); }
+	T middle_x() const { return T(0.5) * (min_x + max_x); }
+	T middle_y() const { return T(0.5) * (min_y + max_y); }
 	/* the largest extent from a place */
 	T half(const T *place) const { return std::max(std::max(place[0] - min_x, max_x - place[0]), std::max(place[1] - min_y, max_y - place[1])); }
 };
@@ -55,8 +58,10 @@ struct Grid {
 	int32_t columns, rows;
 
 	float side_of(int32_t level) const { return side * static_cast<float>(1 << level); }
-	template <typename T> int32_t level_of(T half) const
+	/* The cells of a box's level are as large as its half at least; it is in that of its middle. */
+	template <typename T> int32_t level_of(const Box<T> &box) const
 	{
+		const T half = box.half();
 		int32_t level = 0;
 		while (level < CELL_LEVELS - 1 && T(side_of(level)) < half)
 			level++;

@@ -95,10 +95,11 @@ template <typename T> static bool ways_meet(const Clusters<T> &clusters, const W
 {
 	const Work<T> &a = work[id], &b = work[other_id];
 	const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
-	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1) {
-		const T reach = slot.radius() + other_slot.radius();
-		return a.box[0] - reach <= b.box[2] && a.box[2] + reach >= b.box[0] && a.box[1] - reach <= b.box[3] && a.box[3] + reach >= b.box[1];
-	}
+	const T reach = slot.radius() + other_slot.radius();
+	if (a.box[0] - reach > b.box[2] || a.box[2] + reach < b.box[0] || a.box[1] - reach > b.box[3] || a.box[3] + reach < b.box[1])
+		return false;
+	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1)
+		return true;
 	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
 	return !stay_apart(disc, other_disc) && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
 }

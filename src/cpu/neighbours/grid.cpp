@@ -59,9 +59,9 @@ template <typename T> static void reach(const Job<T> &job)
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		int32_t levels = 0;
 		for (int32_t s = begin; s < end; s++) {
-			const T *place = slots[s].place;
-			const int32_t level = grid.level_of(reach_box(slots[s], T(as_float(need[s])), rules, corners).half(place));
-			const Cell at = grid.cell_at(place[0], place[1], level);
+			const Box<T> box = reach_box(slots[s], T(as_float(need[s])), rules, corners);
+			const int32_t level = grid.level_of(box);
+			const Cell at = grid.cell_at(box.middle_x(), box.middle_y(), level);
 			spans[s].found = grid.row_of(at.y, level) + grid.column_of(at.x, level);
 			fetch_add(&cells[CELL_WIDTH * spans[s].found + CELL_COUNT], 1);
 			levels |= 1 << level;
@@ -178,7 +178,7 @@ private:
 	void search(int32_t s, Finds &ahead, Finds &behind)
 	{
 		const Box<T> box = boxes[s];
-		const int32_t own = grid.level_of(box.half(slots[s].place));
+		const int32_t own = grid.level_of(box);
 		const bool mixed = levels != 1 << own, stands = slots[s].is_static();
 		for (int32_t level = std::max(own - levels_below, 0); levels >> level; level++) {
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
@@ -208,15 +208,14 @@ private:
 			*after = other;
 			after += box.touches(boxes[other]);
 		}
-		const auto is_of_other = [&](int32_t other) { return grid.level_of(boxes[other].half(slots[other].place)) != level; };
+		const auto is_of_other = [&](int32_t other) { return grid.level_of(boxes[other]) != level; };
 		behind.keep(level < 0 ? before : std::remove_if(behind.next(0), before, is_of_other));
 		ahead.keep(level < 0 ? after : std::remove_if(ahead.next(0), after, is_of_other));
 	}
 
 	bool are_near(int32_t s, const Box<T> &box, int32_t other, int32_t level) const
 	{
-		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static())
-			&& grid.level_of(boxes[other].half(slots[other].place)) == level;
+		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static()) && grid.level_of(boxes[other]) == level;
 	}
 
 	void meet(int32_t s, int32_t other, bool alike, Finds &ahead, Finds &behind)
