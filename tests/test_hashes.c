@@ -1,6 +1,7 @@
-/* The same bits everywhere: each scene of scenes/ after some steps has the hash that is written here, on every device, for
+/* The same bits everywhere: each scene of scenes/ and some random worlds, after some steps, have the hash that is written here, on every device, for
  * every number of threads, in one run or in several. A hash that changes means that trajectories changed: say so in the
  * CHANGELOG, and find out why before a number here is touched. */
+#include <math.h>
 #include <stdio.h>
 
 #include "scenery.h"
@@ -48,6 +49,68 @@ static uint64_t hash_after(carom_world *world, uint64_t steps, int calls)
 	carom_world_destroy(world);
 	return hash;
 }
+
+/* ---- Random worlds: seeds of scenery_bodies in a room with gravity, of all shapes, with static bodies, and lossy hits */
+
+static const struct {
+	uint64_t seed;
+	scenery_shapes shapes;
+	size_t count;
+	float restitution, gravity;
+	uint64_t hash, events;
+} random_worlds[] = {
+	{1, SCENERY_MIXED, 49, 1.0f, 0.0f, 0x57a11332f40f823f, 0x12395c5ef58660df},
+	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, 0xda8851edef371f53, 0x9d781410aa33ad3f},
+	{3, SCENERY_POLYGONS, 64, 0.5f, -1.0f, 0x510c2e562cda538f, 0x7b7a5859a8e59700},
+	{4, SCENERY_CIRCLES, 196, 0.875f, -3.0f, 0x2c0cb69fffe63f90, 0x5222fe046872010e},
+};
+
+static carom_world *random_world(size_t i, const char *step, const scenery_device *device)
+{
+	enum { MOST = 196 };
+	carom_body_def bodies[MOST];
+	carom_world_def def = carom_default_world_def();
+	scenery_random random = {random_worlds[i].seed};
+	float half = 0.75f * sqrtf((float)random_worlds[i].count) + 1.0f;
+	carom_world *world;
+	carom_error error;
+	def.pipeline.step = step;
+	def.has_room = true;
+	def.room_min = (carom_vec2){-half, -half};
+	def.room_max = (carom_vec2){half, half};
+	def.gravity = (carom_vec2){0.25f, random_worlds[i].gravity};
+	def.restitution = random_worlds[i].restitution;
+	scenery_bodies(&random, random_worlds[i].shapes, random_worlds[i].count, 1.4f, 4.0f, bodies);
+	world = scenery_world(&def, device);
+	if (world)
+		scenery_check(carom_world_add(world, bodies, random_worlds[i].count, NULL, &error), &error);
+	return world;
+}
+
+static void check_random(size_t i, const char *step, uint64_t expected)
+{
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = random_world(i, step, device);
+		uint64_t hash;
+		if (!world)
+			continue;
+		hash = hash_after(world, EVENTS_STEPS, 1);
+		if (hash != expected)
+			fail_msg("seed %llu, step %s on %s: %016llx, expected %016llx", (unsigned long long)random_worlds[i].seed, step, device->name,
+				(unsigned long long)hash, (unsigned long long)expected);
+	}
+}
+
+static void random_worlds_have_their_hashes(void **unused)
+{
+	(void)unused;
+	for (size_t i = 0; i < sizeof random_worlds / sizeof *random_worlds; i++) {
+		check_random(i, "first_impact", random_worlds[i].hash);
+		check_random(i, "events", random_worlds[i].events);
+	}
+}
+
+/* ---- Scenes */
 
 static void check_hash(const char *scene, const char *step, uint64_t steps, uint64_t expected)
 {
@@ -118,6 +181,7 @@ static void advancing_in_pieces_changes_no_bit(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(every_scene_has_its_hash), cmocka_unit_test(every_scene_has_its_hash_of_events),
-		cmocka_unit_test(threads_and_calls_change_no_bit), cmocka_unit_test(advancing_in_pieces_changes_no_bit)};
+		cmocka_unit_test(random_worlds_have_their_hashes), cmocka_unit_test(threads_and_calls_change_no_bit),
+		cmocka_unit_test(advancing_in_pieces_changes_no_bit)};
 	return cmocka_run_group_tests_name("hashes", tests, NULL, NULL);
 }
