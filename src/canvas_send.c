@@ -57,11 +57,6 @@ carom_status carom_canvas_no_memory(const carom_world *world, carom_error *error
 
 /* ---- What is sent once: how vertices are to be found, and what is made of them [3] */
 
-static uint32_t texels_of(const carom_body *body)
-{
-	return (body->vertex_count + 1) / 2;
-}
-
 /* The vertex as the pipeline's option has it sent. */
 static void fill_stream(const carom_world *world, uint32_t index, uint32_t first_texel, uint32_t ordinal, float *texel)
 {
@@ -93,9 +88,10 @@ static void fill_draw(const carom_body *body, uint32_t index, const carom_canvas
 /* Static bodies first: what moves lies over them. `next` counts what there is. */
 static void fill_bodies(const carom_world *world, bool is_static, carom_canvas *next, size_t *drawn, float *stream, float *draws)
 {
-	uint32_t texel = 0;
+	uint32_t circle = carom_polygon_texels(world);
 	for (uint32_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
+		const uint32_t texel = body->vertex_count == 1 ? circle++ : body->vertex_first / 2;
 		if (body->is_static == is_static) {
 			fill_draw(body, i, next, draws + 4 * DRAWS_WIDTH * (*drawn)++);
 			for (uint32_t k = 0; k < body->vertex_count; k++)
@@ -103,7 +99,6 @@ static void fill_bodies(const carom_world *world, bool is_static, carom_canvas *
 			next->edges += body->vertex_count == 1 ? 1 + LINE_EDGES : body->vertex_count;
 			next->shapes += body->vertex_count == 1 ? 2 : 1;
 		}
-		texel += texels_of(body);
 	}
 }
 

@@ -147,7 +147,7 @@ carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t
 }
 
 /* Texels of Vertices: those of polygons, as the host has them, come first. */
-static uint32_t polygon_texels(const carom_world *world)
+uint32_t carom_polygon_texels(const carom_world *world)
 {
 	return (uint32_t)(world->vertices.used / (2 * sizeof(carom_vec2)));
 }
@@ -217,7 +217,7 @@ static carom_status upload_bodies(carom_world *world, carom_error *error)
 	float uniforms[4 * UNIFORMS_WIDTH] = {0};
 	size_t most = world->capacity > world->vertex_capacity ? world->capacity : world->vertex_capacity;
 	float *geometry = calloc(most, 4 * sizeof *geometry), *forces = calloc(most, 4 * sizeof *forces), *vertices = calloc(most, 4 * sizeof *vertices);
-	uint32_t circle = polygon_texels(world);
+	uint32_t circle = carom_polygon_texels(world);
 	carom_status status;
 	if (!geometry || !forces || !vertices) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
@@ -293,7 +293,7 @@ static carom_status unload(carom_world *world, carom_error *error)
 
 carom_status carom_textures_hold(carom_world *world, carom_error *error)
 {
-	const uint32_t polygons = polygon_texels(world);
+	const uint32_t polygons = carom_polygon_texels(world);
 	const uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(polygons + circle_texels(world));
 	const uint32_t polygon_capacity = polygons ? carom_capacity(polygons) : 0;
 	carom_status status = unload(world, error);

@@ -106,6 +106,8 @@ carom_body *carom_world_bodies(const carom_world *world);
 /* outlines.c. Has the world room for so many vertices more? */
 #define CAROM_MOST_VERTICES (6u << 22) /* with those of circles they take 2^24 texels at most, and so do the indices of these */
 bool carom_outlines_have_room(const carom_world *world, uint32_t count);
+/* Texels of Vertices that polygons take; those of circles, in their order, follow. */
+uint32_t carom_polygon_texels(const carom_world *world);
 /* Keeps a polygon's vertices and sets body->vertex_first; false if there is no memory. */
 bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices);
 /* Fills in Outlines. */
