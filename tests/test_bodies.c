@@ -359,11 +359,39 @@ static void equal_polygons_share_vertices(void **unused)
 	carom_world_destroy(world);
 }
 
+/* What is given up with a call that failed is not shared by the next. */
+static void outlines_given_up_are_not_shared(void **unused)
+{
+	(void)unused;
+	carom_world_def def = carom_default_world_def();
+	carom_body_def bodies[2] = {carom_default_body_def(), carom_default_body_def()};
+	carom_body_info info;
+	carom_world *world = NULL;
+	def.device = "cpu";
+	for (int i = 0; i < 2; i++) {
+		bodies[i].shape = CAROM_REGULAR;
+		bodies[i].sides = 5;
+		bodies[i].radius = 1.0f + (float)i;
+	}
+	bodies[1].density = -1.0f;
+	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_OK);
+	assert_int_equal(carom_world_add(world, bodies, 2, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	bodies[1].density = 1.0f;
+	assert_int_equal(carom_world_add(world, &bodies[0], 1, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_add(world, &bodies[1], 1, NULL, NULL), CAROM_OK);
+	for (uint32_t i = 0; i < 2; i++) {
+		assert_int_equal(carom_world_get_body(world, i, &info, NULL), CAROM_OK);
+		assert_true(info.vertices[0].x == 1.0f + (float)i);
+	}
+	carom_world_destroy(world);
+}
+
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_out_of_range), cmocka_unit_test(static_bodies_stand_still),
-		cmocka_unit_test(masses_have_reciprocals), cmocka_unit_test(shapes_out_of_range), cmocka_unit_test(polygons_that_are_none),
-		cmocka_unit_test(either_way_round), cmocka_unit_test(centre_of_mass_is_the_origin), cmocka_unit_test(regular_polygons),
-		cmocka_unit_test(discs_and_given_masses), cmocka_unit_test(the_rest_is_kept), cmocka_unit_test(equal_polygons_share_vertices)};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(outlines_given_up_are_not_shared), cmocka_unit_test(numbers_out_of_range),
+		cmocka_unit_test(static_bodies_stand_still), cmocka_unit_test(masses_have_reciprocals), cmocka_unit_test(shapes_out_of_range),
+		cmocka_unit_test(polygons_that_are_none), cmocka_unit_test(either_way_round), cmocka_unit_test(centre_of_mass_is_the_origin),
+		cmocka_unit_test(regular_polygons), cmocka_unit_test(discs_and_given_masses), cmocka_unit_test(the_rest_is_kept),
+		cmocka_unit_test(equal_polygons_share_vertices)};
 	return cmocka_run_group_tests_name("bodies", tests, NULL, NULL);
 }
