@@ -63,13 +63,18 @@ endif
 HELPERS := $(filter-out $(TESTS),$(sort $(wildcard tests/*.c)))
 # What makes calls fail, for tests/test_faults_*.
 FAULTS := $(sort $(wildcard tests/faults/*.c tests/faults/*.cpp))
+# What is fed made-up input: by libFuzzer, or by replay.c, which has the main that libFuzzer brings itself.
+FUZZERS := $(sort $(wildcard tests/fuzz/fuzz_*.c))
+FUZZ_HELPERS := $(filter-out $(FUZZERS) tests/fuzz/replay.c,$(sort $(wildcard tests/fuzz/*.c)))
 
 object = $(patsubst %,$(BUILD)/%.o,$(basename $(1)))
 LIBRARY_OBJECTS := $(call object,$(LIBRARY)) $(BUILD)/kernels.o $(BUILD)/cpu_stages.o
 COMMAND_OBJECTS := $(call object,$(COMMAND))
 TEST_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(TESTS))
 HELPER_OBJECTS := $(call object,$(HELPERS))
-OBJECTS := $(LIBRARY_OBJECTS) $(COMMAND_OBJECTS) $(call object,$(TESTS) $(FAULTS)) $(HELPER_OBJECTS)
+FUZZ_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(FUZZERS))
+FUZZ_OBJECTS := $(call object,$(FUZZ_HELPERS) $(if $(LIBFUZZER),,tests/fuzz/replay.c))
+OBJECTS := $(LIBRARY_OBJECTS) $(COMMAND_OBJECTS) $(call object,$(TESTS) $(FAULTS) $(FUZZERS)) $(HELPER_OBJECTS) $(FUZZ_OBJECTS)
 
 # ---- Flags
 
@@ -115,6 +120,7 @@ help:
 	@echo 'make doc             render include/carom.h, the manual of the library, into build/doc/html/'
 	@echo 'make check-threads   build and run the test of threads with the thread sanitizer'
 	@echo 'make conformance     run the tests on every OpenCL implementation that is installed, and from several compilers'
+	@echo 'make fuzz            feed made-up scenes and calls to the library, with clang and libFuzzer, FUZZ_SECONDS=600 each'
 	@echo 'make bench           measure the tables of the paper, and scale, and write them into build/bench/'
 	@echo 'make install         install below PREFIX=$(PREFIX), libraries into LIBDIR=PREFIX/lib, staged in DESTDIR='
 	@echo 'make uninstall       remove what the same call of install installed'
@@ -195,6 +201,7 @@ $(eval $(call remember,command.list,$$(COMMAND)))
 $(eval $(call remember,kernels.list,$$(KERNELS)))
 $(eval $(call remember,stages.list,$$(STAGES)))
 $(eval $(call remember,helpers.list,$$(HELPERS) $$(FAULTS)))
+$(eval $(call remember,fuzz.list,$$(FUZZ_OBJECTS)))
 
 NEEDED_COMMANDS := $(firstword $(CC)) $(firstword $(CXX)) $(PKG_CONFIG)
 need = { echo 'make: $(1) is missing: run tools/bootstrap' >&2; exit 1; }
@@ -221,9 +228,37 @@ $(filter $(BUILD)/tests/test_faults_%,$(TEST_PROGRAMS)): private LDFLAGS += @tes
 $(TEST_PROGRAMS): %: %.o $(HELPER_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/helpers.list
 	$(call say,LINK) $(LINK) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CMOCKA_LIBRARIES) $(LIBRARIES)
 
-check: all $(TEST_PROGRAMS)
+$(FUZZ_PROGRAMS): %: %.o $(FUZZ_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/fuzz.list
+	$(call say,LINK) $(LINK) $(LIBFUZZER) -o $@ $(filter %.o %.a,$^) $(LIBRARIES)
+
+check: all $(TEST_PROGRAMS) $(FUZZ_PROGRAMS)
 	$(if $(filter Darwin,$(SYSTEM)),@echo 'SKIPPED tests/test_faults_*: the linker of macOS has no --wrap')
-	@CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE_COMMAND)' tools/check $(BUILD) $(TEST_PROGRAMS)
+	@CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE_COMMAND)' tools/check $(BUILD) $(TEST_PROGRAMS) $(FUZZ_PROGRAMS)
+
+# ---- Fuzzing: what libFuzzer finds is kept in build/fuzz/found/, its corpus in build/fuzz/corpus/. FUZZ are more options for it.
+
+FUZZ_CC ?= clang
+FUZZ_CXX ?= clang++
+FUZZ_SECONDS ?= 600
+FUZZ_SEEDS_scene := tests/bad scenes
+FUZZ_CHECKS := address,undefined,float-cast-overflow
+FUZZ_IGNORED := $(addsuffix =tests/fuzz/third_parties.list,-fsanitize-ignorelist -fsanitize-coverage-ignorelist)
+
+fuzz:
+	@for command in $(FUZZ_CC) $(FUZZ_CXX); do \
+		command -v "$$command" >/dev/null 2>&1 || { echo "make: $$command is missing: run tools/bootstrap --developer" >&2; exit 1; }; done
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC='$(FUZZ_CC)' CXX='$(FUZZ_CXX)' OPTIMIZE='-O2 -g' LIBFUZZER=-fsanitize=fuzzer \
+		SANITIZERS='-fsanitize=fuzzer-no-link,$(FUZZ_CHECKS) -fno-sanitize-recover=all $(FUZZ_IGNORED)' fuzzers
+	@$(foreach name,$(patsubst tests/fuzz/fuzz_%.c,%,$(FUZZERS)),$(call fuzz_one,$(name)) &&) true
+
+fuzzers: $(FUZZ_PROGRAMS)
+
+# An input takes less than a second; ten are for machines that do much else.
+define fuzz_one
+mkdir -p $(BUILD)/fuzz/found $(BUILD)/fuzz/corpus/$(1) && $(BUILD)/fuzz/tests/fuzz/fuzz_$(1) -max_total_time=$(FUZZ_SECONDS) -timeout=10 \
+	-rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/found/$(1)- $(FUZZ) \
+	$(addprefix -dict=,$(wildcard tests/fuzz/$(1).dict)) $(BUILD)/fuzz/corpus/$(1) $(wildcard tests/corpus/$(1)) $(FUZZ_SEEDS_$(1))
+endef
 
 ALL_INCLUDES := $(INCLUDES) -Itests $(PACKAGES) $(EIGEN) $(CMOCKA) $(CAIRO_INCLUDES) $(BOX2D_INCLUDES)
 quoted = $(subst ','\'',$(1))
@@ -318,7 +353,7 @@ clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check check-threads run-threads conformance static doc demo bench install uninstall dist distcheck clean FORCE
+.PHONY: all help check check-threads run-threads fuzz fuzzers conformance static doc demo bench install uninstall dist distcheck clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all

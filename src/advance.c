@@ -150,6 +150,15 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 	return status;
 }
 
+/* What the device has made itself is good to go on from. */
+static carom_status get_ready(carom_world *world, carom_error *error)
+{
+	carom_status status = world->bodies_current && world->device_current ? CAROM_OK : carom_textures_fetch(world, error);
+	if (!status && !(world->bodies_current && world->device_current))
+		status = carom_check_range(world, error);
+	return status ? status : carom_textures_update(world, error);
+}
+
 static carom_status run_all(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
 	const uint64_t leg = 1u << 22;
@@ -157,7 +166,7 @@ static carom_status run_all(carom_world *world, uint64_t steps, carom_report *re
 	bool go_on = true;
 	carom_status status = CAROM_OK;
 	if (world->body_count > 0 && steps > 0 && !is_over(world))
-		status = carom_textures_update(world, error);
+		status = get_ready(world, error);
 	while (!status && go_on && world->body_count > 0 && done.steps < steps && !is_over(world))
 		status = run_leg(world, steps - done.steps < leg ? steps - done.steps : leg, &done, &go_on, error);
 	if (report)

@@ -35,6 +35,8 @@ static size_t character_length(const unsigned char *text)
 	size_t length = *text < 0x80 ? 1 : *text >= 0xF0 ? 4 : *text >= 0xE0 ? 3 : 2;
 	if (length == 1)
 		return 1;
+	if (*text < 0xC0)
+		return 0; /* the middle of a character */
 	unsigned long code = *text & (0x7Fu >> length);
 	for (size_t k = 1; k < length; k++) {
 		if ((text[k] & 0xC0) != 0x80)

@@ -11,6 +11,8 @@
 
 void *carom_array_grow(carom_array *array, size_t size)
 {
+	if (size == 0)
+		return array->items;
 	if (array->used + size > array->room) {
 		size_t room = array->room ? array->room : 4096;
 		void *items;
@@ -48,7 +50,7 @@ static carom_status check_def(const carom_world_def *def, carom_error *error)
 	if (!(def->epsilon >= 2.384185791015625e-7f && def->epsilon <= 0.5f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "epsilon: found %g, must be from 2^-22 to 0.5 (of a step)", (double)def->epsilon);
 	if (def->storage != CAROM_STORAGE_AUTO && def->storage != CAROM_STORAGE_IMAGE && def->storage != CAROM_STORAGE_BUFFER)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "storage: found %d, must be one of CAROM_STORAGE_...", (int)def->storage);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "storage: found %d, must be CAROM_STORAGE_AUTO, _IMAGE or _BUFFER", (int)def->storage);
 	if (def->has_room && (!finite2(def->room_min) || !finite2(def->room_max)))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "room: min and max must be two finite numbers each (m)");
 	if (def->has_room && !(def->room_min.x < def->room_max.x && def->room_min.y < def->room_max.y))

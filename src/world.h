@@ -25,7 +25,7 @@ typedef struct carom_array {
 	size_t used, room; /* bytes */
 } carom_array;
 
-/* Where `size` more bytes go; NULL if there is no memory. */
+/* Where `size` more bytes go; NULL if there is no memory, or may be where they are none. */
 void *carom_array_grow(carom_array *array, size_t size);
 
 /* Front and back; the same texture twice where there is only one. */
@@ -112,6 +112,8 @@ uint32_t carom_polygon_texels(const carom_world *world);
 bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices);
 /* Fills in Outlines. */
 carom_status carom_outlines_send(carom_world *world, carom_error *error);
+/* range.c: CAROM_LIMIT where a step from here would leave the floats */
+carom_status carom_check_range(const carom_world *world, carom_error *error);
 
 /* textures.c: texels of a texture of one texel an item, folded into rows */
 uint32_t carom_row_width(uint32_t items);

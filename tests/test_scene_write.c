@@ -194,6 +194,41 @@ static void stop_and_resume_is_exact(void **state)
 	unlink(in_folder("there.json"));
 }
 
+/* A name of every two bytes there are, between which an x stands: what is no UTF-8 is written as something that is. */
+static void names_of_any_bytes_read_back(void **state)
+{
+	(void)state;
+	static char name[255 * 255 * 3 + 1];
+	char *end = name;
+	for (unsigned first = 1; first < 256; first++) {
+		for (unsigned second = 1; second < 256; second++) {
+			*end++ = (char)first;
+			*end++ = (char)second;
+			*end++ = 'x';
+		}
+	}
+	carom_world_def def = carom_default_world_def();
+	carom_body_def body = carom_default_body_def();
+	carom_world *world = NULL;
+	carom_scene *read = NULL, *again = NULL;
+	def.device = "cpu";
+	body.radius = 1;
+	body.name = name;
+	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_OK);
+	assert_int_equal(carom_world_add(world, &body, 1, NULL, NULL), CAROM_OK);
+	carom_world *back = there_and_back(world, NULL, &read);
+	assert_non_null(strstr(read->bodies[0].name, "x\n\x1Fx"));
+	assert_non_null(strstr(read->bodies[0].name, "x\xC3\xA9x"));
+	assert_non_null(strstr(read->bodies[0].name, "x\xEF\xBF\xBD\xEF\xBF\xBDx")); /* twice the replacement character */
+	carom_world *third = there_and_back(back, NULL, &again);
+	assert_string_equal(read->bodies[0].name, again->bodies[0].name);
+	carom_world_destroy(world);
+	carom_world_destroy(back);
+	carom_world_destroy(third);
+	carom_scene_destroy(read);
+	carom_scene_destroy(again);
+}
+
 static int make_folder(void **state)
 {
 	(void)state;
@@ -211,6 +246,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(everything_reads_back_with_the_same_bits),
 		cmocka_unit_test(every_scene_reads_back_with_the_same_bits), cmocka_unit_test(awkward_floats_read_back_with_the_same_bits),
-		cmocka_unit_test(every_choice_of_a_slot_reads_back), cmocka_unit_test(stop_and_resume_is_exact)};
+		cmocka_unit_test(every_choice_of_a_slot_reads_back), cmocka_unit_test(stop_and_resume_is_exact),
+		cmocka_unit_test(names_of_any_bytes_read_back)};
 	return cmocka_run_group_tests_name("scene_write", tests, make_folder, remove_folder);
 }

@@ -1,0 +1,70 @@
+/* Numbers that a step can compute with. Any finite state can be held, drawn and written; but the kernels multiply and square
+ * what they are given, and where that leaves the floats a state is lost. So it is looked at before the first step from it. */
+#include <math.h>
+
+#include "layout.h"
+#include "status.h"
+#include "world.h"
+
+#define MOST 1e9           /* m, m/s, rad/s: four factors of that size are below the largest float, 3.4e38 */
+#define MOST_TRAVEL 1e18   /* m, rad: what a step may add to a place */
+#define MOST_MOMENTUM 1e36 /* kg m/s, kg m^2/s */
+
+/* What a body may be at the end of a step, if nothing is in its way: turning counts as speed at the rim. */
+typedef struct reached {
+	double place, speed, spin; /* m, m/s, rad/s */
+} reached;
+
+static double larger_of(carom_vec2 v)
+{
+	return fmax(fabs((double)v.x), fabs((double)v.y));
+}
+
+static reached reach_of(const carom_world *world, size_t index)
+{
+	const carom_body *body = &carom_world_bodies(world)[index];
+	const float *l = (const float *)world->linear.items + 4 * index, *r = (const float *)world->rotational.items + 4 * index;
+	const double time = (double)world->def.time_step, push = larger_of(body->force) / (double)body->mass,
+				 twist = fabs((double)body->torque) / (double)body->inertia;
+	reached most = {.place = fmax(larger_of((carom_vec2){l[LINEAR_X], l[LINEAR_Y]}), (double)body->bound)};
+	if (body->is_static)
+		return most;
+	most.spin = fabs((double)r[ROTATIONAL_VELOCITY]) + twist * time;
+	most.speed = larger_of((carom_vec2){l[LINEAR_VX], l[LINEAR_VY]}) + (larger_of(world->def.gravity) + push) * time
+		+ most.spin * (double)body->bound;
+	return most;
+}
+
+static const char *excess(const carom_world *world, const reached *most)
+{
+	const carom_world_def *def = &world->def;
+	if (def->has_room && (larger_of(def->room_min) > MOST || larger_of(def->room_max) > MOST))
+		return "the room";
+	if (most->place > MOST)
+		return "its place or its size";
+	if (most->speed > MOST || most->spin > MOST)
+		return "its speed, or what a step of so much push adds to it,";
+	if (fmax(most->speed, most->spin) * (double)def->time_step > MOST_TRAVEL)
+		return "its way in one step";
+	return NULL;
+}
+
+/* Bodies hit each other, so the heaviest may become the fastest. */
+carom_status carom_check_range(const carom_world *world, carom_error *error)
+{
+	double heaviest = 0.0, fastest = 0.0;
+	for (size_t i = 0; i < world->body_count; i++) {
+		const carom_body *body = &carom_world_bodies(world)[i];
+		const reached most = reach_of(world, i);
+		const char *what = excess(world, &most);
+		if (what)
+			return carom_fail(error, CAROM_LIMIT, "body %zu: %s is too large for a step in 32-bit floats; allowed: up to 1e9 m, m/s and rad/s", i,
+				what);
+		heaviest = body->is_static ? heaviest : fmax(heaviest, fmax((double)body->mass, (double)body->inertia));
+		fastest = fmax(fastest, fmax(most.speed, most.spin));
+	}
+	if (heaviest * fastest > MOST_MOMENTUM)
+		return carom_fail(error, CAROM_LIMIT,
+			"a body of %g kg or kg m^2 and a speed of %g m/s or rad/s make a momentum too large for a step in 32-bit floats", heaviest, fastest);
+	return CAROM_OK;
+}
