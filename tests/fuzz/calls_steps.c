@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_STEPS = 4, HITS_A_STEP = 32 };
+enum { MOST_STEPS = 2, HITS_A_STEP = 16 };
 
 /* Each hit rounds velocities to floats, a few units in the last place of the fastest. */
 #define GAIN_A_HIT 1e-6

@@ -8,7 +8,7 @@
 const char fuzz_name[] = "api";
 
 #define MOST_CALLS 64
-#define MOST_WORK 48
+#define MOST_WORK 24
 
 static uint64_t run_calls(const uint8_t *data, size_t size, uint32_t threads)
 {
