@@ -319,7 +319,10 @@ static size_t feed_head(void *buffer, size_t size, void *data)
 carom_status scene_parse_head(struct scene_reader *reader, json_t **head)
 {
 	struct feed feed = {reader->text, reader};
-	json_error_t found;
+	json_error_t found = {.text = "found a NUL byte"}; /* jansson would take it for the end of the file */
+	const char *nul = memchr(reader->text, '\0', (size_t)(reader->end - reader->text));
+	if (nul)
+		return fail_syntax(reader, nul + 1, &found);
 	*head = json_load_callback(feed_head, &feed, FLAGS, &found);
 	if (*head)
 		return CAROM_OK;

@@ -3,9 +3,11 @@
 #include "scene_json.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_BYTES INT_MAX /* lines and columns are ints; the largest worlds take less */
 #define FORMAT "carom-scene/1"
 
 static const struct scene_range epsilon = {0x1p-22, 0.5, false, "a number from 2.4e-7 (2^-22) to 0.5"};
@@ -128,6 +130,9 @@ carom_status carom_scene_parse(const char *text, size_t length, const char *name
 	carom_status status;
 	if (!text || !scene)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_parse: no text or no scene");
+	if (length > MOST_BYTES)
+		return carom_fail(error, CAROM_INVALID_SCENE, "%s: found more than 2 GiB of text; allowed: up to %d bytes", name ? name : "scene",
+			MOST_BYTES);
 	struct scene_reader reader = {.name = name ? name : "scene", .text = text, .end = text + length, .error = error};
 	if (length >= 3 && memcmp(text, byte_order_mark, 3) == 0)
 		reader.text += 3;
@@ -145,19 +150,21 @@ carom_status carom_scene_parse(const char *text, size_t length, const char *name
 	return status;
 }
 
-/* Everything there is to read: the size of a pipe isn't known beforehand. */
+/* All there is to read, as far as it can be a scene: the size of a pipe isn't known beforehand, and a device may have no end. */
 static bool read_all(FILE *file, char **text, size_t *length)
 {
-	for (size_t capacity = 1 << 16; capacity <= SIZE_MAX / 2; capacity *= 2) {
+	for (size_t capacity = 1 << 16, begun = 0; begun <= MOST_BYTES; begun = *length, capacity *= 2) {
 		char *grown = realloc(*text, capacity);
 		if (!grown)
 			return false;
 		*text = grown;
-		*length += fread(*text + *length, 1, capacity - *length, file);
+		*length += fread(*text + begun, 1, capacity - begun, file);
 		if (*length < capacity)
 			return !ferror(file);
+		if (memchr(*text + begun, '\0', *length - begun))
+			return true; /* which no JSON has */
 	}
-	return false;
+	return true;
 }
 
 carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error *error)

@@ -75,6 +75,11 @@ static carom_status read_set(const char *text, void *target, carom_error *error)
 	if (options->set_count == MAX_SETS)
 		return wrong(error, "found more than %d; allowed: one a slot", MAX_SETS);
 	carom_status status = set_slot(&pipeline, text, error);
+	const size_t slot = strcspn(text, "=") + 1;
+	for (size_t k = 0; status == CAROM_OK && k < options->set_count; k++) {
+		if (strncmp(options->sets[k], text, slot) == 0)
+			status = wrong(error, "found \"%s\" and \"%s\"; allowed: one a slot", options->sets[k], text);
+	}
 	if (status == CAROM_OK)
 		options->sets[options->set_count++] = text;
 	return status;
@@ -113,6 +118,17 @@ static const struct option *find_option(const struct option *table, const char *
 	return NULL;
 }
 
+/* Was the option at argv[index] given before? No value begins with two dashes, so what does is an option. */
+static bool is_given_before(char **argv, int index)
+{
+	const size_t length = strcspn(argv[index], "=");
+	for (int k = 1; k < index; k++) {
+		if (strcspn(argv[k], "=") == length && memcmp(argv[k], argv[index], length) == 0)
+			return true;
+	}
+	return false;
+}
+
 /* Takes the option at argv[*index] and its value. */
 static carom_status take_option(const struct command *command, int argc, char **argv, int *index, struct common_options *options, carom_error *error)
 {
@@ -128,8 +144,10 @@ static carom_status take_option(const struct command *command, int argc, char **
 		*(bool *)target = true;
 		return value ? wrong(error, "--%s takes no value", option->name) : CAROM_OK;
 	}
-	if (!value && *index + 1 >= argc)
+	if (!value && (*index + 1 >= argc || strncmp(argv[*index + 1], "--", 2) == 0)) /* --option=--value is a way */
 		return wrong(error, "--%s: the value is missing: --%s %s", option->name, option->name, option->value);
+	if (option->read != read_set && is_given_before(argv, *index))
+		return wrong(error, "--%s: found twice; allowed: once", option->name);
 	if (!value)
 		value = argv[++*index];
 	carom_error found;

@@ -77,10 +77,10 @@ static carom_status check_def(const struct placement_def *def, carom_error *erro
 {
 	if (def->count < 1 || def->count > MAX_PLACED)
 		return wrong(error, "--count: found %u; allowed: 1 to %u", (unsigned)def->count, MAX_PLACED);
-	if (!((float)def->radius > 0) || !(def->radius < 1e15))
-		return wrong(error, "--radius: found %g; allowed: a length above 0 that a float can hold, below 1e15 m", def->radius);
-	if (!(def->speed >= 0) || !(def->speed < 1e30))
-		return wrong(error, "--speed: found %g; allowed: 0 to 1e30", def->speed);
+	if (!(def->radius >= 1e-8) || !(def->radius <= 1e6))
+		return wrong(error, "--radius: found %g; allowed: 1e-8 to 1e6 (m)", def->radius);
+	if (!(def->speed >= 0) || !(def->speed <= 1e6))
+		return wrong(error, "--speed: found %g; allowed: 0 to 1e6 (m/s)", def->speed);
 	if (!fits(def, def->fill))
 		return fail_fill(def, error);
 	if (!(half_of(def, def->fill) * 0x1p-23 < def->radius * GAP / 8))

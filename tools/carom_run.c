@@ -2,11 +2,13 @@
  * SPDX-License-Identifier: MIT */
 #include "carom_run.h"
 
+#include <math.h>
 #include <string.h>
 
 #define MAX_PICTURE_SIDE 16384u
 #define DEFAULT_TIME 1.0
 #define DEFAULT_FPS 30.0
+#define MOST_FPS 1000000
 
 /* ---- Options ---- */
 
@@ -30,9 +32,18 @@ static carom_status read_inset(const char *text, void *target, carom_error *erro
 	carom_inset *inset = &options->inset;
 	int length = 0;
 	if (sscanf(text, "%f,%f,%f,%f%n", &inset->min.x, &inset->min.y, &inset->size.x, &inset->size.y, &length) != 4 || text[length]
-		|| !(inset->size.x > 0) || !(inset->size.y > 0))
+		|| !(inset->size.x > 0) || !(inset->size.y > 0) || !isfinite(inset->min.x + inset->min.y + inset->size.x + inset->size.y))
 		return wrong(error, "found \"%s\"; allowed: X,Y,W,H in metres, the lower left corner and a size above 0", text);
 	options->has_inset = true;
+	return CAROM_OK;
+}
+
+static carom_status read_fps(const char *text, void *target, carom_error *error)
+{
+	double fps = 0;
+	if (read_positive(text, &fps, error) != CAROM_OK || fps > MOST_FPS)
+		return wrong(error, "found \"%s\"; allowed: a number above 0, at most %d", text, MOST_FPS);
+	*(double *)target = fps;
 	return CAROM_OK;
 }
 
@@ -53,7 +64,7 @@ static const struct option options_table[] = {
 	{"png", "FRAME.png", read_text, offsetof(struct run_options, png), "write a picture of the last state"},
 	{"frames", "DIR", read_text, offsetof(struct run_options, frames),
 		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing"},
-	{"fps", "F", read_positive, offsetof(struct run_options, fps), "frames for a simulated second; default 30"},
+	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames for a simulated second; default 30"},
 	{"stats", "FILE.csv", read_text, offsetof(struct run_options, stats),
 		"write a table with a row a step: time, hits, energy, momenta, deepest penetration"},
 	{"hash", NULL, NULL, offsetof(struct run_options, hash), "print a 64-bit hash of the last state, 16 hexadecimal digits"},
@@ -63,6 +74,19 @@ static const struct option options_table[] = {
 		"pictures"},
 	{NULL, NULL, NULL, 0, NULL},
 };
+
+/* Two outputs under one name: the first would be lost. */
+static carom_status check_paths(const struct run_options *options, carom_error *error)
+{
+	const char *const paths[] = {options->out, options->png, options->stats, options->frames};
+	for (size_t k = 1; k < sizeof paths / sizeof *paths; k++) {
+		for (size_t i = 0; i < k; i++) {
+			if (paths[i] && paths[k] && strcmp(paths[i], paths[k]) == 0 && strncmp(paths[i], "/dev/", 5) != 0)
+				return wrong(error, "%s: two of --out, --png, --stats and --frames write there; give each a name of its own", paths[i]);
+		}
+	}
+	return CAROM_OK;
+}
 
 static carom_status check_options(struct run_options *options, carom_error *error)
 {
@@ -76,7 +100,7 @@ static carom_status check_options(struct run_options *options, carom_error *erro
 		options->time = DEFAULT_TIME;
 	if (options->fps <= 0)
 		options->fps = DEFAULT_FPS;
-	return CAROM_OK;
+	return check_paths(options, error);
 }
 
 /* ---- What is said ---- */

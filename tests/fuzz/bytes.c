@@ -160,14 +160,35 @@ carom_world_def bytes_world_def(bytes *b)
 
 /* ---- Bodies */
 
+/* Places mostly come from a lattice in the room: bodies that begin in each other take long, and little can be asked of them. */
+#define CELLS 4
+
+static carom_vec2 pitch_of(const carom_world_def *world)
+{
+	if (!world->has_room)
+		return (carom_vec2){4.0f, 4.0f};
+	return (carom_vec2){(world->room_max.x - world->room_min.x) / CELLS, (world->room_max.y - world->room_min.y) / CELLS};
+}
+
 static carom_vec2 place_in(bytes *b, const carom_world_def *world)
 {
-	carom_vec2 place = pair_between(b, 0.0f, 1.0f);
-	if (!world->has_room)
-		return (carom_vec2){16.0f * place.x - 8.0f, 16.0f * place.y - 8.0f};
-	place.x = world->room_min.x + (world->room_max.x - world->room_min.x) * place.x;
-	place.y = world->room_min.y + (world->room_max.y - world->room_min.y) * place.y;
-	return place;
+	const carom_vec2 pitch = pitch_of(world), least = world->has_room ? world->room_min : (carom_vec2){-2.0f * pitch.x, -2.0f * pitch.y};
+	const uint32_t cell = b->placed++ * 5 % (CELLS * CELLS);
+	const bool anywhere = bytes_chance(b, 16);
+	carom_vec2 place = pair_between(b, anywhere ? 0.0f : 0.45f, anywhere ? (float)CELLS : 0.55f);
+	if (!anywhere) {
+		place.x += (float)(cell % CELLS);
+		place.y += (float)(cell / CELLS);
+	}
+	return (carom_vec2){least.x + pitch.x * place.x, least.y + pitch.y * place.y};
+}
+
+/* Of the circle that a body fills of its cell. */
+static float radius_in(bytes *b, const carom_world_def *world)
+{
+	const carom_vec2 pitch = pitch_of(world);
+	const float most = bytes_chance(b, 16) ? 2.0f : 0.4f;
+	return bytes_between(b, 0.02f, most) * (pitch.x < pitch.y ? pitch.x : pitch.y);
 }
 
 carom_body_state bytes_state(bytes *b, const carom_world_def *world)
@@ -193,10 +214,9 @@ static uint32_t vertex_count(bytes *b)
 }
 
 /* On an ellipse about some place, either way round. */
-static carom_vec2 *make_vertices(bytes *b, uint32_t count)
+static carom_vec2 *make_vertices(bytes *b, uint32_t count, float radius)
 {
-	const double width = (double)bytes_between(b, 0.05f, 2.0f), height = (double)bytes_between(b, 0.05f, 2.0f),
-				 turn = bytes_chance(b, 2) ? -2 * PI : 2 * PI;
+	const double width = (double)(radius * bytes_between(b, 0.05f, 1.0f)), height = (double)radius, turn = bytes_chance(b, 2) ? -2 * PI : 2 * PI;
 	const carom_vec2 centre = pair_between(b, -2.0f, 2.0f);
 	carom_vec2 *vertices = malloc(count * sizeof *vertices + 1);
 	FUZZ_EXPECT(vertices);
@@ -247,12 +267,12 @@ carom_body_def bytes_body_def(bytes *b, const carom_world_def *world, bytes_body
 	const uint8_t flags = bytes_byte(b);
 	*room = (bytes_body_room){NULL, ""};
 	def.shape = (carom_shape)(flags % 3);
-	def.radius = bytes_between(b, 0.05f, 2.0f);
+	def.radius = radius_in(b, world);
 	def.sides = vertex_count(b);
 	def.is_static = (flags >> 2 & 7) == 7;
 	if (def.shape == CAROM_POLYGON) {
 		def.vertex_count = !b->tame && bytes_chance(b, 16) ? bytes_below(b, 70) : vertex_count(b);
-		def.vertices = room->vertices = make_vertices(b, def.vertex_count);
+		def.vertices = room->vertices = make_vertices(b, def.vertex_count, def.radius);
 	}
 	move_body(b, world, &def);
 	if (flags & 32)

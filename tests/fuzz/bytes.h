@@ -7,6 +7,7 @@
 
 typedef struct bytes {
 	const uint8_t *at, *end; /* behind the end all are 0 */
+	uint32_t placed;         /* bodies so far */
 	bool tame;               /* all that is given is valid, and of a size that physics can be asked of */
 } bytes;
 

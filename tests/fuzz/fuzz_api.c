@@ -12,7 +12,7 @@ const char fuzz_name[] = "api";
 
 static uint64_t run_calls(const uint8_t *data, size_t size, uint32_t threads)
 {
-	calls c = {.bytes = {data, data + size, false}, .threads = threads, .work = MOST_WORK, .trace = 14695981039346656037u};
+	calls c = {.bytes = {.at = data, .end = data + size}, .threads = threads, .work = MOST_WORK, .trace = 14695981039346656037u};
 	c.bytes.tame = bytes_byte(&c.bytes) & 1;
 	for (int k = 0; k < MOST_CALLS && c.bytes.at < c.bytes.end; k++)
 		calls_make(&c);
