@@ -282,7 +282,8 @@ typedef struct carom_report {
 /** Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of first_impact lasts until the
  * first hit and at most `time_step` [2.2].
  * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED (first_impact alone): time can't get on, and the
- * state is the one at which it stood still. */
+ * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are above 1e9 (m, m/s, rad/s), where floats overflow, or
+ * there are more bodies than the step can hold. */
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
 /** Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. In a world without
  * bodies nothing runs, and no time passes. */
@@ -305,7 +306,7 @@ CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 /** The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
 /** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes at most on its device. Pictures come on top
- * from the first one on: about 300 bytes a circle, or 100 a polygon and 50 a vertex of it. */
+ * from the first one on: about 300 bytes a circle, or 100 a polygon and 50 a vertex of it. 0 for a def that no world is made from. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
 
 /** What a kernel took since the world was created: by OpenCL's profiling events, or the wall clock on the CPU fallback. */

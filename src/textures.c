@@ -6,6 +6,8 @@
 #include "status.h"
 #include "world.h"
 
+#define ENOUGH_ITERATIONS 64 /* halvings for any epsilon: they stop there */
+
 uint32_t carom_row_width(uint32_t items)
 {
 	return items < ROW_SIZE ? items : ROW_SIZE;
@@ -207,7 +209,7 @@ static void fill_uniforms(const carom_world *world, float *u)
 	room[ROOM_MAX_X] = def->room_max.x;
 	room[ROOM_MAX_Y] = def->room_max.y;
 	rules[RULES_EPSILON] = def->epsilon;
-	rules[RULES_ITERATIONS] = (float)(def->iterations ? def->iterations : 64);
+	rules[RULES_ITERATIONS] = def->iterations && def->iterations < ENOUGH_ITERATIONS ? (float)def->iterations : (float)ENOUGH_ITERATIONS;
 	rules[RULES_HAS_ROOM] = def->has_room ? 1.0f : 0.0f;
 	rules[RULES_RESTITUTION] = def->restitution;
 }

@@ -352,7 +352,7 @@ uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_
 {
 	carom_pipeline pipeline;
 	const carom_step *step;
-	if (carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
+	if (check_def(def, NULL) || carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
 		return 0;
 	step = step_named(pipeline.step);
 	return carom_textures_memory(body_count, vertex_count, step->pairs) + step->memory(&pipeline, def, body_count, vertex_count);

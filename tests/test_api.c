@@ -156,6 +156,84 @@ static void definitions_in_range(void **unused)
 	}
 }
 
+/* More halvings in a pass than there can be are all in one pass. */
+static void any_number_of_iterations(void **unused)
+{
+	(void)unused;
+	static const uint32_t iterations[] = {0, 22, 64, 1u << 24, INT32_MAX, UINT32_MAX};
+	const carom_body_def bodies[2] = {scenery_box(-1.5f, 0.0f, 2.0f, 0.1f, 1.0f, 1.0f), scenery_circle(1.0f, 0.1f, -1.0f, 0.0f, 0.5f)};
+	uint64_t hashes[COUNT(iterations)];
+	for (size_t i = 0; i < COUNT(iterations); i++) {
+		carom_world_def def = scenery_first_impact();
+		carom_world *world = NULL;
+		carom_report report;
+		carom_error error;
+		def.device = "cpu";
+		def.pipeline.toi = "bisection";
+		def.time_step = 0.25f;
+		def.iterations = iterations[i];
+		scenery_check(carom_world_create(&def, &world, &error), &error);
+		scenery_check(carom_world_add(world, bodies, 2, NULL, &error), &error);
+		scenery_check(carom_world_step(world, 8, &report, &error), &error);
+		scenery_check(carom_world_hash(world, &hashes[i], &error), &error);
+		assert_true(report.hits > 0 && hashes[i] == hashes[0]);
+		carom_world_destroy(world);
+	}
+}
+
+/* What a step could not compute with is refused by it, and by nothing else; the state stays. */
+static void assert_no_start(carom_world_def def, carom_body_def body, const char *said)
+{
+	static const char *const steps[] = {"events", "first_impact"};
+	for (size_t i = 0; i < COUNT(steps); i++) {
+		carom_world *world = NULL;
+		carom_body_state state;
+		carom_report report = {9, 9, 9, 9};
+		carom_error error = {0};
+		def.device = "cpu";
+		def.pipeline.step = steps[i];
+		scenery_check(carom_world_create(&def, &world, &error), &error);
+		scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
+		assert_fails(carom_world_step(world, 1, &report, &error), &error, CAROM_LIMIT, said);
+		assert_fails(carom_world_advance(world, 1.0, NULL, &error), &error, CAROM_LIMIT, said);
+		scenery_check(carom_world_get_states(world, 0, 1, &state, &error), &error);
+		assert_true(report.steps == 0 && carom_world_time(world) == 0 && state.position.x == body.position.x && state.velocity.y == body.velocity.y);
+		state = (carom_body_state){.position = {1e9f, 0.0f}};
+		if (!strcmp(said, "body 0: its place")) {
+			scenery_check(carom_world_set_states(world, 0, 1, &state, &error), &error);
+			scenery_check(carom_world_step(world, 1, NULL, &error), &error);
+		}
+		carom_world_destroy(world);
+	}
+}
+
+static void steps_start_within_floats(void **unused)
+{
+	(void)unused;
+	const carom_world_def def = carom_default_world_def();
+	carom_world_def falling = def, slow = def, wide = def;
+	const carom_body_def far = scenery_circle(1.0001e9f, 0.0f, 0.0f, 0.0f, 1.0f), fast = scenery_circle(0.0f, 0.0f, 0.0f, -FLT_MAX, 1.0f);
+	carom_body_def here = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f), pushed = here, heavy = here, spinning = here;
+	assert_no_start(def, far, "body 0: its place");
+	assert_no_start(def, fast, "body 0: its speed");
+	pushed.force.y = FLT_MAX;
+	assert_no_start(def, pushed, "body 0: its speed");
+	spinning.angular_velocity = 2e9f;
+	assert_no_start(def, spinning, "body 0: its speed");
+	falling.gravity.x = -1e11f;
+	assert_no_start(falling, here, "body 0: its speed");
+	slow.time_step = 1e30f;
+	here.velocity.x = 1.0f;
+	assert_no_start(slow, here, "body 0: its way in one step");
+	wide.has_room = true;
+	wide.room_min = (carom_vec2){-1e10f, -1.0f};
+	wide.room_max = (carom_vec2){1.0f, 1.0f};
+	assert_no_start(wide, here, "body 0: the room");
+	heavy.mass = 1e36f;
+	heavy.velocity.x = 10.0f;
+	assert_no_start(def, heavy, "a body of 1e+36 kg");
+}
+
 /* ---- Names */
 
 static void unknown_names_list_the_known(void **unused)
@@ -302,7 +380,8 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(statuses_have_names), cmocka_unit_test(version_is_the_headers),
 		cmocka_unit_test(null_is_released), cmocka_unit_test(errors_are_optional), cmocka_unit_test(definitions_out_of_range),
-		cmocka_unit_test(definitions_in_range), cmocka_unit_test(unknown_names_list_the_known), cmocka_unit_test(stages_are_listed),
-		cmocka_unit_test(devices_are_listed), cmocka_unit_test(devices_by_name), cmocka_unit_test(without_opencl_the_cpu_works)};
+		cmocka_unit_test(definitions_in_range), cmocka_unit_test(any_number_of_iterations), cmocka_unit_test(steps_start_within_floats),
+		cmocka_unit_test(unknown_names_list_the_known), cmocka_unit_test(stages_are_listed), cmocka_unit_test(devices_are_listed),
+		cmocka_unit_test(devices_by_name), cmocka_unit_test(without_opencl_the_cpu_works)};
 	return cmocka_run_group_tests_name("api", tests, make_folder, remove_folder);
 }

@@ -303,6 +303,11 @@ static void memory_is_known_beforehand(void **unused)
 	carom_world_def unknown = carom_default_world_def();
 	unknown.pipeline.toi = "guess";
 	assert_true(carom_world_memory(&unknown, 10, 40) == 0);
+	carom_world_def endless = scenery_first_impact();
+	endless.pipeline.toi = "bisection";
+	endless.iterations = 1;
+	endless.epsilon = -1.0f;
+	assert_true(carom_world_memory(&endless, 10, 40) == 0);
 }
 
 static double seconds(void)

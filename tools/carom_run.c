@@ -64,7 +64,7 @@ static const struct option options_table[] = {
 	{"png", "FRAME.png", read_text, offsetof(struct run_options, png), "write a picture of the last state"},
 	{"frames", "DIR", read_text, offsetof(struct run_options, frames),
 		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing"},
-	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames for a simulated second; default 30"},
+	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames for a simulated second, at most 1000000; default 30"},
 	{"stats", "FILE.csv", read_text, offsetof(struct run_options, stats),
 		"write a table with a row a step: time, hits, energy, momenta, deepest penetration"},
 	{"hash", NULL, NULL, offsetof(struct run_options, hash), "print a 64-bit hash of the last state, 16 hexadecimal digits"},

@@ -11,12 +11,12 @@
 static int extra_passes(const carom_pipeline *pipeline, const carom_world_def *def)
 {
 	float width = 1.0f;
-	int halvings = 0;
-	if (strcmp(pipeline->toi, "bisection") || def->iterations == 0)
+	uint32_t halvings = 0, a_pass = def->iterations;
+	if (strcmp(pipeline->toi, "bisection") || a_pass == 0)
 		return 0;
 	for (; width > def->epsilon; width *= 0.5f)
 		halvings++;
-	return (halvings + (int)def->iterations - 1) / (int)def->iterations - 1;
+	return a_pass < halvings ? (int)((halvings + a_pass - 1) / a_pass - 1) : 0;
 }
 
 static int32_t tiles_of(int32_t count)
