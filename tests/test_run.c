@@ -289,7 +289,7 @@ static void memory_is_known_beforehand(void **unused)
 			def.pipeline.toi = k % 2 ? "bisection" : "separating";
 			def.iterations = 3;
 			const uint64_t said = carom_world_memory(&def, counts[i], 4 * counts[i]), is = memory_taken(&def, counts[i]);
-			if (!(said > 0.95 * (double)is && said < 1.25 * (double)is))
+			if (!((double)said > 0.95 * (double)is && (double)said < 1.25 * (double)is))
 				fail_msg("%zu bodies, %s: said to take %llu bytes, take %llu", counts[i], reductions[k / 2], (unsigned long long)said,
 					(unsigned long long)is);
 		}
@@ -297,7 +297,7 @@ static void memory_is_known_beforehand(void **unused)
 	for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
 		carom_world_def def = carom_default_world_def();
 		const uint64_t said = carom_world_memory(&def, counts[i], 4 * counts[i]), is = memory_taken(&def, counts[i]);
-		if (!(said > 0.95 * (double)is && said < 1.25 * (double)is))
+		if (!((double)said > 0.95 * (double)is && (double)said < 1.25 * (double)is))
 			fail_msg("%zu bodies, events: said to take %llu bytes, take %llu", counts[i], (unsigned long long)said, (unsigned long long)is);
 	}
 	carom_world_def unknown = carom_default_world_def();

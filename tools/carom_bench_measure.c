@@ -200,7 +200,7 @@ static carom_status measure_part(struct bench_result *result, size_t part, const
 {
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < result->row_count; k++) {
-		struct bench_world worlds[MAX_SUBJECTS] = {{NULL}};
+		struct bench_world worlds[MAX_SUBJECTS] = {{0}};
 		struct bench_row *row = &result->rows[part][k];
 		struct bench_path path = {0, NULL};
 		show(options, result, &result->table->parts[part], row->bodies, 0, "1,000 steps to begin from");

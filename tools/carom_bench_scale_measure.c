@@ -124,7 +124,7 @@ static carom_status measure_batch(struct scale_runner *runner, struct scale_cell
 static carom_status measure_engines(struct scale_result *result, size_t shape, size_t row, const struct scale_start *start,
 	const struct bench_options *options, carom_error *error)
 {
-	struct scale_runner runners[SCALE_ENGINES] = {{NULL}};
+	struct scale_runner runners[SCALE_ENGINES] = {{0}};
 	struct scale_row *cells = &result->rows[shape][row];
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < SCALE_ENGINES; k++)

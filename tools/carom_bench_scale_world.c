@@ -75,7 +75,7 @@ static carom_status walk(struct scale_start *start, uint64_t most_steps, double 
 carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
 	double seconds, struct scale_start *start, carom_error *error)
 {
-	*start = (struct scale_start){NULL};
+	*start = (struct scale_start){0};
 	carom_status status = place(shape, bodies, start, error);
 	if (status == CAROM_OK)
 		status = create_world(start, options, PLACE_CPU, &start->world, error);
@@ -96,7 +96,7 @@ void scale_start_destroy(struct scale_start *start)
 	free(start->defs);
 	free(start->bodies);
 	free(start->states);
-	*start = (struct scale_start){NULL};
+	*start = (struct scale_start){0};
 }
 
 /* ---- Runners ---- */

@@ -112,7 +112,7 @@ void bench_world_destroy(struct bench_world *world)
 {
 	carom_world_destroy(world->world);
 	free(world->pixels);
-	*world = (struct bench_world){NULL};
+	*world = (struct bench_world){0};
 }
 
 carom_status bench_world_restore(struct bench_world *world, const struct bench_path *path, size_t stop, carom_error *error)

@@ -71,7 +71,7 @@ static carom_status set_slot(carom_pipeline *pipeline, const char *text, carom_e
 static carom_status read_set(const char *text, void *target, carom_error *error)
 {
 	struct common_options *options = target;
-	carom_pipeline pipeline = {NULL};
+	carom_pipeline pipeline = {0};
 	if (options->set_count == MAX_SETS)
 		return wrong(error, "found more than %d; allowed: one a slot", MAX_SETS);
 	carom_status status = set_slot(&pipeline, text, error);
