@@ -51,7 +51,7 @@ COMMAND := $(sort $(filter-out tools/carom_peer_%,$(wildcard tools/carom*.c)))
 ifeq ($(CAIRO),no)
 COMMAND := $(filter-out tools/carom_plot%.c,$(COMMAND)) tools/without_cairo.c
 endif
-# The engines beside Carom in `carom bench scale`, where they are installed.
+# The engines beside Carom in `carom bench scale` and `tunnel`, where they are installed.
 BOX2D := $(BOX2D)
 CHIPMUNK := $(CHIPMUNK)
 COMMAND += $(if $(filter no,$(BOX2D)),tools/without_box2d.c,tools/carom_peer_box2d.cpp)
@@ -121,14 +121,15 @@ help:
 	@echo 'make check-threads   build and run the test of threads with the thread sanitizer'
 	@echo 'make conformance     run the tests on every OpenCL implementation that is installed, and from several compilers'
 	@echo 'make fuzz            feed made-up scenes and calls to the library, with clang and libFuzzer, FUZZ_SECONDS=600 each'
-	@echo 'make bench           measure the tables of the paper, and scale, and write them into build/bench/'
+	@echo 'make bench           measure the tables of the paper, scale and tunnel, and write them into build/bench/'
+	@echo 'make pictures        draw the pictures of README.md into docs/'
 	@echo 'make install         install below PREFIX=$(PREFIX), libraries into LIBDIR=PREFIX/lib, staged in DESTDIR='
 	@echo 'make uninstall       remove what the same call of install installed'
 	@echo 'make dist            pack what git has as $(BUILD)/dist/$(RELEASE).tar.gz'
 	@echo 'make distcheck       build, install and try what is in it'
 	@echo 'make clean           remove build/'
 	@echo 'CAIRO=no             build the command without cairo, and so without the charts of `carom bench`'
-	@echo 'BOX2D=no CHIPMUNK=no build it without these two, which `carom bench scale` measures beside Carom if they are installed'
+	@echo 'BOX2D=no CHIPMUNK=no build it without these two, which `carom bench` measures beside Carom if they are installed'
 	@echo 'SANITIZE=1           build into build/sanitize/ with the address and undefined behaviour sanitizers'
 	@echo 'SANITIZE=thread      build into build/sanitize-thread/ with the thread sanitizer'
 	@echo 'V=1                  show the commands'
@@ -303,13 +304,23 @@ demo: all
 
 # ---- The paper's tables, and Carom beside other engines. BENCH are more options for each call of `carom bench`.
 
-BENCH_TABLES := table1 table2 table3 table4 table5 scale
+BENCH_TABLES := table1 table2 table3 table4 table5 scale tunnel
 
 bench: all
 	@mkdir -p $(BUILD)/bench
-	@status=0; for table in $(BENCH_TABLES); do \
-		$(BUILD)/carom bench $$table --csv $(BUILD)/bench/$$table.csv $(if $(filter no,$(CAIRO)),,--plot $(BUILD)/bench/$$table.png) \
-			$(BENCH) </dev/null || status=1; echo; done; exit $$status
+	@status=0; $(foreach table,$(BENCH_TABLES),$(call bench_one,$(table)) || status=1; echo;) exit $$status
+
+# tunnel has no chart
+bench_one = $(BUILD)/carom bench $(1) --csv $(BUILD)/bench/$(1).csv \
+	$(if $(filter no,$(CAIRO))$(filter tunnel,$(1)),,--plot $(BUILD)/bench/$(1).png) $(BENCH) </dev/null
+
+# ---- The pictures of README.md: docs/scale.png is what `make bench` drew last, if it did
+
+pictures: all
+	@mkdir -p docs
+	$(BUILD)/carom run scenes/triangles_1024.json --set step=first_impact --steps 400 --inset -2,-2,4,4 --size 720x405 --png docs/triangles_1024.png
+	$(BUILD)/carom run scenes/thin_wall.json --time 1 --fps 3 --size 480x264 --frames docs/thin_wall
+	@if [ -f $(BUILD)/bench/scale.png ]; then cp $(BUILD)/bench/scale.png docs/scale.png; fi
 
 # ---- Installing
 
@@ -353,7 +364,7 @@ clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check check-threads run-threads fuzz fuzzers conformance static doc demo bench install uninstall dist distcheck clean FORCE
+.PHONY: all help check check-threads run-threads fuzz fuzzers conformance static doc demo bench pictures install uninstall dist distcheck clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all

@@ -265,6 +265,20 @@ static void the_manual_has_every_option_and_no_other(void **state)
 	}
 }
 
+/* Where it is shown, `docs/...` stands in brackets or quotes. */
+static void every_picture_shown_is_there(void **state)
+{
+	(void)state;
+	char path[256];
+	int pictures = 0;
+	for (const char *at = strstr(readme, "docs/"); at; at = strstr(at + 1, "docs/"), pictures++) {
+		format(path, sizeof path, "%.*s", (int)strcspn(at, ")\"` \n"), at);
+		if (access(path, R_OK) != 0)
+			fail_msg("README.md shows %s, which is not there", path);
+	}
+	assert_true(pictures > 0);
+}
+
 /* ---- The pipeline ---- */
 
 /* A row of the table of slots, as far as it names them. */
@@ -344,7 +358,8 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(the_example_prints_what_is_said), cmocka_unit_test(the_command_prints_what_is_said),
 		cmocka_unit_test(every_option_shown_exists), cmocka_unit_test(every_command_is_described),
-		cmocka_unit_test(the_manual_has_every_option_and_no_other), cmocka_unit_test(the_table_of_slots_is_what_there_is),
-		cmocka_unit_test(every_scene_shown_is_one), cmocka_unit_test(the_tables_of_keys_are_the_readers)};
+		cmocka_unit_test(the_manual_has_every_option_and_no_other), cmocka_unit_test(every_picture_shown_is_there),
+		cmocka_unit_test(the_table_of_slots_is_what_there_is), cmocka_unit_test(every_scene_shown_is_one),
+		cmocka_unit_test(the_tables_of_keys_are_the_readers)};
 	return cmocka_run_group_tests_name("readme", tests, set_up, remove_folder);
 }

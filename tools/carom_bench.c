@@ -9,14 +9,17 @@
 /* What `carom bench` takes by name; `all` those of the paper in this order. */
 static const struct {
 	const char *name;
-	const struct bench_table *table; /* of the paper; NULL for scale */
+	const struct bench_table *table; /* of the paper; NULL for the others, which have these */
+	carom_status (*check)(const struct bench_options *options, carom_error *error);
+	carom_status (*run)(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
 } tables[] = {
-	{"table1", &bench_table1},
-	{"table2", &bench_table2},
-	{"table3", &bench_table3},
-	{"table4", &bench_table4},
-	{"table5", &bench_table5},
-	{"scale", NULL},
+	{"table1", &bench_table1, NULL, NULL},
+	{"table2", &bench_table2, NULL, NULL},
+	{"table3", &bench_table3, NULL, NULL},
+	{"table4", &bench_table4, NULL, NULL},
+	{"table5", &bench_table5, NULL, NULL},
+	{"scale", NULL, bench_scale_check, bench_scale},
+	{"tunnel", NULL, bench_tunnel_check, bench_tunnel},
 };
 
 #define TABLE_COUNT (sizeof tables / sizeof *tables)
@@ -107,7 +110,7 @@ static carom_status check_table(size_t index, const struct bench_options *option
 {
 	carom_error found;
 	const struct bench_table *table = tables[index].table;
-	carom_status status = table ? bench_check(table, options, &found) : bench_scale_check(options, &found);
+	carom_status status = table ? bench_check(table, options, &found) : tables[index].check(options, &found);
 	if (status != CAROM_OK)
 		wrong(error, "%s can't be measured: %.900s", tables[index].name, found.text);
 	return status;
@@ -120,7 +123,7 @@ static carom_status run_table(size_t index, const struct bench_options *options,
 	if (plot && !chart_path(options, tables[index].name, all, path, sizeof path))
 		return wrong(error, "--plot: the name is too long");
 	if (!tables[index].table)
-		return bench_scale(options, csv, plot, error);
+		return tables[index].run(options, csv, plot, error);
 	return run_paper_table(tables[index].table, options, csv, plot, error);
 }
 
@@ -196,7 +199,7 @@ static int bench_main(int argc, char **argv)
 
 const struct command bench_command = {
 	.name = "bench",
-	.arguments = "[table1 | table2 | table3 | table4 | table5 | scale | all]",
+	.arguments = "[table1 | table2 | table3 | table4 | table5 | scale | tunnel | all]",
 	.least_arguments = 0,
 	.most_arguments = 1,
 	.summary = "Measures the tables of the paper here, its figures beside, and body-steps a second beside other engines",
@@ -208,7 +211,9 @@ const struct command bench_command = {
 			   "  all     all of these, the default: four to six minutes on two cores\n"
 			   "  scale   not the paper's, and not part of all: body-steps a second over the number of bodies, by the step\n"
 			   "          events, on OpenCL and on the CPU fallback; beside, on the same bodies, Box2D and Chipmunk, where\n"
-			   "          this build has them; what each keeps of the energy, and how deep bodies overlap: some minutes\n\n"
+			   "          this build has them; what each keeps of the energy, and how deep bodies overlap: some minutes\n"
+			   "  tunnel  likewise: how many fast circles pass a wall 1 mm thick, or one another head-on, by the same engines, at\n"
+			   "          1 to 1,000 m/s; it has no chart, and --runs, --seconds and --sizes change nothing in it\n\n"
 			   "Figures are seconds for 1,000 repetitions, as in the paper: the median of the runs, the least and the\n"
 			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"

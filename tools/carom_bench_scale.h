@@ -87,6 +87,8 @@ struct scale_start {
 /* `most_steps` are done on the CPU fallback, but no more once they have taken `seconds`. */
 carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
 	double seconds, struct scale_start *start, carom_error *error);
+/* The same of bodies at hand: `defs`, which become the start's, and the scene's count and room are set, all else is zero. */
+carom_status scale_start_fill(struct scale_start *start, const struct bench_options *options, carom_error *error);
 void scale_start_destroy(struct scale_start *start);
 /* Carom's world as the options say, but for its room. */
 carom_status scale_world_def(const struct bench_options *options, enum bench_place place, carom_world_def *def, carom_error *error);
@@ -122,6 +124,11 @@ const char *scale_absence(const struct scale_result *result, size_t engine);
 
 /* ---- carom_bench_scale_print.c */
 
+/* A line each: version and settings, or that it is not in this build. */
+void scale_print_peers(void);
+/* From the device on, up to the run's number. */
+void scale_put_engine(FILE *stream, const struct scale_engine *engine, const carom_device_info *device, uint32_t bodies, const char *shape,
+	const char *settings);
 void scale_print(const struct scale_result *result);
 void scale_write_csv(FILE *stream, const struct scale_result *result);
 carom_status scale_draw(const struct scale_result *result, const char *path, carom_error *error);

@@ -7,16 +7,19 @@
 
 /* ---- Text ---- */
 
+void scale_print_peers(void)
+{
+	static const struct peer *const peers[] = {&peer_box2d, &peer_chipmunk};
+	for (size_t k = 0; k < sizeof peers / sizeof *peers; k++)
+		printf("%s%s%s: %s\n", peers[k]->name, peers[k]->version ? " " : "", peers[k]->version ? peers[k]->version() : "", peers[k]->settings);
+}
+
 static void print_head(const struct scale_result *result)
 {
 	printf("scale: steps of 1/60 s by the wall clock, step=%s\n", result->step);
 	bench_print_device("device", &result->device);
 	bench_print_device("CPU fallback", &result->fallback);
-	for (size_t k = 0; k < SCALE_ENGINES; k++) {
-		const struct peer *peer = scale_engines[k].peer;
-		if (peer)
-			printf("%s%s%s: %s\n", peer->name, peer->version ? " " : "", peer->version ? peer->version() : "", peer->settings);
-	}
+	scale_print_peers();
 	if (result->copy_rate > 0) {
 		char size[32];
 		printf("memory: %.1f GB/s, the best of 10 copies of %s by %u thread%s, before and after, read and written bytes counted\n",
@@ -127,23 +130,29 @@ void scale_print(const struct scale_result *result)
 
 /* ---- CSV ---- */
 
-/* Up to the run's number. */
-static void put_start(FILE *stream, const struct scale_result *result, size_t shape, const char *kept, uint32_t bodies, size_t engine)
+void scale_put_engine(FILE *stream, const struct scale_engine *engine, const carom_device_info *device, uint32_t bodies, const char *shape,
+	const char *settings)
 {
-	const struct peer *peer = scale_engines[engine].peer;
-	const carom_device_info *device = scale_engines[engine].place == PLACE_CPU ? &result->fallback : &result->device;
+	const struct peer *peer = engine->peer;
 	char name[64];
-	snprintf(name, sizeof name, "%s %s", scale_engines[engine].label, peer && peer->version ? peer->version() : "");
-	fprintf(stream, "%s,scale,\"%s%s\",", carom_version(), scale_shapes[shape].title, kept);
 	if (peer) {
+		snprintf(name, sizeof name, "%s %s", peer->name, peer->version());
 		bench_put_text(stream, name);
 	} else {
 		bench_put_device(stream, device);
 	}
-	fprintf(stream, "%s,%u,%s,", peer ? "memory" : bench_storage(device), (unsigned)bodies, scale_shapes[shape].name);
-	bench_put_text(stream, scale_engines[engine].label);
-	bench_put_text(stream, result->settings[engine]);
+	fprintf(stream, "%s,%u,%s,", peer ? "memory" : bench_storage(device), (unsigned)bodies, shape);
+	bench_put_text(stream, engine->label);
+	bench_put_text(stream, settings);
 	fputs("0,", stream);
+}
+
+/* Up to the run's number. */
+static void put_start(FILE *stream, const struct scale_result *result, size_t shape, const char *kept, uint32_t bodies, size_t engine)
+{
+	const carom_device_info *device = scale_engines[engine].place == PLACE_CPU ? &result->fallback : &result->device;
+	fprintf(stream, "%s,scale,\"%s%s\",", carom_version(), scale_shapes[shape].title, kept);
+	scale_put_engine(stream, &scale_engines[engine], device, bodies, scale_shapes[shape].name, result->settings[engine]);
 }
 
 static void write_cell(FILE *stream, const struct scale_result *result, size_t shape, const struct scale_row *row, size_t engine)
@@ -151,7 +160,7 @@ static void write_cell(FILE *stream, const struct scale_result *result, size_t s
 	const struct scale_cell *cell = &row->cells[engine];
 	for (size_t run = 0; cell->steps && run < result->runs; run++) {
 		put_start(stream, result, shape, "", row->bodies, engine);
-		fprintf(stream, "%zu,%" PRIu64 ",0,%.9g,%.9g,,,,%.6g\n", run + 1, cell->steps, cell->seconds[run],
+		fprintf(stream, "%zu,%" PRIu64 ",0,%.9g,%.9g,,,,%.6g,,,\n", run + 1, cell->steps, cell->seconds[run],
 			REPETITIONS * cell->seconds[run] / (double)cell->steps, result->copy_rate);
 	}
 }
@@ -162,7 +171,7 @@ static void write_kept(FILE *stream, const struct scale_result *result, size_t s
 	if (!kept->measured)
 		return;
 	put_start(stream, result, shape, ", kept", result->kept_bodies, engine);
-	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,%.9g,%.6g\n", SCALE_KEPT_STEPS, kept->seconds, REPETITIONS * kept->seconds / SCALE_KEPT_STEPS,
+	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,%.9g,%.6g,,,\n", SCALE_KEPT_STEPS, kept->seconds, REPETITIONS * kept->seconds / SCALE_KEPT_STEPS,
 		kept->drift, kept->overlap, result->copy_rate);
 }
 

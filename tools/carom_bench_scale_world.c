@@ -53,12 +53,19 @@ static carom_status place(const struct scale_shape *shape, uint32_t bodies, stru
 	start->scene.count = bodies;
 	start->scene.room_min = (carom_vec2){-half, -half};
 	start->scene.room_max = (carom_vec2){half, half};
+	return CAROM_OK;
+}
+
+static carom_status open_world(struct scale_start *start, const struct bench_options *options, carom_error *error)
+{
 	start->scene.time_step = carom_default_world_def().time_step;
-	start->bodies = malloc(bodies * sizeof *start->bodies);
-	start->states = malloc(bodies * sizeof *start->states);
+	start->bodies = malloc(start->scene.count * sizeof *start->bodies);
+	start->states = malloc(start->scene.count * sizeof *start->states);
 	start->scene.bodies = start->bodies;
 	start->scene.states = start->states;
-	return start->bodies && start->states ? CAROM_OK : no_memory("the scene", error);
+	if (!start->bodies || !start->states)
+		return no_memory("the scene", error);
+	return create_world(start, options, PLACE_CPU, &start->world, error);
 }
 
 static carom_status walk(struct scale_start *start, uint64_t most_steps, double seconds, carom_error *error)
@@ -72,22 +79,33 @@ static carom_status walk(struct scale_start *start, uint64_t most_steps, double 
 	return status;
 }
 
+/* Reads what the world has, if all went well. */
+static carom_status finish(struct scale_start *start, carom_status status, carom_error *error)
+{
+	if (status == CAROM_OK)
+		status = carom_world_get_states(start->world, 0, start->scene.count, start->states, error);
+	for (uint32_t k = 0; status == CAROM_OK && k < start->scene.count; k++)
+		status = carom_world_get_body(start->world, k, &start->bodies[k], error);
+	if (status != CAROM_OK)
+		scale_start_destroy(start);
+	return status;
+}
+
 carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
 	double seconds, struct scale_start *start, carom_error *error)
 {
 	*start = (struct scale_start){0};
 	carom_status status = place(shape, bodies, start, error);
 	if (status == CAROM_OK)
-		status = create_world(start, options, PLACE_CPU, &start->world, error);
+		status = open_world(start, options, error);
 	if (status == CAROM_OK)
 		status = walk(start, most_steps, seconds, error);
-	if (status == CAROM_OK)
-		status = carom_world_get_states(start->world, 0, bodies, start->states, error);
-	for (uint32_t k = 0; status == CAROM_OK && k < bodies; k++)
-		status = carom_world_get_body(start->world, k, &start->bodies[k], error);
-	if (status != CAROM_OK)
-		scale_start_destroy(start);
-	return status;
+	return finish(start, status, error);
+}
+
+carom_status scale_start_fill(struct scale_start *start, const struct bench_options *options, carom_error *error)
+{
+	return finish(start, open_world(start, options, error), error);
 }
 
 void scale_start_destroy(struct scale_start *start)

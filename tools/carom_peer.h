@@ -1,4 +1,4 @@
-/* Other engines that `carom bench scale` measures beside Carom. Each is known to one file, carom_peer_<name>.c or .cpp; where
+/* Other engines that `carom bench scale` and `carom bench tunnel` measure beside Carom. Each is known to one file, carom_peer_<name>.c or .cpp; where
  * its library is not installed, without_<name>.c stands for that file. Only the command is linked with them.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_PEER_H
@@ -10,13 +10,14 @@
 extern "C" {
 #endif
 
-/* Circles and triangles in a room, without gravity. */
+/* Circles and polygons in a room, without gravity. */
 struct peer_scene {
 	size_t count;
-	const carom_body_info *bodies;  /* `count` of them; none is static */
+	const carom_body_info *bodies;  /* `count` of them */
 	const carom_body_state *states; /* as many */
 	carom_vec2 room_min, room_max;  /* m */
 	float time_step;                /* s */
+	bool bullets;                   /* where the engine can look for hits between moving bodies continuously, it does */
 };
 
 /* An engine. It runs on one core, as its package was compiled, with what it takes by itself unless `settings` says so. */
@@ -35,7 +36,7 @@ struct peer {
 
 extern const struct peer peer_box2d, peer_chipmunk;
 
-#define PEER_WALL 10.0f /* m, thickness: more than any body gets on in a step */
+#define PEER_WALL 50.0f /* m, thickness: twice what any body gets on in a step, or it would be pushed out on the far side */
 
 #ifdef __cplusplus
 }

@@ -49,6 +49,20 @@ void add_walls(b2World &world, b2Vec2 least, b2Vec2 most)
 	}
 }
 
+/* Its own Set() welds vertices nearer than 2.5 mm: a thinner wall would be lost. These are convex and counter-clockwise already. */
+b2PolygonShape polygon_of(const carom_body_info &info)
+{
+	b2PolygonShape polygon;
+	polygon.m_count = b2Min<int32>(static_cast<int32>(info.vertex_count), b2_maxPolygonVertices);
+	for (int32 k = 0; k < polygon.m_count; k++)
+		polygon.m_vertices[k].Set(info.vertices[k].x, info.vertices[k].y);
+	for (int32 k = 0; k < polygon.m_count; k++) {
+		polygon.m_normals[k] = b2Cross(polygon.m_vertices[(k + 1) % polygon.m_count] - polygon.m_vertices[k], 1.0f);
+		polygon.m_normals[k].Normalize();
+	}
+	return polygon;
+}
+
 void add_shape_of(b2Body *body, const carom_body_info &info)
 {
 	if (info.shape == CAROM_CIRCLE) {
@@ -57,25 +71,23 @@ void add_shape_of(b2Body *body, const carom_body_info &info)
 		add_shape(body, &circle, info.restitution);
 		return;
 	}
-	b2Vec2 vertices[b2_maxPolygonVertices];
-	b2PolygonShape polygon;
-	const uint32_t count = b2Min<uint32_t>(info.vertex_count, b2_maxPolygonVertices);
-	for (uint32_t k = 0; k < count; k++)
-		vertices[k].Set(info.vertices[k].x, info.vertices[k].y);
-	polygon.Set(vertices, static_cast<int32>(count));
+	const b2PolygonShape polygon = polygon_of(info);
 	add_shape(body, &polygon, info.restitution);
 }
 
-b2Body *add_body(b2World &world, const carom_body_info &info, const carom_body_state &state)
+b2Body *add_body(b2World &world, const carom_body_info &info, const carom_body_state &state, bool bullet)
 {
 	b2BodyDef def;
-	def.type = b2_dynamicBody;
+	def.type = info.is_static ? b2_staticBody : b2_dynamicBody;
+	def.bullet = bullet;
 	def.position.Set(state.position.x, state.position.y);
 	def.angle = state.angle;
 	def.linearVelocity.Set(state.velocity.x, state.velocity.y);
 	def.angularVelocity = state.angular_velocity;
 	b2Body *body = world.CreateBody(&def);
 	add_shape_of(body, info);
+	if (info.is_static)
+		return body;
 	b2MassData mass;
 	mass.mass = info.mass;
 	mass.center.SetZero();
@@ -98,7 +110,7 @@ void *create(const peer_scene *scene)
 	made->world.SetAllowSleeping(false);
 	add_walls(made->world, {scene->room_min.x, scene->room_min.y}, {scene->room_max.x, scene->room_max.y});
 	for (size_t k = 0; k < scene->count; k++)
-		made->bodies.push_back(add_body(made->world, scene->bodies[k], scene->states[k]));
+		made->bodies.push_back(add_body(made->world, scene->bodies[k], scene->states[k], scene->bullets));
 	return made;
 }
 
