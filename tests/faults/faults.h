@@ -30,7 +30,14 @@ void *faults_malloc(size_t size);
 /* OpenCL objects that were created and not released; `kinds` names the calls that created them. */
 size_t faults_alive(char *kinds, size_t size);
 /* How the machine looks to Carom. */
-typedef enum faults_loader { LOADER_REAL, LOADER_NONE, LOADER_OLD, LOADER_WITHOUT_PLATFORMS, LOADER_WITHOUT_DEVICES } faults_loader;
+typedef enum faults_loader {
+	LOADER_REAL,
+	LOADER_NONE,
+	LOADER_OLD,
+	LOADER_WITHOUT_PLATFORMS,
+	LOADER_WITHOUT_DEVICES,
+	LOADER_INEXACT, /* its devices don't promise to round quotients and roots correctly, and refuse to build kernels that ask for it */
+} faults_loader;
 void faults_loader_set(faults_loader how);
 
 /* For the wrapped calls alone: does this one fail? */

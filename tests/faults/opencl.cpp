@@ -144,6 +144,24 @@ static cl_int no_platforms(cl_uint, cl_platform_id *, cl_uint *count)
 	return -1001; /* CL_PLATFORM_NOT_FOUND_KHR */
 }
 
+static cl_int inexact_info(cl_device_id device, cl_device_info name, size_t size, void *value, size_t *used)
+{
+	const auto real = reinterpret_cast<decltype(&clGetDeviceInfo)>(functions[number_clGetDeviceInfo]);
+	const cl_int code = real(device, name, size, value, used);
+	if (code == CL_SUCCESS && name == CL_DEVICE_SINGLE_FP_CONFIG && value)
+		*static_cast<cl_device_fp_config *>(value) &= ~static_cast<cl_device_fp_config>(CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT);
+	return code;
+}
+
+/* Where the device can't, the option is an error. */
+static cl_int inexact_build(cl_program program, cl_uint count, const cl_device_id *devices, const char *options, void (*told)(cl_program, void *),
+	void *data)
+{
+	if (std::strstr(options, "-cl-fp32-correctly-rounded-divide-sqrt"))
+		return CL_INVALID_BUILD_OPTIONS;
+	return reinterpret_cast<decltype(&clBuildProgram)>(functions[number_clBuildProgram])(program, count, devices, options, told, data);
+}
+
 static cl_int no_devices(cl_platform_id, cl_device_type, cl_uint, cl_device_id *, cl_uint *)
 {
 	return CL_DEVICE_NOT_FOUND;
@@ -169,6 +187,14 @@ extern "C" void *__wrap_dlsym(void *handle, const char *name)
 		return reinterpret_cast<void *>(no_platforms);
 	if (loader == LOADER_WITHOUT_DEVICES && std::strcmp(name, "clGetDeviceIDs") == 0)
 		return reinterpret_cast<void *>(no_devices);
+	if (loader == LOADER_INEXACT && std::strcmp(name, "clGetDeviceInfo") == 0) {
+		functions[number_clGetDeviceInfo] = real;
+		return reinterpret_cast<void *>(inexact_info);
+	}
+	if (loader == LOADER_INEXACT && std::strcmp(name, "clBuildProgram") == 0) {
+		functions[number_clBuildProgram] = real;
+		return reinterpret_cast<void *>(inexact_build);
+	}
 #define SHIM(function)                                                                       \
 	if (std::strcmp(name, #function) == 0) {                                                 \
 		functions[number_##function] = real;                                                 \
