@@ -1,4 +1,4 @@
-/* What the files of `carom bench scale` share: engines beside each other on the same bodies, over sizes.
+/* What the files of `carom bench scale` share: engines beside each other on the same bodies, over sizes. `carom bench tunnel` runs them, too.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_BENCH_SCALE_H
 #define CAROM_BENCH_SCALE_H
