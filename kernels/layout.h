@@ -175,6 +175,10 @@
 /* So many numbers more than bodies, since a cluster loses one where another claims the body first. */
 #define NUMBERS_SPARE 4096
 
+/* From this round of a step on a cluster that meets another is united with all that are around it: in a dense crowd most would meet, one after the
+ * other, and each time all would be done again. */
+#define SPREAD_ROUND 2
+
 /* Members: twelve ints a number */
 #define MEMBER_WIDTH 12
 #define MEMBER_OWNER 1  /* number of the cluster's leader */
@@ -242,6 +246,7 @@
 #define STATUS_STEPS 19   /* steps done, */
 #define STATUS_NUMBERS 24 /* there are for bodies that events change */
 #define STATUS_FOUND 25   /* hits in Found */
+#define STATUS_BEGUN 26   /* the step's first round */
 #define STATUS_IDLE 22    /* not begun for want of lists, */
 #define STATUS_AGAIN 23   /* and not done since they needed more rounds */
 

@@ -105,6 +105,19 @@ int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active
 	return id;
 }
 
+/* All the clusters around this one are one with it in the next round. */
+void spread(LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int leader, int head, int round)
+{
+	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
+		int s = active[m];
+		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
+			int id = int_load(owners, neighbours[k]), owner = id < 0 ? leader : int_load(members, MEMBER(id, MEMBER_OWNER));
+			if (owner != leader)
+				conflict(status, members, active, parents, leader, owner, round);
+		}
+	}
+}
+
 /* Adds up what a finished cluster did; of one that is given up nothing counts. */
 void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int head, bool finished)
 {
@@ -147,6 +160,8 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 				if (other_id < 0)
 					break; /* there are no more numbers */
 				conflict(status, members, active, parents, leader, int_load(members, MEMBER(other_id, MEMBER_OWNER)), round);
+				if (round - status[STATUS_BEGUN] >= SPREAD_ROUND)
+					spread(LISTS, owners, parents, leader, head, round);
 				break;
 			}
 			if (members[MEMBER(other_id, MEMBER_EVENTS)] != members[MEMBER(id, MEMBER_SEEN)]) {

@@ -7,6 +7,8 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 	float length = step_length(TEX(uniforms), TEX(clock));
 	if (s >= domain.x || !(length > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
+	if (s == 0)
+		status[STATUS_BEGUN] = domain.z;
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
 	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);

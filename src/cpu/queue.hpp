@@ -79,7 +79,23 @@ private:
 		if (owner == leader)
 			return id;
 		clusters.conflict(leader, owner, round);
+		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND)
+			spread();
 		return -1;
+	}
+
+	/* All the clusters around this one are one with it in the next round. */
+	void spread() const
+	{
+		for (int32_t m = head; m >= 0; m = members[m].link) {
+			const Span &span = clusters.spans[clusters.active[m]];
+			for (int32_t k = span.start; k < span.end; k++) {
+				const int32_t id = __atomic_load_n(&clusters.owners[clusters.neighbours[k]], __ATOMIC_ACQUIRE);
+				const int32_t owner = id < 0 ? leader : __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE);
+				if (owner != leader)
+					clusters.conflict(leader, owner, round);
+			}
+		}
 	}
 
 	int32_t claim(int32_t s)

@@ -38,6 +38,7 @@ template <typename T> static void seek(const Job<T> &job)
 	const Clusters<T> clusters(job, 10);
 	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
 		return;
+	clusters.status[STATUS_BEGUN] = job.domain[2];
 	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
 		for (int32_t s = begin; s < end; s++)
 			look_around(clusters, s, job.domain[2]);
