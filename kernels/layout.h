@@ -181,14 +181,17 @@
 
 /* Members: twelve ints a number */
 #define MEMBER_WIDTH 12
-#define MEMBER_OWNER 1  /* number of the cluster's leader */
-#define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
-#define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
-#define MEMBER_EVENTS 4 /* of the body in this step */
-#define MEMBER_RAPID 5  /* of these, rapid ones */
-#define MEMBER_SEEN 6   /* events of the partner when NEXT was found */
-#define MEMBER_HITS 8   /* answered with an impulse, counted at one of the two bodies */
-#define MEMBER_ROUND 7  /* of a leader: the round in which the cluster is to be done */
+#define MEMBER_OWNER 1    /* number of the cluster's leader */
+#define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
+#define MEMBER_HEAD 3     /* of a leader: the first member; -1 if it leads none */
+#define MEMBER_EVENTS 4   /* of the body in this step */
+#define MEMBER_RAPID 5    /* of these, rapid ones */
+#define MEMBER_SEEN 6     /* events of the partner when NEXT was found */
+#define MEMBER_HITS 8     /* answered with an impulse, counted at one of the two bodies */
+#define MEMBER_ROUND 7    /* of a leader: the round in which the cluster is to be done */
+#define MEMBER_CHILD 9    /* of the cluster's heap, where it is made of links: the first below this one, */
+#define MEMBER_SIBLING 10 /* the next of those it belongs to, */
+#define MEMBER_BEFORE 11  /* and the one before, or for the first the one above */
 
 /* Owners: the number of the body in the slot, -1 for none (-2: just being given one); Active: the slot of the number, -1 for none; Parents: union-find over
  * slots: clusters that meet are one */

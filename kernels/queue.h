@@ -71,16 +71,6 @@ void recall(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OU
 		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
 }
 
-/* The member whose event is first. */
-int first_member(LIST_OUT(members), RECORD_OUT(work), int head)
-{
-	int who = head;
-	for (int m = members[MEMBER(head, MEMBER_LINK)]; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
-		if (event_before(work[WORK_WIDTH * m + WORK_NEXT], work[WORK_WIDTH * who + WORK_NEXT]))
-			who = m;
-	return who;
-}
-
 /* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
 int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int s,
 	int leader, int head)
@@ -139,13 +129,16 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	int head = int_load(members, MEMBER(leader, MEMBER_HEAD));
+	int first = -1;
 	bool finished = false;
 	if (head < 0)
 		return; /* another cluster got into the way just now */
-	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)])
+	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
 		recall(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length);
+		first = heap_insert(members, work, first, m);
+	}
 	for (;;) {
-		int id = first_member(members, work, head), other_id = -1;
+		int id = first, other_id = -1;
 		float4 next = work[WORK_WIDTH * id + WORK_NEXT];
 		int other = (int)CHANNEL(next, NEXT_PARTNER);
 		finished = !(CHANNEL(next, NEXT_TIME) <= 1.0f);
@@ -153,8 +146,11 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 			break;
 		if (other >= 0 && !slot_is_static(slots, other)) {
 			other_id = int_load(owners, other);
-			if (other_id < 0)
+			if (other_id < 0) {
 				other_id = claim(slots, status, members, active, work, owners, parents, other, leader, head);
+				if (other_id >= 0)
+					first = heap_insert(members, work, first, other_id);
+			}
 			if (other_id < 0 || int_load(members, MEMBER(other_id, MEMBER_OWNER)) != leader) {
 				other_id = int_load(owners, other);
 				if (other_id < 0)
@@ -166,6 +162,7 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 			}
 			if (members[MEMBER(other_id, MEMBER_EVENTS)] != members[MEMBER(id, MEMBER_SEEN)]) {
 				look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+				first = heap_update(members, work, first, id);
 				continue;
 			}
 		}
@@ -174,8 +171,11 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 			break;
 		}
 		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
-		if (other_id >= 0)
+		first = heap_update(members, work, first, id);
+		if (other_id >= 0) {
 			look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, other_id, leader, length);
+			first = heap_update(members, work, first, other_id);
+		}
 	}
 	cluster_count(status, members, work, head, finished);
 }

@@ -12,7 +12,7 @@
 /* Each header stands after those it needs. */
 static const char *const headers[2][20] = {
 	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "answer",
-		"queue"},
+		"heap", "queue"},
 	{"layout", "texture", "numbers", "vertices", "shapes"},
 };
 
