@@ -54,14 +54,14 @@ programs() {
 	done
 }
 
-# A line of options for each program in each storage, with reads counted or not, for 32 and 64 bits. A work-item's number, a size_t, may become
+# A line of options for each program in each storage, with reads counted or not, polygons as the step events has them, for 32 and 64 bits. A work-item's number, a size_t, may become
 # an int: on each of the two this is one kind of conversion, which the other still warns of.
 translations() {
 	for text in "$folder"/*.cl; do
 		for target in '--target=spir -Wno-sign-conversion' '--target=spir64 -Wno-shorten-64-to-32'; do
 			for storage in '' -DCAROM_IMAGES; do
-				for count in '' -DCAROM_COUNT_READS; do
-					echo "$target $storage $count -o $folder/$((number += 1)).ll $text"
+				for way in '' -DCAROM_COUNT_READS -DCAROM_OUTLINES; do
+					echo "$target $storage $way -o $folder/$((number += 1)).ll $text"
 				done
 			done
 		done
