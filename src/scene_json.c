@@ -83,14 +83,21 @@ carom_status scene_fail_memory(const struct scene_reader *reader)
 	return carom_fail(reader->error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to read it", reader->name);
 }
 
+/* Where memory ends jansson's parser says nothing, or, of a string, that none is there: nothing else that is wrong ends with a quotation mark. */
+static bool is_memory(const struct scene_reader *reader, const char *at, const json_error_t *found)
+{
+	const bool misses_string = strncmp(found->text, "invalid token", 13) == 0 || strncmp(found->text, "string or '}' expected", 22) == 0;
+	return json_error_code(found) == json_error_out_of_memory || !*found->text || (misses_string && at > reader->text && at[-1] == '"');
+}
+
 /* What jansson found wrong; `at` is behind it. */
 static carom_status fail_syntax(const struct scene_reader *reader, const char *at, const json_error_t *found)
 {
 	static const char too_much[] = "end of file expected"; /* jansson's words, where it was given an element alone */
 	carom_error position;
 	const char *text = found->text, *instead = "";
-	if (json_error_code(found) == json_error_out_of_memory || !*text)
-		return scene_fail_memory(reader); /* jansson's parser says nothing where memory ends */
+	if (is_memory(reader, at, found))
+		return scene_fail_memory(reader);
 	if (reader->body && strncmp(text, too_much, sizeof too_much - 1) == 0) {
 		instead = "',' or ']' expected";
 		text += sizeof too_much - 1;

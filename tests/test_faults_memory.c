@@ -8,12 +8,21 @@
 #include "runs.h"
 
 static int grown; /* lists that could not */
+static int lost;  /* scenes that were read wrong */
 
-/* What can be done without, fewer threads say, is no failure. Where its own memory ends jansson takes some scenes for broken. */
+/* Where its buffer for a token can't grow beyond 15 bytes jansson 2.14 loses one and says nothing: then the scene is another. */
+static bool jansson_lost(const char *call, carom_status status)
+{
+	const bool is_lost = call && strncmp(call, "jansson", 7) == 0 && status == CAROM_INVALID_SCENE;
+	lost += is_lost;
+	return is_lost;
+}
+
+/* What can be done without, fewer threads say, is no failure. */
 static void there_is_no_memory(const char *call, carom_status status, const carom_error *error)
 {
-	const bool blamed = call && strncmp(call, "jansson", 7) == 0 && status == CAROM_INVALID_SCENE;
-	if (status && (!call || (status != CAROM_OUT_OF_MEMORY && !blamed) || error->status != status || !*error->text || strstr(error->text, "(null)")))
+	const bool is_told = status == CAROM_OUT_OF_MEMORY || jansson_lost(call, status);
+	if (status && (!call || !is_told || error->status != status || !*error->text || strstr(error->text, "(null)")))
 		fail_msg("%s failed: %s: %s", call ? call : "nothing", carom_status_name(status), error->text);
 	grown += status && strstr(error->text, "Neighbours, ") && strstr(error->text, "can't be made");
 }
@@ -22,9 +31,12 @@ static void worlds_that_open(void **unused)
 {
 	(void)unused;
 	json_set_alloc_funcs(faults_malloc, free);
-	SCENERY_EACH_DEVICE(device)
+	SCENERY_EACH_DEVICE(device) {
+		lost = 0;
 		if (device->storage != CAROM_STORAGE_IMAGE) /* it is the same as with buffers */
 			walk_opening(device, "events", FAULTS_MEMORY, there_is_no_memory);
+		assert_true(lost <= 2); /* a long key and a name with escapes */
+	}
 	json_set_alloc_funcs(malloc, free);
 }
 

@@ -84,19 +84,13 @@ static carom_status open_all(const char *path, const scenery_device *device, con
 	return status;
 }
 
-/* Objects are released in rows, and of kernels' arguments walk_running has them all: a tenth of these is enough. */
-static bool alike(const char *call)
-{
-	return call && (strncmp(call, "clRelease", 9) == 0 || strcmp(call, "clSetKernelArg") == 0);
-}
-
 void walk_opening(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge)
 {
 	char path[128];
 	const char *failed = "";
 	snprintf(path, sizeof path, "%s/everything.json", folder);
 	write_text(path, everything, sizeof everything - 1);
-	for (uint64_t n = 1; failed; n += alike(failed) ? 10 : 1) {
+	for (uint64_t n = 1; failed; n++) {
 		carom_error error = {.status = CAROM_OK};
 		faults_arm(kind, n, walk_code(n));
 		const carom_status status = open_all(path, device, step, &error);
