@@ -306,7 +306,8 @@ CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 /** The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
 /** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes at most on its device. Pictures come on top
- * from the first one on: about 300 bytes a circle, or 100 a polygon and 50 a vertex of it. 0 for a def that no world is made from. */
+ * from the first one on: 4 bytes a pixel, and about 300 bytes a circle, or 100 a polygon and 50 a vertex of it, for as many bodies as are drawn
+ * at once (less than 2 GiB). 0 for a def that no world is made from. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
 
 /** What a kernel took since the world was created: by OpenCL's profiling events, or the wall clock on the CPU fallback. */
@@ -388,8 +389,9 @@ typedef struct carom_render_def {
 
 /** The defaults above. */
 CAROM_API carom_render_def carom_default_render_def(void);
-/** Draws the present state into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. CAROM_LIMIT:
- * there can be 2^24 edges in a picture, of which a circle has five; with an inset all count twice. */
+/** Draws the present state into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. What there
+ * is no room for at once is drawn in passes, one over the other, and gives the same picture. CAROM_LIMIT: bodies lie so thickly over one
+ * another that the lists of those in each tile of pixels have no room. */
 CAROM_API carom_status carom_world_render(carom_world *world, const carom_render_def *def, uint8_t *pixels, carom_error *error);
 /** Writes RGBA pixels, rows from the top, as a PNG file; whole or not at all. */
 CAROM_API carom_status carom_png_write(const char *path, const uint8_t *pixels, uint32_t width, uint32_t height, carom_error *error);

@@ -345,6 +345,11 @@
 #define TILES_COLUMNS 0
 #define TILES_ROWS 1
 #define TILES_GROUND 2 /* colour, 0xRRGGBB as a number */
+#define TILES_PASS 3   /* bits: a picture of more shapes than there is room for at once is drawn in passes, one over the other */
+#define PASS_OVER 1    /* not the first: it begins with Light */
+#define PASS_UNDER 2   /* not the last: it leaves Light, and no picture */
+
+/* Light: of a pass, a record a pixel of the frame, row by row: squares of red, green and blue */
 
 /* Lists of whole numbers: shapes sorted by rows of tiles of pixels, then by tile */
 #define PIXEL_TILE 8

@@ -9,47 +9,67 @@
 #include "status.h"
 #include "world.h"
 
-/* Pixels: the sides of what is drawn at once. A whole number of tiles, and images as large are to be had everywhere. */
+/* Pixels: the sides of what is drawn at once, at most. A whole number of tiles, and images as large are to be had everywhere. */
 #define BLOCK 4096
 
-/* Of all layers: their indices are floats. There are fewer vertices and shapes. */
-#define MOST_EDGES (1ul << 24)
+/* Of a pass: indices of its vertices, edges and texels of shapes are floats. */
+#define MOST_TEXELS (1ull << 24)
+/* Room for all marks of a layer, and the smallest block. */
+#define LEAST_TEXELS 512u
+#define MARK_TEXELS (LINE_EDGES * CAROM_MAX_MARKS)
+
+/* What there are shapes of, but no pixels yet. More than there is room for are drawn in passes, each over those before. */
+typedef struct carom_pass {
+	uint64_t most; /* texels of a texture */
+	uint32_t shapes, edges;
+	bool is_first, is_last;
+} carom_pass;
+
+/* What a texture of the device can have: a power of two. */
+static uint64_t most_texels(const carom_world *world)
+{
+	const carom_device_info *info = &world->device->info;
+	const uint64_t most = info->max_allocation / sizeof(float[4]), in_image = (uint64_t)info->max_image_size * ROW_SIZE;
+	uint64_t texels = MOST_TEXELS;
+	while (texels > LEAST_TEXELS && (texels > most || (info->uses_images && texels > in_image)))
+		texels /= 2;
+	return texels;
+}
 
 /* ---- Shapes */
 
-/* Places the layer's vertices and makes its shapes, behind those that there are. */
-static carom_status draw_layer(carom_world *world, const carom_picture *picture, const carom_layer *layer, uint32_t *shapes, uint32_t *edges,
+static bool has_room(uint64_t most, uint64_t shapes, uint64_t edges)
+{
+	return SHAPES_WIDTH * shapes <= most && edges <= most;
+}
+
+/* Room for the shapes of all layers, if one pass can draw them `at_once`, else for those of any pass. */
+static carom_status hold_shapes(carom_world *world, const carom_picture *picture, uint64_t most, bool *at_once, carom_error *error)
+{
+	uint64_t shapes = 0, edges = 0;
+	for (size_t i = 0; i < picture->layer_count; i++) {
+		shapes += picture->layers[i].mark_count + world->canvas.all_shapes;
+		edges += LINE_EDGES * picture->layers[i].mark_count + world->canvas.all_edges;
+	}
+	*at_once = has_room(most, shapes, edges);
+	TRY(carom_canvas_hold(world, ROLE_SHAPES, *at_once ? SHAPES_WIDTH * shapes : most, error));
+	return carom_canvas_hold(world, ROLE_EDGES, *at_once ? edges : most, error);
+}
+
+/* Places the vertices of what has been sent of a layer and makes its shapes, behind those that there are. */
+static carom_status make_shapes(carom_world *world, const carom_picture *picture, const carom_layer *layer, uint32_t marks, carom_pass *pass,
 	carom_error *error)
 {
 	const carom_canvas *canvas = &world->canvas;
-	const int32_t marks = (int32_t)layer->mark_count, items = marks + (int32_t)canvas->body_count;
-	TRY(carom_canvas_send_view(world, picture, layer, *shapes, *edges, error));
+	const int32_t items = (int32_t)(marks + canvas->bodies);
+	TRY(carom_canvas_send_view(world, picture, layer, pass->shapes, pass->edges, error));
 	TRY(carom_canvas_send_marks(world, layer, error));
 	if (canvas->vertices)
 		TRY(carom_run(world, STAGE_VERTICES, (int32_t)canvas->vertices, 1, 0, 0, error));
 	if (items)
-		TRY(carom_run(world, STAGE_SHAPES, items, 1, marks, 0, error));
-	*shapes += layer->mark_count + canvas->shapes;
-	*edges += LINE_EDGES * layer->mark_count + canvas->edges;
-	return CAROM_OK;
-}
-
-static carom_status draw_layers(carom_world *world, const carom_picture *picture, uint32_t *shapes, carom_error *error)
-{
-	uint64_t most_shapes = 0, most_edges = 0;
-	uint32_t edges = 0;
-	*shapes = 0;
-	for (size_t i = 0; i < picture->layer_count; i++) {
-		most_shapes += picture->layers[i].mark_count + world->canvas.shapes;
-		most_edges += LINE_EDGES * picture->layers[i].mark_count + world->canvas.edges;
-	}
-	if (most_edges > MOST_EDGES)
-		return carom_fail(error, CAROM_LIMIT, "a picture of %zu bodies has %llu edges%s: there can be %lu at most", world->body_count,
-			(unsigned long long)most_edges, picture->layer_count > 1 ? ", with its inset" : "", MOST_EDGES);
-	TRY(carom_canvas_hold(world, ROLE_SHAPES, SHAPES_WIDTH * most_shapes, error));
-	TRY(carom_canvas_hold(world, ROLE_EDGES, most_edges, error));
-	for (size_t i = 0; i < picture->layer_count; i++)
-		TRY(draw_layer(world, picture, &picture->layers[i], shapes, &edges, error));
+		TRY(carom_run(world, STAGE_SHAPES, items, 1, (int32_t)marks, 0, error));
+	pass->shapes += marks + canvas->shapes;
+	pass->edges += LINE_EDGES * marks + canvas->edges;
 	return CAROM_OK;
 }
 
@@ -69,8 +89,8 @@ static carom_status hold_picture(carom_world *world, uint32_t width, uint32_t he
 	return CAROM_OK;
 }
 
-/* Sorts the shapes by tiles and draws the pixels of a block. */
-static carom_status draw_block(carom_world *world, uint32_t shapes, int32_t columns, int32_t rows, carom_error *error)
+/* Sorts the shapes by tiles. */
+static carom_status sort_shapes(carom_world *world, uint32_t shapes, int32_t rows, carom_error *error)
 {
 	const uint32_t *room = world->canvas.room;
 	const int32_t chunks = carom_parts_of(shapes, BIN_CHUNK), row_room = (int32_t)room[ROLE_ROW_LIST], tile_room = (int32_t)room[ROLE_TILE_LIST];
@@ -79,8 +99,7 @@ static carom_status draw_block(carom_world *world, uint32_t shapes, int32_t colu
 	TRY(carom_run(world, STAGE_BIN_SUM, rows, 1, chunks, 0, error));
 	if (chunks)
 		TRY(carom_run(world, STAGE_BIN_ROWS, chunks, 1, (int32_t)shapes, row_room, error));
-	TRY(carom_run(world, STAGE_BIN_TILES, rows, 1, row_room, tile_room, error));
-	return carom_run(world, STAGE_PIXELS, columns * (PIXEL_TILE / 2), rows, tile_room, 0, error);
+	return carom_run(world, STAGE_BIN_TILES, rows, 1, row_room, tile_room, error);
 }
 
 /* Makes the lists longer if they were too short: `again` tells. */
@@ -105,60 +124,101 @@ static carom_status check_lists(carom_world *world, int32_t rows, bool *again, c
 	return status ? status : carom_canvas_hold(world, ROLE_TILE_LIST, in_tiles, error);
 }
 
-/* Draws a block into a picture of its size; again where a list was too short, for nothing is left out. */
-static carom_status draw_pixels(carom_world *world, carom_pixels block, uint32_t ground, uint32_t shapes, uint8_t *pixels, carom_error *error)
+/* Draws the pass's shapes over what there is of a block; sorts them again where a list was too short, for nothing is left out. */
+static carom_status draw_pass(carom_world *world, carom_pixels block, uint32_t ground, carom_pass *pass, carom_error *error)
 {
-	const uint32_t width = (uint32_t)(block.x1 - block.x0), height = (uint32_t)(block.y1 - block.y0);
-	const int32_t columns = carom_parts_of(width, PIXEL_TILE), rows = carom_parts_of(height, PIXEL_TILE);
-	const uint64_t counts = (uint64_t)carom_parts_of(shapes, BIN_CHUNK) * (uint64_t)rows;
+	const int32_t columns = carom_parts_of((uint32_t)(block.x1 - block.x0), PIXEL_TILE);
+	const int32_t rows = carom_parts_of((uint32_t)(block.y1 - block.y0), PIXEL_TILE);
+	const uint64_t counts = (uint64_t)carom_parts_of(pass->shapes, BIN_CHUNK) * (uint64_t)rows;
 	bool again = true;
-	TRY(hold_picture(world, width, height, error));
 	TRY(carom_canvas_hold(world, ROLE_BIN_COUNTS, 2 * counts, error));
 	TRY(carom_canvas_hold(world, ROLE_BIN_OFFSETS, counts, error));
 	TRY(carom_canvas_hold(world, ROLE_BIN_TOTALS, 2 * (uint64_t)rows, error));
 	TRY(carom_canvas_hold(world, ROLE_TILE_ENDS, (uint64_t)(columns + 1) * (uint64_t)rows, error));
-	TRY(carom_canvas_hold(world, ROLE_ROW_LIST, 2 * (uint64_t)shapes, error));
-	TRY(carom_canvas_hold(world, ROLE_TILE_LIST, 3 * (uint64_t)shapes + (uint64_t)columns * (uint64_t)rows, error));
-	TRY(carom_canvas_send_frame(world, block, ground, error));
+	TRY(carom_canvas_hold(world, ROLE_ROW_LIST, 2 * (uint64_t)pass->shapes, error));
+	TRY(carom_canvas_hold(world, ROLE_TILE_LIST, 3 * (uint64_t)pass->shapes + (uint64_t)columns * (uint64_t)rows, error));
+	TRY(carom_canvas_send_frame(world, block, ground, (pass->is_first ? 0u : PASS_OVER) | (pass->is_last ? 0u : PASS_UNDER), error));
 	while (again) {
-		TRY(draw_block(world, shapes, columns, rows, error));
-		TRY(world->device->kind->download(world->device, world->textures[ROLE_PICTURE].front, height, pixels, error));
+		TRY(sort_shapes(world, pass->shapes, rows, error));
 		TRY(check_lists(world, rows, &again, error));
 	}
+	TRY(carom_run(world, STAGE_PIXELS, columns * (PIXEL_TILE / 2), rows, (int32_t)world->canvas.room[ROLE_TILE_LIST], 0, error));
+	pass->is_first = false;
+	pass->shapes = pass->edges = 0;
 	return CAROM_OK;
 }
 
+static carom_status draw_layer(carom_world *world, const carom_picture *picture, const carom_layer *layer, carom_pixels block, carom_pass *pass,
+	carom_error *error)
+{
+	uint32_t marks = layer->mark_count;
+	uint64_t drawn = 0;
+	do {
+		TRY(carom_canvas_send_bodies(world, drawn, pass->most - MARK_TEXELS, error));
+		if (!has_room(pass->most, pass->shapes + marks + world->canvas.shapes, pass->edges + LINE_EDGES * marks + world->canvas.edges))
+			TRY(draw_pass(world, block, picture->ground, pass, error));
+		TRY(make_shapes(world, picture, layer, marks, pass, error));
+		drawn = world->canvas.end;
+		marks = 0; /* those lie below all bodies */
+	} while (drawn < 2 * (uint64_t)world->body_count);
+	return CAROM_OK;
+}
+
+/* Draws a block into a picture of its size. */
+static carom_status draw_block(carom_world *world, const carom_picture *picture, carom_pixels block, uint64_t most, uint8_t *pixels,
+	carom_error *error)
+{
+	const uint32_t width = (uint32_t)(block.x1 - block.x0), height = (uint32_t)(block.y1 - block.y0);
+	carom_pass pass = {.most = most, .is_first = true};
+	TRY(hold_picture(world, width, height, error));
+	for (size_t i = 0; i < picture->layer_count; i++)
+		TRY(draw_layer(world, picture, &picture->layers[i], block, &pass, error));
+	pass.is_last = true;
+	TRY(draw_pass(world, block, picture->ground, &pass, error));
+	return world->device->kind->download(world->device, world->textures[ROLE_PICTURE].front, height, pixels, error);
+}
+
 /* A block that is not as wide as the picture goes through memory of its own. */
-static carom_status draw_part(carom_world *world, const carom_picture *picture, carom_pixels block, uint32_t shapes, uint8_t *pixels,
+static carom_status draw_part(carom_world *world, const carom_picture *picture, carom_pixels block, uint64_t most, uint8_t *pixels,
 	carom_error *error)
 {
 	const size_t pitch = 4 * (size_t)picture->width, row = 4 * (size_t)(block.x1 - block.x0), rows = (size_t)(block.y1 - block.y0);
 	uint8_t *to = pixels + (size_t)block.y0 * pitch + 4 * (size_t)block.x0, *part;
 	carom_status status;
 	if (row == pitch)
-		return draw_pixels(world, block, picture->ground, shapes, to, error);
+		return draw_block(world, picture, block, most, to, error);
 	part = malloc(row * rows);
 	if (!part)
 		return carom_canvas_no_memory(world, error);
-	status = draw_pixels(world, block, picture->ground, shapes, part, error);
+	status = draw_block(world, picture, block, most, part, error);
 	for (size_t y = 0; !status && y < rows; y++)
 		memcpy(to + y * pitch, part + y * row, row);
 	free(part);
 	return status;
 }
 
+static int32_t lesser(int32_t a, int32_t b)
+{
+	return a < b ? a : b;
+}
+
 carom_status carom_canvas_draw(carom_world *world, const carom_picture *picture, uint8_t *pixels, carom_error *error)
 {
 	const int32_t width = (int32_t)picture->width, height = (int32_t)picture->height;
-	uint32_t shapes = 0;
+	const uint64_t most = most_texels(world);
+	int32_t side = BLOCK;
+	bool at_once;
 	TRY(carom_textures_hold(world, error));
-	TRY(carom_canvas_send_bodies(world, error));
 	TRY(carom_canvas_send_transforms(world, error));
-	TRY(draw_layers(world, picture, &shapes, error));
-	for (int32_t y = 0; y < height; y += BLOCK) {
-		for (int32_t x = 0; x < width; x += BLOCK) {
-			const carom_pixels block = {x, y, x + BLOCK < width ? x + BLOCK : width, y + BLOCK < height ? y + BLOCK : height};
-			TRY(draw_part(world, picture, block, shapes, pixels, error));
+	carom_canvas_count(world);
+	TRY(hold_shapes(world, picture, most, &at_once, error));
+	while (!at_once && (uint64_t)side * (uint64_t)side > most)
+		side /= 2;
+	TRY(carom_canvas_hold(world, ROLE_LIGHT, at_once ? 1 : (uint64_t)lesser(side, width) * (uint64_t)lesser(side, height), error));
+	for (int32_t y = 0; y < height; y += side) {
+		for (int32_t x = 0; x < width; x += side) {
+			const carom_pixels block = {x, y, lesser(x + side, width), lesser(y + side, height)};
+			TRY(draw_part(world, picture, block, most, pixels, error));
 		}
 	}
 	return CAROM_OK;

@@ -85,53 +85,84 @@ static void fill_draw(const carom_body *body, uint32_t index, const carom_canvas
 	ink[INK_OUTLINE] = (float)carom_darker_color(fill);
 }
 
-/* Static bodies first: what moves lies over them. `next` counts what there is. */
-static void fill_bodies(const carom_world *world, bool is_static, carom_canvas *next, size_t *drawn, float *stream, float *draws)
+static uint32_t edges_of(const carom_body *body)
 {
-	uint32_t circle = carom_polygon_texels(world);
-	for (uint32_t i = 0; i < world->body_count; i++) {
+	return body->vertex_count == 1 ? 1 + LINE_EDGES : body->vertex_count;
+}
+
+static uint32_t shapes_of(const carom_body *body)
+{
+	return body->vertex_count == 1 ? 2 : 1;
+}
+
+void carom_canvas_count(carom_world *world)
+{
+	carom_canvas *canvas = &world->canvas;
+	if (canvas->body_count == world->body_count)
+		return;
+	canvas->body_count = world->body_count;
+	canvas->all_vertices = canvas->all_edges = canvas->all_shapes = canvas->end = 0;
+	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
-		const uint32_t texel = body->vertex_count == 1 ? circle++ : body->vertex_first / 2;
-		if (body->is_static == is_static) {
-			fill_draw(body, i, next, draws + 4 * DRAWS_WIDTH * (*drawn)++);
-			for (uint32_t k = 0; k < body->vertex_count; k++)
-				fill_stream(world, i, texel, k, stream + 4 * (size_t)next->vertices++);
-			next->edges += body->vertex_count == 1 ? 1 + LINE_EDGES : body->vertex_count;
-			next->shapes += body->vertex_count == 1 ? 2 : 1;
-		}
+		canvas->all_vertices += body->vertex_count;
+		canvas->all_edges += edges_of(body);
+		canvas->all_shapes += shapes_of(body);
 	}
 }
 
-carom_status carom_canvas_send_bodies(carom_world *world, carom_error *error)
+/* Fills in what there is room for, from `next->first` on in the order of drawing: static bodies first, what moves lies over them. */
+static void fill_bodies(const carom_world *world, uint64_t most, carom_canvas *next, float *stream, float *draws)
 {
-	carom_canvas next = {.body_count = world->body_count};
-	size_t vertices = 0, drawn = 0;
-	float *stream = NULL, *draws = NULL;
+	const uint64_t count = world->body_count;
+	uint32_t circle = 0;
+	for (next->end = 0; next->end < 2 * count; next->end++) {
+		const uint32_t i = (uint32_t)(next->end % count);
+		const carom_body *body = &carom_world_bodies(world)[i];
+		circle = i ? circle : carom_polygon_texels(world);
+		const uint32_t texel = body->vertex_count == 1 ? circle++ : body->vertex_first / 2;
+		if (next->end < next->first || body->is_static != (next->end < count))
+			continue;
+		if (next->edges + edges_of(body) > most || SHAPES_WIDTH * (next->shapes + shapes_of(body)) > most)
+			break;
+		fill_draw(body, i, next, draws + 4 * DRAWS_WIDTH * (size_t)next->bodies++);
+		for (uint32_t k = 0; k < body->vertex_count; k++)
+			fill_stream(world, i, texel, k, stream + 4 * (size_t)next->vertices++);
+		next->edges += edges_of(body);
+		next->shapes += shapes_of(body);
+	}
+}
+
+static uint64_t lesser(uint64_t a, uint64_t b)
+{
+	return a < b ? a : b;
+}
+
+carom_status carom_canvas_send_bodies(carom_world *world, uint64_t first, uint64_t most, carom_error *error)
+{
+	carom_canvas next = world->canvas;
+	float *stream, *draws;
 	carom_status status;
-	if (world->canvas.body_count == world->body_count && world->canvas.room[ROLE_DRAWS])
+	if (next.end > 0 && next.first == first)
 		return CAROM_OK;
-	for (size_t i = 0; i < world->body_count; i++)
-		vertices += carom_world_bodies(world)[i].vertex_count;
-	TRY(carom_canvas_hold(world, ROLE_STREAM, vertices, error));
-	TRY(carom_canvas_hold(world, ROLE_PLACED, vertices, error));
-	TRY(carom_canvas_hold(world, ROLE_DRAWS, DRAWS_WIDTH * world->body_count, error));
+	world->canvas.end = 0; /* until all is sent */
+	TRY(carom_canvas_hold(world, ROLE_STREAM, lesser(next.all_vertices, most), error));
+	TRY(carom_canvas_hold(world, ROLE_PLACED, lesser(next.all_vertices, most), error));
+	TRY(carom_canvas_hold(world, ROLE_DRAWS, lesser(DRAWS_WIDTH * world->body_count, most), error));
+	next = world->canvas;
+	next.first = first;
+	next.bodies = next.vertices = next.edges = next.shapes = 0;
 	stream = texels_for(world, ROLE_STREAM);
 	draws = texels_for(world, ROLE_DRAWS);
 	if (stream && draws) {
-		fill_bodies(world, true, &next, &drawn, stream, draws);
-		fill_bodies(world, false, &next, &drawn, stream, draws);
-		status = upload(world, ROLE_STREAM, (uint32_t)vertices, stream, error);
+		fill_bodies(world, most, &next, stream, draws);
+		status = upload(world, ROLE_STREAM, next.vertices, stream, error);
 	} else {
 		status = carom_canvas_no_memory(world, error);
 	}
 	if (!status)
-		status = upload(world, ROLE_DRAWS, DRAWS_WIDTH * (uint32_t)drawn, draws, error);
-	if (!status) {
-		memcpy(next.room, world->canvas.room, sizeof next.room);
-		next.width = world->canvas.width;
-		next.height = world->canvas.height;
+		status = upload(world, ROLE_DRAWS, DRAWS_WIDTH * next.bodies, draws, error);
+	if (!status)
 		world->canvas = next;
-	}
 	free(stream);
 	free(draws);
 	return status;
@@ -215,13 +246,14 @@ carom_status carom_canvas_send_marks(carom_world *world, const carom_layer *laye
 	return upload(world, ROLE_MARKS, MARKS_WIDTH * CAROM_MAX_MARKS, texels, error);
 }
 
-carom_status carom_canvas_send_frame(carom_world *world, carom_pixels block, uint32_t ground, carom_error *error)
+carom_status carom_canvas_send_frame(carom_world *world, carom_pixels block, uint32_t ground, uint32_t pass, carom_error *error)
 {
 	float texels[4 * TILE] = {0}, *tiles = texels + 4 * FRAME_TILES;
 	fill_box(block, texels + 4 * FRAME_BOX);
 	tiles[TILES_COLUMNS] = (float)carom_parts_of((uint32_t)(block.x1 - block.x0), PIXEL_TILE);
 	tiles[TILES_ROWS] = (float)carom_parts_of((uint32_t)(block.y1 - block.y0), PIXEL_TILE);
 	tiles[TILES_GROUND] = (float)ground;
+	tiles[TILES_PASS] = (float)pass;
 	TRY(carom_canvas_hold(world, ROLE_FRAME, FRAME_WIDTH, error));
 	return upload(world, ROLE_FRAME, FRAME_WIDTH, texels, error);
 }

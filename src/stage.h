@@ -58,6 +58,7 @@ typedef enum carom_role {
 	ROLE_ROW_LIST,    /* list: the shapes of each row of tiles */
 	ROLE_TILE_ENDS,   /* list: columns + 1 of each row of tiles */
 	ROLE_TILE_LIST,   /* list: the shapes of each tile */
+	ROLE_LIGHT,       /* records, one a pixel; one alone where a single pass draws all */
 	ROLE_PICTURE,     /* bytes, a texel a pixel */
 	ROLE_COUNT
 } carom_role;

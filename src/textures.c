@@ -30,7 +30,7 @@ static carom_texel_format format_of(carom_role role)
 {
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED)
 		return TEXELS_LIST;
-	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK)
+	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_LIGHT)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -81,6 +81,7 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_ROW_LIST] = "RowList",
 	[ROLE_TILE_ENDS] = "TileEnds",
 	[ROLE_TILE_LIST] = "TileList",
+	[ROLE_LIGHT] = "Light",
 	[ROLE_PICTURE] = "Picture",
 };
 

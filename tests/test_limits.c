@@ -4,7 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "layout.h"
+#include "pictures.h"
 #include "runs.h"
+#include "world.h"
 
 static int restore(void **unused)
 {
@@ -122,16 +125,14 @@ static void pictures_are_drawn_in_blocks(void **unused)
 	static uint8_t pixels[2][SIZE];
 	const carom_body_def body = scenery_circle(0.0f, 0.0f, 1.0f, 0.0f, 0.5f);
 	const carom_world_def def = runs_def();
-	carom_render_def picture = carom_default_render_def();
-	picture.width = WIDTH;
-	picture.height = HEIGHT;
+	const carom_render_def render = sized(WIDTH, HEIGHT);
 	SCENERY_EACH_DEVICE(device) {
 		for (int limited = 0; limited < 2; limited++) {
 			carom_world *world = runs_world(&def, device, &body, 1);
 			carom_error error;
 			if (!world)
 				break;
-			scenery_check(carom_world_render(world, &picture, pixels[limited], &error), &error);
+			scenery_check(carom_world_render(world, &render, pixels[limited], &error), &error);
 			carom_world_destroy(world);
 			setenv("CAROM_MAX_IMAGE_SIZE", "4096", 1);
 		}
@@ -139,6 +140,53 @@ static void pictures_are_drawn_in_blocks(void **unused)
 		assert_true(pixels[0][0] == 0xFF || pixels[0][3] == 0xFF);
 		restore(NULL);
 	}
+}
+
+static carom_world *pile(const scenery_device *device)
+{
+	enum { COUNT = 400 };
+	carom_body_def bodies[COUNT];
+	carom_world_def def = in_room(8, 5.5f);
+	carom_world *world = scenery_world(&def, device);
+	carom_error error;
+	for (uint32_t k = 0; k < COUNT; k++) {
+		bodies[k] = regular(k % 3 ? 3 + k % 62 : 0, 0.8f, 0.035f * (float)k - 7, 4.5f - 0.7f * (float)(k % 13), 0.1f * (float)k);
+		bodies[k].is_static = k % 5 == 0;
+	}
+	if (world)
+		scenery_check(carom_world_add(world, bodies, COUNT, NULL, &error), &error);
+	return world;
+}
+
+/* More bodies, one over the other, than there is room for at once: they are drawn in passes, and the picture is the same. */
+static void pictures_are_drawn_in_passes(void **unused)
+{
+	(void)unused;
+	static const char *const limits[] = {"40000", "65536", "262144"};
+	carom_render_def def = sized(203, 150);
+	def.has_inset = true;
+	def.inset = (carom_inset){{-5, -4}, {3, 2}};
+	carom_world *world = pile(&scenery_devices[0]);
+	const picture expected = picture_of(world, def);
+	assert_int_equal(world->canvas.room[ROLE_LIGHT], TILE);
+	carom_world_destroy(world);
+	SCENERY_EACH_DEVICE(device) {
+		for (size_t i = 0; i < COUNT(limits); i++) {
+			setenv("CAROM_MAX_ALLOCATION", limits[i], 1);
+			world = pile(device);
+			if (!world)
+				break;
+			const picture found = picture_of(world, def), again = picture_of(world, def);
+			assert_true(world->canvas.room[ROLE_LIGHT] > 1);
+			assert_memory_equal(found.pixels, expected.pixels, bytes_of(expected));
+			assert_memory_equal(again.pixels, expected.pixels, bytes_of(expected));
+			free(found.pixels);
+			free(again.pixels);
+			carom_world_destroy(world);
+		}
+		restore(NULL);
+	}
+	free(expected.pixels);
 }
 
 /* From room for next to nothing to room for all: the run ends as it does without a limit, or says what it lacks and keeps the state. */
@@ -179,6 +227,6 @@ int main(void)
 	const struct CMUnitTest tests[] = {cmocka_unit_test_teardown(limits_are_whole_numbers, restore),
 		cmocka_unit_test_teardown(limits_only_get_lower, restore), cmocka_unit_test_teardown(small_images_make_way_for_buffers, restore),
 		cmocka_unit_test_teardown(sides_are_limited, restore), cmocka_unit_test_teardown(pictures_are_drawn_in_blocks, restore),
-		cmocka_unit_test_teardown(allocations_are_limited, restore)};
+		cmocka_unit_test_teardown(pictures_are_drawn_in_passes, restore), cmocka_unit_test_teardown(allocations_are_limited, restore)};
 	return cmocka_run_group_tests_name("limits", tests, NULL, NULL);
 }

@@ -67,17 +67,66 @@ uint16 levels(float16 squared)
 	return convert_uint16(sqrt(squared > 0.0f ? squared : (float16)(0.0f)) + 0.5f);
 }
 
-__kernel void pixels(TEX_IN(shapes), TEX_IN(edges), TEX_IN(frame), LIST_IN(ends), LIST_IN(list), BYTES_OUT(picture), int4 domain)
+/* Of 16 pixels number k is this one, if the frame has it. */
+int2 pixel_of(int2 first, int k)
+{
+	return (int2)(first.x + k % PIXEL_TILE, first.y + k / PIXEL_TILE);
+}
+
+lights light_below(RECORD_IN(light), int2 first, int2 size)
+{
+	float reds[16], greens[16], blues[16];
+	for (int k = 0; k < 16; k++) {
+		int2 at = min(pixel_of(first, k), size - 1);
+		float4 below = light[at.y * size.x + at.x];
+		reds[k] = below.x;
+		greens[k] = below.y;
+		blues[k] = below.z;
+	}
+	lights all = {vload16(0, reds), vload16(0, greens), vload16(0, blues)};
+	return all;
+}
+
+void keep(lights all, RECORD_OUT(light), int2 first, int2 size)
+{
+	float reds[16], greens[16], blues[16];
+	vstore16(all.red, 0, reds);
+	vstore16(all.green, 0, greens);
+	vstore16(all.blue, 0, blues);
+	for (int k = 0; k < 16; k++) {
+		int2 at = pixel_of(first, k);
+		if (at.x < size.x && at.y < size.y)
+			light[at.y * size.x + at.x] = (float4)(reds[k], greens[k], blues[k], 0.0f);
+	}
+}
+
+void show(lights all, BYTES_OUT(picture), int2 first, int2 size)
+{
+	uint reds[16], greens[16], blues[16];
+	vstore16(levels(all.red), 0, reds);
+	vstore16(levels(all.green), 0, greens);
+	vstore16(levels(all.blue), 0, blues);
+	for (int k = 0; k < 16; k++) {
+		int2 at = pixel_of(first, k);
+		if (at.x < size.x && at.y < size.y)
+			BYTES_STORE(picture, at.x, at.y, (uint4)(reds[k], greens[k], blues[k], 255));
+	}
+}
+
+__kernel void pixels(TEX_IN(shapes), TEX_IN(edges), TEX_IN(frame), LIST_IN(ends), LIST_IN(list), RECORD_OUT(light), BYTES_OUT(picture), int4 domain)
 {
 	int item = get_global_id(0), row = get_global_id(1), column = item / (PIXEL_TILE / 2);
-	int x = column * PIXEL_TILE, y = row * PIXEL_TILE + item % (PIXEL_TILE / 2) * 2;
+	int2 first = (int2)(column * PIXEL_TILE, row * PIXEL_TILE + item % (PIXEL_TILE / 2) * 2);
 	float4 box = TEX_LOAD(frame, FRAME_BOX, 0), tiles = TEX_LOAD(frame, FRAME_TILES, 0);
-	int width = (int)(CHANNEL(box, BOX_X1) - CHANNEL(box, BOX_X0)), height = (int)(CHANNEL(box, BOX_Y1) - CHANNEL(box, BOX_Y0));
-	if (item >= domain.x || y >= height)
+	int2 size = (int2)((int)(CHANNEL(box, BOX_X1) - CHANNEL(box, BOX_X0)), (int)(CHANNEL(box, BOX_Y1) - CHANNEL(box, BOX_Y0)));
+	int pass = (int)CHANNEL(tiles, TILES_PASS);
+	if (item >= domain.x || first.y >= size.y)
 		return;
 	float4 ground = squared_color(CHANNEL(tiles, TILES_GROUND));
-	lights light = {(float16)(ground.x), (float16)(ground.y), (float16)(ground.z)};
-	float left = CHANNEL(box, BOX_X0) + (float)x, top = CHANNEL(box, BOX_Y0) + (float)y;
+	lights all = {(float16)(ground.x), (float16)(ground.y), (float16)(ground.z)};
+	if (pass & PASS_OVER)
+		all = light_below(light, first, size);
+	float left = CHANNEL(box, BOX_X0) + (float)first.x, top = CHANNEL(box, BOX_Y0) + (float)first.y;
 	float16 xs = left + (float16)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
 	float16 ys = (float16)((float8)(top), (float8)(top + 1.0f));
 	int tile = row * ((int)CHANNEL(tiles, TILES_COLUMNS) + 1) + column;
@@ -85,13 +134,10 @@ __kernel void pixels(TEX_IN(shapes), TEX_IN(edges), TEX_IN(frame), LIST_IN(ends)
 	for (uint k = (uint)ends[tile]; k < end; k++) {
 		float4 its = ROW_LOAD(shapes, SHAPES_WIDTH * list[k] + SHAPE_BOX);
 		if (top + 1.0f >= CHANNEL(its, BOX_Y0) && top < CHANNEL(its, BOX_Y1))
-			draw(&light, TEX(shapes), TEX(edges), list[k], its, xs, ys);
+			draw(&all, TEX(shapes), TEX(edges), list[k], its, xs, ys);
 	}
-	uint reds[16], greens[16], blues[16];
-	vstore16(levels(light.red), 0, reds);
-	vstore16(levels(light.green), 0, greens);
-	vstore16(levels(light.blue), 0, blues);
-	for (int k = 0; k < 16; k++)
-		if (x + k % PIXEL_TILE < width && y + k / PIXEL_TILE < height)
-			BYTES_STORE(picture, x + k % PIXEL_TILE, y + k / PIXEL_TILE, (uint4)(reds[k], greens[k], blues[k], 255));
+	if (pass & PASS_UNDER)
+		keep(all, light, first, size);
+	else
+		show(all, TEX(picture), first, size);
 }

@@ -5,7 +5,7 @@
 namespace carom::cpu {
 
 /* Where the slot's textures are in the list. */
-enum : int { FROM_SHAPES, FROM_EDGES, FROM_FRAME, FROM_ENDS, FROM_LIST, TO_PICTURE };
+enum : int { FROM_SHAPES, FROM_EDGES, FROM_FRAME, FROM_ENDS, FROM_LIST, LIGHT, TO_PICTURE };
 
 constexpr int32_t side = PIXEL_TILE, area = side * side;
 
@@ -145,16 +145,41 @@ private:
 
 template <typename T> struct Frame {
 	T x0, y0;
-	int32_t width, height, columns;
+	int32_t width, height, columns, pass;
 	Light<T> ground;
 
 	explicit Frame(const Texels<T> &frame)
 		: x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), width(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_X1) - x0)),
 		  height(static_cast<int32_t>(frame.fact(FRAME_BOX, BOX_Y1) - y0)), columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))),
-		  ground(frame.fact(FRAME_TILES, TILES_GROUND))
+		  pass(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_PASS))), ground(frame.fact(FRAME_TILES, TILES_GROUND))
 	{
 	}
 };
+
+/* Calls `visit(i, pixel)` for each pixel i of the tile that the frame has, with its number there; the tile begins at column x and row y. */
+template <typename T, typename Visit> static void visit_pixels(const Frame<T> &frame, int32_t x, int32_t y, Visit visit)
+{
+	for (int32_t row = 0; row < std::min(side, frame.height - y); row++)
+		for (int32_t i = 0; i < std::min(side, frame.width - x); i++)
+			visit(row * side + i, (y + row) * frame.width + x + i);
+}
+
+/* The passes hand on what they have drawn, unrounded. */
+template <typename T> static void take_light(Tile<T> &tile, const T *light, const Frame<T> &frame, int32_t x, int32_t y)
+{
+	visit_pixels(frame, x, y, [&](int32_t i, int32_t pixel) {
+		for (int c = 0; c < 3; c++)
+			tile.light[c][i] = light[4 * pixel + c];
+	});
+}
+
+template <typename T> static void leave_light(const Tile<T> &tile, T *light, const Frame<T> &frame, int32_t x, int32_t y)
+{
+	visit_pixels(frame, x, y, [&](int32_t i, int32_t pixel) {
+		for (int c = 0; c < 3; c++)
+			light[4 * pixel + c] = tile.light[c][i];
+	});
+}
 
 /* Writes the tile that begins at column x and row y of the frame. */
 template <typename T> static void put_tile(const Tile<T> &tile, const Bytes &picture, const Frame<T> &frame, int32_t x, int32_t y)
@@ -184,9 +209,14 @@ template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &fr
 		tile.x = frame.x0 + static_cast<T>(c * side);
 		tile.y = frame.y0 + static_cast<T>(row * side);
 		tile.fill(frame.ground);
+		if (frame.pass & PASS_OVER)
+			take_light(tile, job.records(LIGHT), frame, c * side, row * side);
 		for (uint32_t k = static_cast<uint32_t>(ends[c]); k < end; k++)
 			painter.draw(tile, list[k]);
-		put_tile(tile, job.bytes(TO_PICTURE), frame, c * side, row * side);
+		if (frame.pass & PASS_UNDER)
+			leave_light(tile, job.records(LIGHT), frame, c * side, row * side);
+		else
+			put_tile(tile, job.bytes(TO_PICTURE), frame, c * side, row * side);
 	}
 }
 
