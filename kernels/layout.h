@@ -349,7 +349,10 @@
 #define PASS_OVER 1    /* not the first: it begins with Light */
 #define PASS_UNDER 2   /* not the last: it leaves Light, and no picture */
 
-/* Light: of a pass, a record a pixel of the frame, row by row: squares of red, green and blue */
+/* Light: of a pass, a record a pixel of the frame, row by row: squares of colours */
+#define LIGHT_RED 0
+#define LIGHT_GREEN 1
+#define LIGHT_BLUE 2
 
 /* Lists of whole numbers: shapes sorted by rows of tiles of pixels, then by tile */
 #define PIXEL_TILE 8

@@ -13,7 +13,7 @@
 static const char *const headers[2][20] = {
 	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "answer",
 		"heap", "queue"},
-	{"layout", "texture", "numbers", "vertices", "shapes"},
+	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
 };
 
 #define MAX_PARTS 64
