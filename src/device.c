@@ -96,15 +96,15 @@ static bool matches(const carom_device_info *info, const char *name)
 	return contains(info->platform, name) || contains(info->name, name);
 }
 
-static carom_status no_such_device(const char *name, const carom_device_info *list, size_t count, carom_error *error)
+static carom_status no_such_device(const char *name, bool from_environment, const carom_device_info *list, size_t count, carom_error *error)
 {
 	char known[512] = "";
 	for (size_t i = 0; i < count; i++) {
 		size_t used = strlen(known);
 		snprintf(known + used, sizeof known - used, "%s'%s'", used ? ", " : "", list[i].name);
 	}
-	return carom_fail(error, CAROM_UNKNOWN_NAME, "there is no device '%.128s'; use auto, cpu, opencl or part of one of these names: %s%s", name,
-		known, count > 1 ? "" : " (no OpenCL device was found)");
+	return carom_fail(error, CAROM_UNKNOWN_NAME, "%sthere is no device '%.128s'; use auto, cpu, opencl or part of one of these names: %s%s",
+		from_environment ? "CAROM_DEVICE: " : "", name, known, count > 1 ? "" : " (no OpenCL device was found)");
 }
 
 static carom_status open_one(const carom_device_def *def, const carom_device_info *which, carom_device **device, carom_error *error)
@@ -139,7 +139,7 @@ carom_status carom_device_open(const carom_device_def *def, carom_device **devic
 			break;
 	}
 	if (!tried)
-		status = no_such_device(name, list, count, error);
+		status = no_such_device(name, !def->name, list, count, error);
 	carom_device_list_destroy(list);
 	return status;
 }

@@ -81,7 +81,7 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C run scenes/mixed.json --set toi=guess", "circle_quadratic"},
 		{"$C run scenes/mixed.json --set tio=bisection", "toi"},
 		{"$C run scenes/mixed.json --device abacus", "abacus"},
-		{"CAROM_DEVICE=abacus $C run scenes/mixed.json", "abacus"},
+		{"CAROM_DEVICE=abacus $C run scenes/mixed.json", "CAROM_DEVICE: there is no device 'abacus'"},
 		{"$C run no/such/scene.json", "no/such/scene.json: can't be read: No such file"},
 		{"$C run tests", "tests: can't be read: Is a directory"},
 		{"$C run tests/bad/radius_negative.json", "bodies[1].circle.radius: found -1; allowed: a number above 0"},
@@ -143,9 +143,9 @@ static void check_outputs(const char *device)
 	assert_null(strchr(call.err, '\r')); /* no bar where there is no terminal */
 	read_into("table.csv", stats, sizeof stats);
 	assert_int_equal(strncmp(stats,
-						 "step,time_s,advanced_s,hits,kinetic_energy_j,momentum_x,momentum_y,angular_momentum,"
-						 "max_penetration_m,held\n1,",
-						 103),
+						 "step,time_s,advanced_s,hits,kinetic_energy_j,potential_energy_j,momentum_x,momentum_y,"
+						 "angular_momentum,max_penetration_m,held\n1,",
+						 122),
 		0);
 	int lines = 0;
 	for (const char *at = stats; *at; at++)
@@ -230,6 +230,14 @@ static void failures_exit_with_1_and_keep_the_old(void **state)
 	check("$C generate --shape circle --count 100 --out /dev/full", 1, "/dev/full: can't be written");
 }
 
+/* A time that is a small part of a step is a step cut short, not none. */
+static void any_time_can_be_run(void **state)
+{
+	(void)state;
+	check("$C run scenes/mixed.json --time 1e-9 --device cpu", 0, " 0 hits, 1e-09 s simulated");
+	check("sed 's|\"bodies\"|\"time_step\": 1e6, &|' scenes/newtons_cradle.json | $C run - --time 0.1 --device cpu", 0, " 0.1 s simulated");
+}
+
 static void an_interruption_writes_what_there_is(void **state)
 {
 	(void)state;
@@ -250,6 +258,6 @@ int main(void)
 		cmocka_unit_test(wrong_calls_exit_with_2), cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
 		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times),
 		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(failures_exit_with_1_and_keep_the_old),
-		cmocka_unit_test(an_interruption_writes_what_there_is)};
+		cmocka_unit_test(any_time_can_be_run), cmocka_unit_test(an_interruption_writes_what_there_is)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);
 }

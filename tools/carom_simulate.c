@@ -43,8 +43,8 @@ static carom_status step(struct run *run, uint64_t steps, carom_error *error)
 /* So little is left only where the time step, a float, is not quite what was meant; a step for it would be waste. */
 static bool is_reached(const struct run *run, double until)
 {
-	double length = (double)carom_world_get_def(run->world)->time_step;
-	return until - carom_world_time(run->world) <= length * 1e-6;
+	const double length = (double)carom_world_get_def(run->world)->time_step;
+	return until - carom_world_time(run->world) <= fmin(length, until) * 1e-6;
 }
 
 /* --time: ends at `until` exactly, with --stats step by step. */
