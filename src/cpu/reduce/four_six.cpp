@@ -5,16 +5,10 @@ namespace carom::cpu {
 /* Below the diagonal alone, six texels only beside it: the paper's (4+6)-reduction [2.2]. */
 template <typename T> static void four_six(const Job<T> &job)
 {
-	if (job.domain[0] == 1) {
+	if (job.domain[0] == 1)
 		reduce_last(job);
-		return;
-	}
-	reduce(job, [](const auto &source, int32_t y, int32_t, auto put) {
-		for (int32_t x = 0; x + 1 < y; x++)
-			put(x, four(source, x, y));
-		if (y > 0)
-			put(y - 1, six(source, y - 1, y));
-	});
+	else
+		reduce(job, job.domain[0], [](int32_t y) { return Ends{y - 1, y}; });
 }
 
 extern const Stage reduce_four_six;
