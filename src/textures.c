@@ -215,44 +215,62 @@ static void fill_uniforms(const carom_world *world, float *u)
 	rules[RULES_RESTITUTION] = def->restitution;
 }
 
-static carom_status upload_bodies(carom_world *world, carom_error *error)
+static void fill_geometry(const carom_world *world, float *texels)
 {
-	float uniforms[4 * UNIFORMS_WIDTH] = {0};
-	size_t most = world->capacity > world->vertex_capacity ? world->capacity : world->vertex_capacity;
-	float *geometry = calloc(most, 4 * sizeof *geometry), *forces = calloc(most, 4 * sizeof *forces), *vertices = calloc(most, 4 * sizeof *vertices);
 	uint32_t circle = carom_polygon_texels(world);
-	carom_status status;
-	if (!geometry || !forces || !vertices) {
-		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
-		goto end;
+	for (size_t i = 0; i < world->body_count; i++, texels += 4) {
+		const carom_body *body = &carom_world_bodies(world)[i];
+		texels[GEOMETRY_FIRST] = (float)(body->vertex_count == 1 ? circle++ : body->vertex_first / 2);
+		texels[GEOMETRY_COUNT] = (float)body->vertex_count;
+		texels[GEOMETRY_MASS] = body->mass;
+		texels[GEOMETRY_INERTIA] = body->inertia;
 	}
-	if (circle)
-		memcpy(vertices, world->vertices.items, world->vertices.used);
+}
+
+static void fill_forces(const carom_world *world, float *texels)
+{
+	for (size_t i = 0; i < world->body_count; i++, texels += 4) {
+		const carom_body *body = &carom_world_bodies(world)[i];
+		texels[FORCES_X] = body->force.x;
+		texels[FORCES_Y] = body->force.y;
+		texels[FORCES_TORQUE] = body->torque;
+		texels[FORCES_RESTITUTION] = body->restitution;
+	}
+}
+
+/* Those of polygons as the host has them; a circle's only vertex is (radius, 0). */
+static void fill_vertices(const carom_world *world, float *texels)
+{
+	if (world->vertices.used)
+		memcpy(texels, world->vertices.items, world->vertices.used);
+	texels += 4 * (size_t)carom_polygon_texels(world);
 	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
-		geometry[4 * i + GEOMETRY_FIRST] = (float)(body->vertex_count == 1 ? circle : body->vertex_first / 2);
-		geometry[4 * i + GEOMETRY_COUNT] = (float)body->vertex_count;
-		geometry[4 * i + GEOMETRY_MASS] = body->mass;
-		geometry[4 * i + GEOMETRY_INERTIA] = body->inertia;
-		forces[4 * i + FORCES_X] = body->force.x;
-		forces[4 * i + FORCES_Y] = body->force.y;
-		forces[4 * i + FORCES_TORQUE] = body->torque;
-		forces[4 * i + FORCES_RESTITUTION] = body->restitution;
-		if (body->vertex_count == 1) /* its only vertex is (radius, 0) */
-			vertices[4 * (size_t)circle++ + VERTICES_X0] = body->radius;
+		if (body->vertex_count == 1) {
+			texels[VERTICES_X0] = body->radius;
+			texels += 4;
+		}
 	}
-	fill_uniforms(world, uniforms);
-	status = upload(world, ROLE_GEOMETRY, world->capacity, geometry, error);
-	if (!status)
-		status = upload(world, ROLE_FORCES, world->capacity, forces, error);
-	if (!status)
-		status = upload(world, ROLE_VERTICES, world->vertex_capacity, vertices, error);
-	if (!status)
-		status = upload(world, ROLE_UNIFORMS, 1, uniforms, error);
-end:
-	free(geometry);
-	free(forces);
-	free(vertices);
+}
+
+/* One after the other, since of millions of bodies each takes much memory. */
+static carom_status upload_bodies(carom_world *world, carom_error *error)
+{
+	const struct {
+		carom_role role;
+		uint32_t count;
+		void (*fill)(const carom_world *world, float *texels);
+	} parts[] = {{ROLE_GEOMETRY, world->capacity, fill_geometry}, {ROLE_FORCES, world->capacity, fill_forces},
+		{ROLE_VERTICES, world->vertex_capacity, fill_vertices}, {ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms}};
+	carom_status status = CAROM_OK;
+	for (size_t i = 0; !status && i < sizeof parts / sizeof *parts; i++) {
+		float *texels = calloc(parts[i].count, 4 * sizeof *texels);
+		if (!texels)
+			return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
+		parts[i].fill(world, texels);
+		status = upload(world, parts[i].role, parts[i].count, texels, error);
+		free(texels);
+	}
 	return status;
 }
 
