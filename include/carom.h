@@ -307,7 +307,7 @@ CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
 /** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes at most on its device. Pictures come on top
  * from the first one on: 4 bytes a pixel, and about 300 bytes a circle, or 100 a polygon and 50 a vertex of it, for as many bodies as are drawn
- * at once (less than 2 GiB). 0 for a def that no world is made from. */
+ * at once (less than 2 GiB). 0 for a def, or so many, that no world is made from. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
 
 /** What a kernel took since the world was created: by OpenCL's profiling events, or the wall clock on the CPU fallback. */

@@ -352,6 +352,8 @@ uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_
 {
 	carom_pipeline pipeline;
 	const carom_step *step;
+	if (body_count > MAX_BODIES || vertex_count > CAROM_MAX_VERTICES * body_count)
+		return 0;
 	if (check_def(def, NULL) || carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
 		return 0;
 	step = step_named(pipeline.step);

@@ -308,6 +308,11 @@ static void memory_is_known_beforehand(void **unused)
 	endless.iterations = 1;
 	endless.epsilon = -1.0f;
 	assert_true(carom_world_memory(&endless, 10, 40) == 0);
+	const carom_world_def def = carom_default_world_def();
+	assert_true(carom_world_memory(&def, 4194304, 64 * 4194304) > 0);
+	assert_true(carom_world_memory(&def, 4194305, 4194305) == 0);
+	assert_true(carom_world_memory(&def, SIZE_MAX, SIZE_MAX) == 0);
+	assert_true(carom_world_memory(&def, 1, SIZE_MAX) == 0);
 }
 
 static double seconds(void)
