@@ -237,7 +237,7 @@ typedef struct carom_world_def {
 	const char *device;      /**< auto (default), cpu, opencl, or part of a platform's or device's name, in any case; NULL: the
 	                          environment's CAROM_DEVICE, else auto */
 	carom_storage storage;   /**< default CAROM_STORAGE_AUTO; of an OpenCL device, the CPU fallback has its own */
-	uint32_t threads;        /**< of the CPU fallback; 0 (the default) for one a core */
+	uint32_t threads;        /**< of the CPU fallback, 256 at most; 0 (the default) for one a core */
 	bool profile;            /**< measure each kernel, for carom_world_profile; default false, since it takes time itself */
 } carom_world_def;
 

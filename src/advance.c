@@ -45,8 +45,7 @@ static carom_status stalled(const carom_world *world, float *clock, carom_error 
 	describe_party(world, (int)texel(clock, CLOCK_HIT)[HIT_COLUMN], b, sizeof b);
 	return carom_fail(error, CAROM_STALLED,
 		"simulated time stands still at %.9g s: %.0f hits in a row took no time, the last of %s with %s; bodies that come to rest on each other, "
-		"with "
-		"restitution below 1 or squeezed together, hit without end, and the step %s resolves each of these hits",
+		"with restitution below 1 or squeezed together, hit without end, and the step %s resolves each of these hits",
 		world->time, (double)texel(clock, CLOCK_STEP)[STEP_STALLED], a, b, world->step->name);
 }
 
@@ -186,8 +185,7 @@ carom_status carom_world_advance_to(carom_world *world, double time, uint64_t mo
 {
 	const double rest = time - world->time;
 	if (!(time < FOR_EVER) || !(time == world->target || rest >= 0.0))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time: found %g s, must be a finite number and not before the world's %g s", time,
-			world->time);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time: found %g s, must be from the world's %g s to %g s", time, world->time, FOR_EVER);
 	if (time != world->target) {
 		world->target = time;
 		world->remaining[0] = (float)rest;
@@ -199,7 +197,7 @@ carom_status carom_world_advance_to(carom_world *world, double time, uint64_t mo
 carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error)
 {
 	if (!(seconds >= 0.0 && seconds < FOR_EVER))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "seconds: found %g, must be a finite number from 0 on", seconds);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "seconds: found %g, must be from 0 to %g", seconds, FOR_EVER);
 	world->target = -1.0;
 	return carom_world_advance_to(world, world->time + seconds, UINT64_MAX, report, error);
 }
