@@ -346,7 +346,7 @@ static void devices_by_name(void **unused)
 	setenv("CAROM_DEVICE", "abacus", 1);
 	assert_true(opens_cpu("cpu"));
 	def.device = NULL;
-	assert_refused(&def, CAROM_UNKNOWN_NAME, "there is no device 'abacus'");
+	assert_refused(&def, CAROM_UNKNOWN_NAME, "CAROM_DEVICE: there is no device 'abacus'");
 	unsetenv("CAROM_DEVICE");
 	assert_true(opens_cpu(NULL) == opens_cpu("auto"));
 	carom_device_list_destroy(list);
