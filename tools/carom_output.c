@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* ---- Before the run ---- */
 
@@ -132,6 +133,17 @@ static int worse(int a, int b)
 	return a == EXIT_DONE ? b : a;
 }
 
+/* A film would go on with what an earlier, longer run has left there. */
+static void tell_frames(const struct run *run)
+{
+	const struct run_options *options = run->options;
+	char next[4096];
+	carom_error error;
+	say(&options->common, "wrote %llu frames into %s", (unsigned long long)run->frames_done, options->frames);
+	if (frame_path(run, next, sizeof next, &error) == CAROM_OK && access(next, F_OK) == 0)
+		say(&options->common, "%s and what follows it were there before: remove them, or they become part of the film", next);
+}
+
 int write_outputs(struct run *run)
 {
 	const struct run_options *options = run->options;
@@ -142,7 +154,7 @@ int write_outputs(struct run *run)
 		run->stats_file = NULL;
 	}
 	if (run->frames_done > 0)
-		say(&options->common, "wrote %llu frames into %s", (unsigned long long)run->frames_done, options->frames);
+		tell_frames(run);
 	if (options->png)
 		code = worse(code, tell(run, write_picture(run, options->png, &error), options->png, &error));
 	if (options->out) {
