@@ -252,16 +252,16 @@ fuzz:
 		command -v "$$command" >/dev/null 2>&1 || { echo "make: $$command is missing: run tools/bootstrap --developer" >&2; exit 1; }; done
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC='$(FUZZ_CC)' CXX='$(FUZZ_CXX)' OPTIMIZE='-O2 -g' LIBFUZZER=-fsanitize=fuzzer \
 		SANITIZERS='-fsanitize=fuzzer-no-link,$(FUZZ_CHECKS) -fno-sanitize-recover=all $(FUZZ_IGNORED)' fuzzers
-	@$(foreach name,$(patsubst tests/fuzz/fuzz_%.c,%,$(FUZZERS)),$(call fuzz_one,$(name)) &&) true
+	@$(MAKE) --no-print-directory $(patsubst tests/fuzz/fuzz_%.c,fuzz-%,$(FUZZERS))
 
 fuzzers: $(FUZZ_PROGRAMS)
 
 # Most inputs take milliseconds, but bodies that are in thousands of events a step, until they are held, take a minute under the sanitizers.
-define fuzz_one
-mkdir -p $(BUILD)/fuzz/found $(BUILD)/fuzz/corpus/$(1) && $(BUILD)/fuzz/tests/fuzz/fuzz_$(1) -max_total_time=$(FUZZ_SECONDS) -timeout=240 \
-	-rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/found/$(1)- $(FUZZ) \
-	$(addprefix -dict=,$(wildcard tests/fuzz/$(1).dict)) $(BUILD)/fuzz/corpus/$(1) $(wildcard tests/corpus/$(1)) $(FUZZ_SEEDS_$(1))
-endef
+fuzz-%:
+	@mkdir -p $(BUILD)/fuzz/found $(BUILD)/fuzz/corpus/$*
+	$(BUILD)/fuzz/tests/fuzz/fuzz_$* -max_total_time=$(FUZZ_SECONDS) -timeout=240 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 \
+		-artifact_prefix=$(BUILD)/fuzz/found/$*- $(FUZZ) $(addprefix -dict=,$(wildcard tests/fuzz/$*.dict)) \
+		$(BUILD)/fuzz/corpus/$* $(wildcard tests/corpus/$*) $(FUZZ_SEEDS_$*) </dev/null
 
 ALL_INCLUDES := $(INCLUDES) -Itests $(PACKAGES) $(EIGEN) $(CMOCKA) $(CAIRO_INCLUDES) $(BOX2D_INCLUDES)
 quoted = $(subst ','\'',$(1))
