@@ -116,7 +116,7 @@ static void fill_bodies(const carom_world *world, uint64_t most, carom_canvas *n
 	const uint64_t count = world->body_count;
 	uint32_t circle = 0;
 	for (next->end = 0; next->end < 2 * count; next->end++) {
-		const uint32_t i = (uint32_t)(next->end % count);
+		const uint32_t i = (uint32_t)(next->end < count ? next->end : next->end - count);
 		const carom_body *body = &carom_world_bodies(world)[i];
 		circle = i ? circle : carom_polygon_texels(world);
 		const uint32_t texel = body->vertex_count == 1 ? circle++ : body->vertex_first / 2;
