@@ -48,21 +48,74 @@ static void on_warning(png_structp png, png_const_charp text)
 	(void)text; /* the library never prints */
 }
 
-/* Everything that may jump. It has no locals that change after setjmp, so that none is lost by the jump. */
-static bool write_pixels(png_structp png, png_infop info, FILE *stream, const uint8_t *pixels, uint32_t width, uint32_t height)
+/* ---- Palettes: with one, a picture of few colours, like a chart, takes a third of the bytes */
+
+#define MAX_COLORS 256
+#define PLACES 1024 /* for colours by their hash; a power of two */
+
+struct palette {
+	int count; /* above MAX_COLORS: there are too many */
+	png_color colors[MAX_COLORS];
+	int16_t places[PLACES]; /* index of a colour, -1 for none */
+};
+
+/* The place of the pixel's colour, or the free one where it belongs. */
+static size_t find_place(const struct palette *palette, const uint8_t *pixel)
 {
+	const uint32_t key = (uint32_t)pixel[0] << 16 | (uint32_t)pixel[1] << 8 | pixel[2];
+	for (size_t place = key * 2654435761u >> 22;; place = (place + 1) % PLACES) {
+		const png_color *color = &palette->colors[palette->places[place] < 0 ? 0 : palette->places[place]];
+		if (palette->places[place] < 0 || (color->red == pixel[0] && color->green == pixel[1] && color->blue == pixel[2]))
+			return place;
+	}
+}
+
+static void find_palette(struct palette *palette, const uint8_t *pixels, size_t count)
+{
+	palette->count = 0;
+	memset(palette->places, -1, sizeof palette->places);
+	for (size_t k = 0; k < count && palette->count <= MAX_COLORS; k++, pixels += 4) {
+		const size_t place = find_place(palette, pixels);
+		if (palette->places[place] >= 0)
+			continue;
+		if (palette->count < MAX_COLORS) {
+			palette->places[place] = (int16_t)palette->count;
+			palette->colors[palette->count] = (png_color){pixels[0], pixels[1], pixels[2]};
+		}
+		palette->count++;
+	}
+}
+
+static void index_row(const struct palette *palette, const uint8_t *pixels, uint8_t *row, uint32_t width)
+{
+	for (uint32_t x = 0; x < width; x++)
+		row[x] = (uint8_t)palette->places[find_place(palette, pixels + (size_t)x * 4)];
+}
+
+/* Everything that may jump. It has no locals that change after setjmp, so that none is lost by the jump. `row` has room for a row of indices. */
+static bool write_pixels(png_structp png, png_infop info, FILE *stream, const struct palette *palette, const uint8_t *pixels, uint8_t *row,
+	uint32_t width, uint32_t height)
+{
+	const bool is_indexed = palette->count <= MAX_COLORS;
 	errno = 0;
 	if (setjmp(png_jmpbuf(png)))
 		return false;
 	png_init_io(png, stream);
-	png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+	png_set_IHDR(png, info, width, height, 8, is_indexed ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+		PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+	if (is_indexed)
+		png_set_PLTE(png, info, palette->colors, palette->count);
 	/* Flat colours: without filters such a picture is a tenth smaller and written three times as fast. */
 	png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
 	png_set_compression_level(png, COMPRESSION_LEVEL);
 	png_write_info(png, info);
-	png_set_filler(png, 0, PNG_FILLER_AFTER); /* skips the fourth byte: the picture is opaque */
-	for (uint32_t row = 0; row < height; row++)
-		png_write_row(png, pixels + (size_t)row * width * 4);
+	if (!is_indexed)
+		png_set_filler(png, 0, PNG_FILLER_AFTER); /* skips the fourth byte: the picture is opaque */
+	for (uint32_t y = 0; y < height; y++) {
+		if (is_indexed)
+			index_row(palette, pixels + (size_t)y * width * 4, row, width);
+		png_write_row(png, is_indexed ? row : pixels + (size_t)y * width * 4);
+	}
 	png_write_end(png, NULL);
 	return true;
 }
@@ -74,11 +127,15 @@ static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels
 	char reason[128];
 	png_infop info = NULL;
 	png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning, &complaint, allocate, release);
+	struct palette *palette = malloc(sizeof *palette);
+	uint8_t *row = malloc(width);
 	bool written = false;
-	if (png)
+	if (png && palette && row)
 		info = png_create_info_struct(png);
-	if (info)
-		written = write_pixels(png, info, stream, pixels, width, height);
+	if (info) {
+		find_palette(palette, pixels, (size_t)width * height);
+		written = write_pixels(png, info, stream, palette, pixels, row, width, height);
+	}
 	if (!info || (!written && complaint.no_memory)) {
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "%s: there is not enough memory to write a PNG", path);
 	} else if (!written) {
@@ -86,6 +143,8 @@ static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels
 			complaint.number ? ": " : "", complaint.number ? carom_errno_text(complaint.number, reason, sizeof reason) : "");
 	}
 	png_destroy_write_struct(&png, &info);
+	free(palette);
+	free(row);
 	return status;
 }
 

@@ -162,23 +162,35 @@ static void a_full_disk_is_an_error(void **state)
 	assert_true(S_ISCHR(there.st_mode));
 }
 
-static void pixels_read_back(void **state)
+/* So many colours at most, each pixel one. */
+static void write_and_read_back(uint32_t colors)
 {
-	(void)state;
 	enum { WIDTH = 37, HEIGHT = 23 };
 	static uint8_t pixels[WIDTH * HEIGHT * 4], read[WIDTH * HEIGHT * 4];
 	carom_error error = {0};
 	png_image image = {.version = PNG_IMAGE_VERSION};
-	for (size_t k = 0; k < sizeof pixels; k++)
-		pixels[k] = k % 4 == 3 ? 255 : (uint8_t)(k * k / 7);
+	for (uint32_t k = 0; k < WIDTH * HEIGHT; k++) {
+		const uint32_t color = k % colors * 70001;
+		const uint8_t pixel[4] = {(uint8_t)color, (uint8_t)(color >> 8), (uint8_t)(color >> 16), 255};
+		memcpy(pixels + (size_t)4 * k, pixel, sizeof pixel);
+	}
 	if (carom_png_write(in_folder("picture.png"), pixels, WIDTH, HEIGHT, &error) != CAROM_OK)
 		fail_msg("%s", error.text);
 	assert_true(png_image_begin_read_from_file(&image, in_folder("picture.png")));
 	assert_true(image.width == WIDTH && image.height == HEIGHT && !(image.format & PNG_FORMAT_FLAG_ALPHA));
+	assert_int_equal(!!(image.format & PNG_FORMAT_FLAG_COLORMAP), colors <= 256);
 	image.format = PNG_FORMAT_RGBA;
 	assert_true(png_image_finish_read(&image, NULL, read, 0, NULL));
 	assert_memory_equal(pixels, read, sizeof pixels);
 	unlink(in_folder("picture.png"));
+}
+
+static void pixels_read_back(void **state)
+{
+	static const uint32_t colors[] = {1, 2, 100, 255, 256, 257, 800};
+	(void)state;
+	for (size_t k = 0; k < sizeof colors / sizeof *colors; k++)
+		write_and_read_back(colors[k]);
 }
 
 static void bad_pictures_are_refused(void **state)

@@ -217,13 +217,15 @@ static carom_status measure_part(struct bench_result *result, size_t part, const
 	return status;
 }
 
-static carom_status find_device(const struct bench_options *options, const char *name, carom_device_info *info, carom_error *error)
+/* As the worlds of the table have it: its storage depends on what they run. */
+static carom_status find_device(const struct bench_table *table, const struct bench_options *options, const char *name, carom_device_info *info,
+	carom_error *error)
 {
-	struct common_options common = options->common;
-	carom_world_def def = carom_default_world_def();
+	struct bench_options own = *options;
+	carom_world_def def;
 	carom_world *world = NULL;
-	common.device = name;
-	carom_status status = apply_options(&common, &def, error);
+	own.common.device = name;
+	carom_status status = bench_world_def(&table->parts[0].subjects[0], &own, &def, error);
 	if (status == CAROM_OK)
 		status = carom_world_create(&def, &world, error);
 	if (status == CAROM_OK)
@@ -269,9 +271,9 @@ carom_status bench_measure(const struct bench_table *table, const struct bench_o
 	result->table = table;
 	result->runs = (size_t)options->runs;
 	choose_sizes(result, options);
-	carom_status status = find_device(options, options->common.device, &result->device, error);
+	carom_status status = find_device(table, options, options->common.device, &result->device, error);
 	if (status == CAROM_OK && needs_fallback(table))
-		status = find_device(options, "cpu", &result->fallback, error);
+		status = find_device(table, options, "cpu", &result->fallback, error);
 	for (size_t part = 0; status == CAROM_OK && part < table->part_count; part++)
 		status = measure_part(result, part, options, error);
 	clear_line(options);

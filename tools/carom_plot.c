@@ -15,6 +15,7 @@
 #define LONE_WIDTH 800.0 /* of a chart with one panel */
 #define LONE_HEIGHT 440.0
 #define LINE 22.0 /* of the legend */
+#define LEVELS 10 /* of each of red, green and blue */
 
 /* ---- The legend ---- */
 
@@ -168,6 +169,12 @@ static carom_status no_memory(carom_error *error)
 	return error->status = CAROM_OUT_OF_MEMORY;
 }
 
+/* To one of LEVELS: smooth edges need no more, and so few colours make a small file. */
+static uint8_t rounded(uint8_t value)
+{
+	return (uint8_t)((value * (LEVELS - 1) + 127) / 255 * 255 / (LEVELS - 1));
+}
+
 /* Cairo's pixels are 0xXXRRGGBB in the machine's byte order. */
 static carom_status write_surface(cairo_surface_t *surface, const char *path, carom_error *error)
 {
@@ -182,9 +189,8 @@ static carom_status write_surface(cairo_surface_t *surface, const char *path, ca
 			uint8_t *to = pixels + ((size_t)y * (size_t)width + (size_t)x) * 4;
 			uint32_t pixel;
 			memcpy(&pixel, rows + (ptrdiff_t)y * stride + 4 * x, sizeof pixel);
-			to[0] = (uint8_t)(pixel >> 16);
-			to[1] = (uint8_t)(pixel >> 8);
-			to[2] = (uint8_t)pixel;
+			for (int channel = 0; channel < 3; channel++)
+				to[channel] = rounded((uint8_t)(pixel >> (16 - 8 * channel)));
 			to[3] = 255;
 		}
 	}
