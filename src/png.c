@@ -11,6 +11,7 @@
 #define MAX_SIDE 1000000u /* libpng's own limit, where it would stop with a less helpful sentence */
 
 #define COMPRESSION_LEVEL 3 /* of 9: 6 takes twice as long for 8 % less */
+#define INDEXED_LEVEL 6     /* of pictures with a palette: twice as long for 40 % less */
 
 /* What libpng said, kept until the file is dealt with. */
 struct complaint {
@@ -107,7 +108,7 @@ static bool write_pixels(png_structp png, png_infop info, FILE *stream, const st
 		png_set_PLTE(png, info, palette->colors, palette->count);
 	/* Flat colours: without filters such a picture is a tenth smaller and written three times as fast. */
 	png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-	png_set_compression_level(png, COMPRESSION_LEVEL);
+	png_set_compression_level(png, is_indexed ? INDEXED_LEVEL : COMPRESSION_LEVEL);
 	png_write_info(png, info);
 	if (!is_indexed)
 		png_set_filler(png, 0, PNG_FILLER_AFTER); /* skips the fourth byte: the picture is opaque */

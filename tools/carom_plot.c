@@ -8,14 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SCALE 2.0 /* pixels a unit; all lengths here are in units */
 #define MARGIN 24.0
 #define PANEL_WIDTH 420.0
 #define PANEL_HEIGHT 300.0
 #define LONE_WIDTH 800.0 /* of a chart with one panel */
 #define LONE_HEIGHT 440.0
 #define LINE 22.0 /* of the legend */
-#define LEVELS 10 /* of each of red, green and blue */
+#define LEVELS 9  /* of each of red, green and blue */
 
 /* ---- The legend ---- */
 

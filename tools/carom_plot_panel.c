@@ -12,6 +12,7 @@
 #define RIGHT 14.0
 #define LABEL_GAP 8.0 /* between two labels */
 #define BAR_GAP 4.0   /* between the bars of two series */
+#define THIN (1 / SCALE)
 #define TWO_PI 6.28318530717958647692
 
 /* Told apart with any colour vision (Okabe and Ito), yellow left out: it is too light on white. */
@@ -116,6 +117,12 @@ static void put_line(cairo_t *cairo, double x0, double y0, double x1, double y1)
 	cairo_stroke(cairo);
 }
 
+/* Where a line of that width begins and ends at a pixel's edge: else some were paler than others. */
+static double sharp(double at, double width)
+{
+	return floor(at * SCALE) / SCALE + width / 2;
+}
+
 /* A line at each digit of each decade; the ones are labelled, and where decades are few the twos and fives. */
 static bool is_labelled(const struct canvas *canvas, int digit)
 {
@@ -126,10 +133,10 @@ static void draw_y_line(const struct canvas *canvas, struct box plot, double val
 {
 	cairo_t *cairo = canvas->cairo;
 	char text[32];
-	double y = place_y(canvas, plot, value);
+	const double y = place_y(canvas, plot, value), width = digit == 1 ? 1 : THIN, at = sharp(y, width);
 	set_gray(cairo, digit == 1 ? 0.80 : 0.93);
-	cairo_set_line_width(cairo, digit == 1 ? 1 : 0.6);
-	put_line(cairo, plot.x, y, plot.x + plot.width, y);
+	cairo_set_line_width(cairo, width);
+	put_line(cairo, plot.x, at, plot.x + plot.width, at);
 	if (is_labelled(canvas, digit)) {
 		format_number(value, text, sizeof text);
 		set_gray(cairo, 0.25);
@@ -184,10 +191,10 @@ static void draw_x_axis(const struct canvas *canvas, struct box plot, const stru
 	while (ticks && stride < ticks->point_count && !labels_fit(canvas, plot, ticks, stride))
 		stride++;
 	for (size_t k = 0; ticks && k < ticks->point_count; k++) {
-		double x = place_x(canvas, plot, ticks->points[k].x);
+		const double x = place_x(canvas, plot, ticks->points[k].x), at = sharp(x, THIN);
 		set_gray(cairo, 0.93);
-		cairo_set_line_width(cairo, 0.6);
-		put_line(cairo, x, plot.y, x, plot.y + plot.height);
+		cairo_set_line_width(cairo, THIN);
+		put_line(cairo, at, plot.y, at, plot.y + plot.height);
 		format_number(ticks->points[k].x, text, sizeof text);
 		set_gray(cairo, 0.25);
 		if (k % stride == 0)

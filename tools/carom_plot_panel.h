@@ -7,6 +7,8 @@
 
 #include <cairo.h>
 
+#define SCALE 2.0 /* pixels a unit; all lengths are in units */
+
 struct box {
 	double x, y, width, height;
 };
