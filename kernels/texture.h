@@ -37,6 +37,16 @@
 #define BYTES_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = convert_uchar4(texel))
 #endif
 
+/* TEX_STREAM stores what a later kernel reads: past the caches where the compiler can, for they would first fetch what is overwritten, and have
+ * dropped it, or keep it for another core, when it is read. */
+#define TEX_STREAM(t, x, y, texel) TEX_STORE(t, x, y, texel)
+#if defined(__has_builtin) && !defined(CAROM_IMAGES)
+#if __has_builtin(__builtin_nontemporal_store)
+#undef TEX_STREAM
+#define TEX_STREAM(t, x, y, texel) __builtin_nontemporal_store(texel, (t) + (size_t)(y) * (size_t)(t##_width) + (size_t)(x))
+#endif
+#endif
+
 /* Lists of ints are buffers on every device; what is LIST_OUT may be read, too. (Not restrict: Oclgrind lacks what that becomes when a function
  * is inlined.) */
 #define LIST_IN(t) __global const int *t

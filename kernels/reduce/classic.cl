@@ -5,5 +5,5 @@ __kernel void reduce(TEX_IN(source), TEX_OUT(reduced), int4 domain)
 	int x = get_global_id(0), y = get_global_id(1);
 	if (x >= domain.x || y >= domain.y)
 		return;
-	TEX_STORE(reduced, x, y, earliest_of_four(TEX(source), x, y, domain.z));
+	TEX_STREAM(reduced, x, y, earliest_of_four(TEX(source), x, y, domain.z));
 }

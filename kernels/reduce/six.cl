@@ -7,5 +7,5 @@ __kernel void reduce(TEX_IN(source), TEX_OUT(reduced), int4 domain)
 	if (domain.x == 1)
 		reduce_last(TEX(source), TEX(reduced), domain.z);
 	else if (y < domain.y && x < y)
-		TEX_STORE(reduced, x, y, earliest_of_six(TEX(source), x, y, domain.z));
+		TEX_STREAM(reduced, x, y, earliest_of_six(TEX(source), x, y, domain.z));
 }

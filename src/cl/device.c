@@ -259,6 +259,7 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 	if (def->count_reads && (status = make_counter(d, error)))
 		return status;
 	d->device = found->device;
+	d->is_cpu = found->type & CL_DEVICE_TYPE_CPU;
 	d->def = *def;
 	return build_program(d, false, error);
 }

@@ -34,6 +34,8 @@
 	X(clEnqueueReadBuffer)        \
 	X(clEnqueueWriteImage)        \
 	X(clEnqueueReadImage)         \
+	X(clEnqueueMapBuffer)         \
+	X(clEnqueueUnmapMemObject)    \
 	X(clEnqueueNDRangeKernel)     \
 	X(clFlush)                    \
 	X(clFinish)                   \

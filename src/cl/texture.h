@@ -20,6 +20,7 @@ typedef struct cl_device {
 	cl_context context;
 	cl_command_queue queue;
 	cl_device_id device;
+	bool is_cpu;
 	carom_device_def def;   /* as given; only its pipeline and flags are good for later */
 	cl_program programs[2]; /* of the step's stages, and of rendering's, which is NULL until the first is run */
 	cl_mem reads;           /* one uint; NULL where reads are not counted */

@@ -98,10 +98,13 @@ template <int function, typename Result, typename... Arguments> struct Call<func
 	{
 		const std::tuple<Arguments...> all(arguments...);
 		const auto first = std::get<0>(all);
-		const bool releases = starts(names[function], "clRelease"), fails = faults_strike(FAULTS_OPENCL, names[function]);
+		const bool releases = starts(names[function], "clRelease") || function == number_clEnqueueUnmapMemObject;
+		const bool fails = faults_strike(FAULTS_OPENCL, names[function]);
 		if (fails && !releases)
 			return failure(std::get<sizeof...(Arguments) - 1>(all));
-		if (releases)
+		if constexpr (function == number_clEnqueueUnmapMemObject)
+			released(std::get<2>(all));
+		else if (releases)
 			released(handle_of(first));
 		const Result result = reinterpret_cast<Result (*)(Arguments...)>(functions[function])(arguments...);
 		note(result, all);
