@@ -316,13 +316,14 @@ bench: all
 bench_one = $(BUILD)/carom bench $(1) --csv $(BUILD)/bench/$(1).csv \
 	$(if $(filter no,$(CAIRO))$(filter tunnel,$(1)),,--plot $(BUILD)/bench/$(1).png) $(BENCH) </dev/null
 
-# ---- The pictures of README.md: docs/scale.png is what `make bench` drew last, if it did
+# ---- The pictures of README.md: the charts are those that `make bench` drew last, if it did
 
 pictures: all
 	@mkdir -p docs
 	$(BUILD)/carom run scenes/triangles_1024.json --set step=first_impact --steps 400 --inset -2,-2,4,4 --size 720x405 --png docs/triangles_1024.png
 	$(BUILD)/carom run scenes/thin_wall.json --time 1 --fps 3 --size 480x264 --frames docs/thin_wall
-	@if [ -f $(BUILD)/bench/scale.png ]; then cp $(BUILD)/bench/scale.png docs/scale.png; fi
+	@for chart in scale table1 table2 table3 table4 table5; do \
+		if [ -f $(BUILD)/bench/$$chart.png ]; then cp $(BUILD)/bench/$$chart.png docs/$$chart.png; fi; done
 
 # ---- Installing
 
