@@ -30,7 +30,7 @@ uint64_t runs_affordable(uint64_t steps);
 /* Was enough seen? Not asked under the sanitizers, where runs are short. */
 void runs_enough(bool enough);
 
-/* Seconds on a clock on the wall. */
+/* Seconds that the process has computed, on all its threads: on a busy machine these are no more. */
 double runs_seconds(void);
 
 #endif
