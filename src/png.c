@@ -128,7 +128,7 @@ static carom_status encode(const char *path, FILE *stream, const uint8_t *pixels
 	char reason[128];
 	png_infop info = NULL;
 	png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning, &complaint, allocate, release);
-	struct palette *palette = malloc(sizeof *palette);
+	struct palette *palette = calloc(1, sizeof *palette);
 	uint8_t *row = malloc(width);
 	bool written = false;
 	if (png && palette && row)
