@@ -113,6 +113,8 @@ static carom_status create(carom_device *device, const char *name, carom_texel_f
 	std::unique_ptr<Texture> made(new (std::nothrow) Texture{format, width, height, std::move(memory)});
 	if (!made || !made->memory)
 		return fail_texture(error, CAROM_OUT_OF_MEMORY, name, width, height, bytes, "there is not enough memory on the CPU");
+	if (format == TEXELS_LIST || format == TEXELS_RECORD)
+		prefer_large_pages(made->memory.get(), bytes);
 	if (std::any_of(fill, fill + 4, [](float channel) { return channel != 0; }))
 		fill_rows<T>(*made, fill); /* else the pages stay the system's until they are written */
 	*texture = reinterpret_cast<carom_texture *>(made.release());

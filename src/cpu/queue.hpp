@@ -151,24 +151,26 @@ private:
 	{
 		const int32_t s = clusters.active[id];
 		const Trajectory<T> way = work[id].trajectory(slots[s]);
-		const Disc<T> disc(slots[s], way.place, way.time, way.held > 0, clusters.length);
+		const Disc<T> disc = disc_of(s, work[id]);
 		int32_t wall;
 		const auto at_wall = clusters.wall_time(s, way, &wall);
 		forget(id);
 		offer(id, -1 - wall, at_wall, 0);
-		Sieve<T> sieve(disc);
-		const auto meet = [&](int32_t other) { look_at(id, way, other); };
+		Sieve<T> sieve;
+		const auto meet = [&](int32_t, int32_t other) { look_at(id, way, other); };
 		for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
 			const int32_t other = clusters.neighbours[k], other_id = own_number(other);
 			if (other_id >= 0)
-				sieve.add(other, slots[other], work[other_id], clusters.length);
+				sieve.add(s, other, approach(disc, disc_of(other, work[other_id])));
 			else
-				sieve.add(other, slots[other], clusters.length);
+				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], slots[other].place, 0, false, clusters.length).later(disc.time)));
 			if (sieve.is_full())
 				sieve.sift(meet);
 		}
 		sieve.sift(meet);
 	}
+
+	Disc<T> disc_of(int32_t s, const Work<T> &at) const { return Disc<T>(slots[s], at.place, at.time, at.held > 0, clusters.length); }
 
 	/* The member's next event may be the one with this body. */
 	void look_at(int32_t id, const Trajectory<T> &way, int32_t other)

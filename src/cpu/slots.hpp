@@ -77,27 +77,53 @@ static_assert(sizeof(FoundHit) == FOUND_WIDTH * sizeof(int32_t), "found");
 template <typename T> struct Disc {
 	T x, y, vx, vy, ax, ay, radius, time;
 
-	Disc(const Slot<T> &slot, const T *place, T at, bool stands, T length)
+	[[gnu::always_inline]] Disc(const Slot<T> &slot, const T *place, T at, bool stands, T length)
 		: x(place[LINEAR_X]), y(place[LINEAR_Y]), vx(stands ? 0 : place[LINEAR_VX] * length), vy(stands ? 0 : place[LINEAR_VY] * length),
 		  ax(stands ? 0 : (slot.push[PUSH_X] * length) * length), ay(stands ? 0 : (slot.push[PUSH_Y] * length) * length), radius(slot.radius()),
 		  time(at)
 	{
 	}
+
+	[[gnu::always_inline]] Disc later(T t) const
+	{
+		Disc disc = *this;
+		const T dt = t - time;
+		disc.x += dt * (vx + T(0.5) * dt * ax), disc.y += dt * (vy + T(0.5) * dt * ay);
+		disc.vx += dt * ax, disc.vy += dt * ay;
+		disc.time = t;
+		return disc;
+	}
 };
 
-/* Looked at far more often than anything else, so it has no branches, and callers make no disc in memory for it. */
-template <typename T> [[gnu::always_inline]] inline bool stay_apart(const Disc<T> &a, const Disc<T> &b)
+/* How one disc moves seen from another, for the rest of the step. Looked at far more often than anything else, so nothing of it has branches,
+ * and compilers make vectors of many. */
+template <typename T> struct Approach {
+	T x, y, vx, vy, rest;
+	T size; /* what rounding depends on, but for what is above */
+	T most; /* at this distance they touch, whatever pushes them, but for rounding */
+
+	/* Both discs are of the same time. */
+	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other)
+		: x(other.x - own.x), y(other.y - own.y), vx(other.vx - own.vx), vy(other.vy - own.vy), rest(1 - own.time),
+		  size(2 * (std::abs(own.x) + std::abs(own.y)) + own.radius + other.radius),
+		  most(own.radius + other.radius + (std::abs(other.ax - own.ax) + std::abs(other.ay - own.ay)))
+	{
+	}
+	[[gnu::always_inline]] Approach(T dx, T dy, T ux, T uy, T time, T all, T reach) : x(dx), y(dy), vx(ux), vy(uy), rest(time), size(all), most(reach) {}
+
+	[[gnu::always_inline]] bool may_touch() const
+	{
+		const T all = size + std::abs(x) + std::abs(y) + std::abs(vx) + std::abs(vy), reach = most + all * T(4 * SLOP);
+		const T at = -(x * vx + y * vy) / (vx * vx + vy * vy + std::numeric_limits<T>::min()), late = at > 0 ? at : 0;
+		const T t = late < rest ? late : rest, dx = x + t * vx, dy = y + t * vy;
+		return !(dx * dx + dy * dy > reach * reach * T(1.00001));
+	}
+};
+
+/* From the later of their times on. */
+template <typename T> [[gnu::always_inline]] inline Approach<T> approach(const Disc<T> &own, const Disc<T> &other)
 {
-	const T t0 = std::max(a.time, b.time), rest = 1 - t0, da = t0 - a.time, db = t0 - b.time;
-	const T x0 = a.x + da * (a.vx + T(0.5) * da * a.ax), y0 = a.y + da * (a.vy + T(0.5) * da * a.ay);
-	const T x = b.x + db * (b.vx + T(0.5) * db * b.ax) - x0, y = b.y + db * (b.vy + T(0.5) * db * b.ay) - y0;
-	const T vx = b.vx + db * b.ax - (a.vx + da * a.ax), vy = b.vy + db * b.ay - (a.vy + da * a.ay);
-	const T reach = a.radius + b.radius, differ = std::abs(b.ax - a.ax) + std::abs(b.ay - a.ay);
-	const T size = 2 * (std::abs(x0) + std::abs(y0)) + std::abs(x) + std::abs(y) + reach + std::abs(vx) + std::abs(vy);
-	const T most = reach + differ + size * T(4 * SLOP);
-	const T nearest_at = -(x * vx + y * vy) / (vx * vx + vy * vy), u = nearest_at > 0 ? nearest_at : 0; /* a NaN is 0, too */
-	const T t = u < rest ? u : rest, dx = x + t * vx, dy = y + t * vy;
-	return dx * dx + dy * dy > most * most * T(1.00001);
+	return other.time > own.time ? Approach<T>(own.later(other.time), other) : Approach<T>(own, other.later(own.time));
 }
 
 /* Trajectories in a step of a length, s. */

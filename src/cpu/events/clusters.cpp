@@ -16,32 +16,35 @@ template <typename T> static void seek_pair(const Clusters<T> &clusters, int32_t
 		clusters.unite(s, other);
 }
 
-template <typename T> static void look_around(const Clusters<T> &clusters, int32_t s, int32_t round)
+template <typename T> static void seek_wall(const Clusters<T> &clusters, int32_t s, int32_t round)
 {
-	const Slot<T> &slot = clusters.slots[s];
-	Sieve<T> sieve(Disc<T>(slot, slot.place, 0, false, clusters.length));
 	int32_t wall;
-	const auto at_wall = clusters.wall_time(s, Trajectory<T>(slot), &wall);
-	if (at_wall.time <= 1)
-		clusters.activate(s, -1 - wall, at_wall, round);
-	const auto meet = [&](int32_t other) { seek_pair(clusters, s, other, round); };
-	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].half; k++) {
-		sieve.add(clusters.neighbours[k], clusters.slots[clusters.neighbours[k]], clusters.length);
-		if (sieve.is_full())
-			sieve.sift(meet);
-	}
-	sieve.sift(meet);
+	const auto hit = clusters.wall_time(s, Trajectory<T>(clusters.slots[s]), &wall);
+	if (hit.time <= 1)
+		clusters.activate(s, -1 - wall, hit, round);
 }
 
 template <typename T> static void seek(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 10);
+	const int32_t round = job.domain[2];
 	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
 		return;
-	clusters.status[STATUS_BEGUN] = job.domain[2];
+	clusters.status[STATUS_BEGUN] = round;
 	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
-		for (int32_t s = begin; s < end; s++)
-			look_around(clusters, s, job.domain[2]);
+		const auto meet = [&](int32_t s, int32_t other) { seek_pair(clusters, s, other, round); };
+		const auto disc_of = [&](int32_t s) { return Disc<T>(clusters.slots[s], clusters.slots[s].place, 0, false, clusters.length); };
+		Sieve<T> sieve;
+		for (int32_t s = begin; s < end; s++) {
+			const Disc<T> disc = disc_of(s);
+			seek_wall(clusters, s, round);
+			for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].half; k++) {
+				sieve.add(s, clusters.neighbours[k], Approach<T>(disc, disc_of(clusters.neighbours[k])));
+				if (sieve.is_full())
+					sieve.sift(meet);
+			}
+		}
+		sieve.sift(meet);
 	});
 }
 
@@ -102,7 +105,7 @@ template <typename T> static bool ways_meet(const Clusters<T> &clusters, const W
 	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1)
 		return true;
 	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
-	return !stay_apart(disc, other_disc) && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
+	return approach(disc, other_disc).may_touch() && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
 }
 
 template <typename T> static void check_one(const Clusters<T> &clusters, const Work<T> *work, int32_t id, int32_t round)

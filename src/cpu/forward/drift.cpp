@@ -35,7 +35,8 @@ template <typename T> static void drift(const Job<T> &job)
 			if (commits && !slot.is_static()) {
 				Trajectory<T> way = id >= 0 ? work[id].trajectory(slot) : Trajectory<T>(slot);
 				mover.move(slot, way, T(1));
-				std::copy(way.place, way.place + 4, slot.place);
+				for (int32_t k = 0; k < 4; k++) /* one by one, as they were computed: to copy them at once would wait for all */
+					slot.place[k] = way.place[k];
 				slot.turn[TURN_ANGLE] = way.angle;
 				slot.turn[TURN_VELOCITY] = way.velocity;
 				stale |= may_leave(slot, boxes[s], step, common);
