@@ -7,6 +7,8 @@
 namespace carom::cpu {
 
 constexpr uint32_t most_threads = 256; /* a mistyped number should not take the machine down */
+constexpr int32_t chunks_a_thread = 2; /* at least, so that all end at about the same time */
+constexpr int most_yields = 100;       /* some 50 us */
 
 Pool::Pool(uint32_t threads)
 {
@@ -33,9 +35,17 @@ Pool::~Pool()
 		worker.join();
 }
 
+/* What is awaited often comes at once, as stage follows stage: sooner than a thread that sleeps can be woken. */
+template <typename Condition> void Pool::wait_awake(Condition condition)
+{
+	for (int i = 0; i < most_yields && !condition(); i++)
+		std::this_thread::yield();
+}
+
 void Pool::run(int32_t rows, int32_t chunk, const Work &work)
 {
-	if (rows <= chunk || workers.empty()) {
+	const int32_t least = std::max(chunk / 8, 1), shares = chunks_a_thread * static_cast<int32_t>(workers.size() + 1);
+	if (rows <= least || workers.empty()) {
 		if (rows > 0)
 			work(0, rows);
 		return;
@@ -43,13 +53,14 @@ void Pool::run(int32_t rows, int32_t chunk, const Work &work)
 	{
 		std::lock_guard<std::mutex> lock(mutex);
 		job = &work;
-		chunk_size = chunk;
+		chunk_size = std::clamp(rows / shares, least, chunk);
 		left = rows;
 		failed = false;
 		jobs++;
 	}
 	wake.notify_all();
 	take_chunks(work);
+	wait_awake([this] { return busy == 0; });
 	std::unique_lock<std::mutex> lock(mutex);
 	job = nullptr; /* who wakes only now is not waited for */
 	idle.wait(lock, [this] { return busy == 0; });
@@ -74,8 +85,9 @@ void Pool::take_chunks(const Work &work)
 void Pool::serve()
 {
 	uint64_t seen = 0;
-	std::unique_lock<std::mutex> lock(mutex);
 	for (;;) {
+		wait_awake([&] { return closing || jobs != seen; });
+		std::unique_lock<std::mutex> lock(mutex);
 		wake.wait(lock, [&] { return closing || (job && jobs != seen); });
 		if (closing)
 			return;

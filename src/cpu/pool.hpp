@@ -24,22 +24,23 @@ public:
 	Pool(const Pool &) = delete;
 	Pool &operator=(const Pool &) = delete;
 
-	/* Does all `rows`, at most `chunk` at a time, and returns when they are done. A single chunk is done by the caller: a
-	 * chunk should be worth waking a thread, some 10 us. The last rows come first, for those of a triangle are the
+	/* Does all `rows`, at most `chunk` at a time, and returns when they are done. Where there are few rows the chunks are smaller, but an
+	 * eighth at least: that should be worth handing to another thread, some 2 us. The last rows come first, for those of a triangle are the
 	 * longest, and what is left at the end should be short. */
 	void run(int32_t rows, int32_t chunk, const Work &work);
 
 private:
 	void serve();
 	void take_chunks(const Work &work);
+	template <typename Condition> static void wait_awake(Condition condition);
 
 	std::vector<std::thread> workers;
 	std::mutex mutex;
 	std::condition_variable wake, idle;
 	const Work *job = nullptr; /* none: nobody may join in */
-	uint64_t jobs = 0;
-	size_t busy = 0;
-	bool closing = false;
+	std::atomic<uint64_t> jobs{0};
+	std::atomic<size_t> busy{0};
+	std::atomic<bool> closing{false};
 	int32_t chunk_size = 0;
 	std::atomic<int32_t> left{0}; /* rows that nobody has taken */
 	std::atomic<bool> failed{false};

@@ -109,7 +109,9 @@ template <typename T> struct Approach {
 		  most(own.radius + other.radius + (std::abs(other.ax - own.ax) + std::abs(other.ay - own.ay)))
 	{
 	}
-	[[gnu::always_inline]] Approach(T dx, T dy, T ux, T uy, T time, T all, T reach) : x(dx), y(dy), vx(ux), vy(uy), rest(time), size(all), most(reach) {}
+	[[gnu::always_inline]] Approach(T dx, T dy, T ux, T uy, T time, T all, T reach) : x(dx), y(dy), vx(ux), vy(uy), rest(time), size(all), most(reach)
+	{
+	}
 
 	[[gnu::always_inline]] bool may_touch() const
 	{
