@@ -59,21 +59,24 @@ template <typename T> static void muster(const Job<T> &job)
 	if (status[STATUS_ROUND] != round)
 		return;
 	status[STATUS_SEEDS] = std::min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
-	for (int32_t id = 0; id < status[STATUS_SEEDS]; id++) {
-		Member &member = members[id];
-		if (active[id] < 0 || members[member.owner].round != round)
-			continue;
-		int32_t root_slot = active[id];
-		while (parents[root_slot] != root_slot)
-			root_slot = parents[root_slot];
-		const int32_t root = owners[root_slot];
-		status[STATUS_HITS] -= member.hits;
-		status[STATUS_HELD] -= member.events > 0 && work[id].held > 0;
-		begin_anew(member, work[id], slots[active[id]]);
-		member.owner = root;
-		member.link = members[root].head;
-		members[root].head = id;
-	}
+	job.pool.run(status[STATUS_SEEDS], 512, [&](int32_t begin, int32_t end) {
+		for (int32_t id = begin; id < end; id++) {
+			Member &member = members[id];
+			if (active[id] < 0 || members[member.owner].round != round)
+				continue;
+			int32_t root_slot = active[id];
+			while (parents[root_slot] != root_slot)
+				root_slot = parents[root_slot];
+			const int32_t root = owners[root_slot];
+			if (member.hits > 0)
+				fetch_add(&status[STATUS_HITS], -member.hits);
+			if (member.events > 0 && work[id].held > 0)
+				fetch_add(&status[STATUS_HELD], -1);
+			begin_anew(member, work[id], slots[active[id]]);
+			member.owner = root;
+			member.link = __atomic_exchange_n(&members[root].head, id, __ATOMIC_RELAXED);
+		}
+	});
 }
 
 template <typename T> static void resolve(const Job<T> &job)
