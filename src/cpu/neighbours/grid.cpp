@@ -123,17 +123,26 @@ public:
 	void clear() { count = 0; }
 	int32_t *next(int32_t more)
 	{
-		if (slots.size() < count + static_cast<size_t>(more))
-			slots.resize(2 * (count + static_cast<size_t>(more)));
+		if (slots.size() < count + static_cast<size_t>(more + block))
+			slots.resize(2 * (count + static_cast<size_t>(more + block)));
 		return slots.data() + count;
 	}
 	void keep(const int32_t *end) { count = static_cast<size_t>(end - slots.data()); }
-	void add(const Finds &other) { keep(std::copy(other.begin(), other.end(), next(other.size()))); }
+	/* In blocks, for there are few: what is too much is not kept. */
+	void add(const Finds &other)
+	{
+		int32_t *to = next(other.size());
+		for (int32_t k = 0; k < other.size(); k += block)
+			std::copy_n(other.begin() + k, block, to + k);
+		keep(to + other.size());
+	}
 	int32_t size() const { return static_cast<int32_t>(count); }
 	const int32_t *begin() const { return slots.data(); }
 	const int32_t *end() const { return slots.data() + count; }
 
 private:
+	static constexpr int32_t block = 16;
+
 	std::vector<int32_t> slots;
 	size_t count = 0;
 };
@@ -175,16 +184,33 @@ public:
 	}
 
 private:
+	/* The half boxes of a level. */
+	struct Sizes {
+		T above, most;
+
+		bool have(const Box<T> &box) const
+		{
+			const T half = box.half();
+			return (half > above) & (half <= most);
+		}
+	};
+
+	Sizes sizes_of(int32_t level) const
+	{
+		return {level > 0 ? T(grid.side_of(level - 1)) : T(-1), level < CELL_LEVELS - 1 ? T(grid.side_of(level)) : infinite<T>};
+	}
+
 	void search(int32_t s, Finds &ahead, Finds &behind)
 	{
 		const Box<T> box = boxes[s];
 		const int32_t own = grid.level_of(box);
-		const bool mixed = levels != 1 << own, stands = slots[s].is_static();
+		const bool stands = slots[s].is_static();
+		const Sizes sizes = sizes_of(own);
 		for (int32_t level = std::max(own - levels_below, 0); levels >> level; level++) {
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
 				continue;
 			if (level == own && !stands) {
-				each(box, own, [&](int32_t first, int32_t end) { search_alike(s, box, first, end, mixed ? own : -1, ahead, behind); });
+				each(box, own, [&](int32_t first, int32_t end) { search_alike(s, box, first, end, sizes, ahead, behind); });
 				continue;
 			}
 			each(box, level, [&](int32_t first, int32_t end) {
@@ -195,22 +221,21 @@ private:
 		}
 	}
 
-	/* On the slot's own level, where most are. Without branches: whether boxes touch is hard to foretell. Where there are other levels
-	 * (level >= 0), what is found must be seen to be of this one. */
-	void search_alike(int32_t s, const Box<T> &box, int32_t first, int32_t end, int32_t level, Finds &ahead, Finds &behind) const
+	/* On the slot's own level, where most are. Without branches: whether boxes touch is hard to foretell. Those of this level are larger than
+	 * `above`, and not larger than `most`. */
+	void search_alike(int32_t s, const Box<T> &box, int32_t first, int32_t end, const Sizes &sizes, Finds &ahead, Finds &behind) const
 	{
 		int32_t *before = behind.next(end - first), *after = ahead.next(end - first);
 		for (int32_t other = first; other < std::min(end, s); other++) {
 			*before = other;
-			before += box.touches(boxes[other]);
+			before += box.touches(boxes[other]) & sizes.have(boxes[other]);
 		}
 		for (int32_t other = std::max(first, s + 1); other < end; other++) {
 			*after = other;
-			after += box.touches(boxes[other]);
+			after += box.touches(boxes[other]) & sizes.have(boxes[other]);
 		}
-		const auto is_of_other = [&](int32_t other) { return grid.level_of(boxes[other]) != level; };
-		behind.keep(level < 0 ? before : std::remove_if(behind.next(0), before, is_of_other));
-		ahead.keep(level < 0 ? after : std::remove_if(ahead.next(0), after, is_of_other));
+		behind.keep(before);
+		ahead.keep(after);
 	}
 
 	bool are_near(int32_t s, const Box<T> &box, int32_t other, int32_t level) const
