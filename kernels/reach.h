@@ -60,10 +60,21 @@ float level_side(LIST_IN(status), int level)
 	return as_float(status[STATUS_CELL]) * (float)(1 << level);
 }
 
+float half_of(float4 box)
+{
+	return 0.5f * larger(box.z - box.x, box.w - box.y);
+}
+
+/* Bodies of a level have boxes whose half is above the first, and at most the second. */
+float2 level_sizes(LIST_IN(status), int level)
+{
+	return (float2)(level > 0 ? level_side(status, level - 1) : -1.0f, level < CELL_LEVELS - 1 ? level_side(status, level) : INFINITY);
+}
+
 /* The level whose cells are at least half as large as the box, which is in the cell of its middle. */
 int reach_level(float4 box, float side)
 {
-	float half_size = 0.5f * larger(box.z - box.x, box.w - box.y);
+	float half_size = half_of(box);
 	int level = 0;
 	while (level < CELL_LEVELS - 1 && side < half_size) {
 		side *= 2.0f;
@@ -124,35 +135,30 @@ void node_push(LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int other, 
 	nodes[NODE_WIDTH * node + NODE_LINK] = atomic_xchg(&members[MEMBER(other, MEMBER_HEAD)], node);
 }
 
-/* With half < 0 the slots are counted, and kept while there is room in the list; else they are written to Neighbours, those
- * behind from `half` on. */
-INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slot, bool ahead)
+/* With half_at < 0 the slots are counted, and kept while there is room in the list; else they are written to Neighbours, those behind from `half_at`
+ * on. What is not near is written, too, but not counted: whether it is near is hard to foretell, and so there is no branch. */
+INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slot, bool ahead, int near)
 {
-	if (half_at >= 0)
-		neighbours[ahead ? list->ahead : half_at + list->behind] = slot;
-	else if (list->ahead + list->behind < NEAR_MOST)
+	if (half_at < 0 && list->ahead + list->behind < NEAR_MOST)
 		list->found[ahead ? list->ahead : NEAR_MOST - 1 - list->behind] = slot;
-	if (ahead)
-		list->ahead++;
-	else
-		list->behind++;
+	else if (half_at >= 0 && near)
+		neighbours[ahead ? list->ahead : half_at + list->behind] = slot;
+	list->ahead += ahead ? near : 0;
+	list->behind += ahead ? 0 : near;
 }
 
 /* The slots of one level in places [from, to) whose reach touches this one's. */
-INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, int level,
-	bool same_level, bool one_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
+INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, float2 sizes,
+	bool stands, bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
-	float side = as_float(status[STATUS_CELL]);
 	for (int other = from; other < to; other++) {
 		float4 b = reach[other];
-		if ((other == s) | (b.x > box.z) | (b.z < box.x) | (b.y > box.w) | (b.w < box.y))
-			continue;
-		if (!one_level && reach_level(b, side) != level)
-			continue;
-		if (slot_is_static(slots, other) && slot_is_static(slots, s))
-			continue;
-		near_add(list, neighbours, half_at, other, !same_level || other > s);
-		if (!same_level && half_at < 0)
+		float half_size = half_of(b);
+		int near = (other != s) & (b.x <= box.z) & (b.z >= box.x) & (b.y <= box.w) & (b.w >= box.y) & (half_size > sizes.x) & (half_size <= sizes.y);
+		if (stands && near && slot_is_static(slots, other))
+			near = 0;
+		near_add(list, neighbours, half_at, other, !same_level || other > s, near);
+		if (!same_level && near && half_at < 0)
 			node_push(status, nodes, members, other, s);
 	}
 }
@@ -162,10 +168,12 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 {
 	float4 box = reach[s];
 	int own = reach_level(box, as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
+	bool stands = slot_is_static(slots, s);
 	for (int level = max(own - NEAR_LEVELS, 0); level < CELL_LEVELS; level++) {
 		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
 			continue;
 		float side = level_side(status, level);
+		float2 sizes = level_sizes(status, level);
 		int2 low = cell_of((float2)(box.x - side, box.y - side), side);
 		int2 high = cell_of((float2)(box.z + side, box.w + side), side);
 		high = (int2)(min(high.x, low.x + columns - 1), min(high.y, low.y + rows - 1)); /* once round is enough */
@@ -174,11 +182,11 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 			int row = first - (first & (columns - 1));
 			int from = cells[CELL_WIDTH * first + CELL_START], to = cells[CELL_WIDTH * last + CELL_END];
 			if (last < first) {
-				near_range(slots, reach, status, nodes, members, s, box, level, level == own, levels == (1 << level),
+				near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own,
 					cells[CELL_WIDTH * row + CELL_START], to, list, neighbours, half_at);
 				to = cells[CELL_WIDTH * (row + columns - 1) + CELL_END];
 			}
-			near_range(slots, reach, status, nodes, members, s, box, level, level == own, levels == (1 << level), from, to, list, neighbours,
+			near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own, from, to, list, neighbours,
 				half_at);
 		}
 	}

@@ -34,7 +34,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 }
 
 __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners),
-	LIST_OUT(parents), int4 domain)
+	LIST_IN(parents), int4 domain)
 {
 	if (status[STATUS_ROUND] != domain.z)
 		return;
@@ -44,7 +44,10 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		if (active[id] < 0 || members[MEMBER(members[MEMBER(id, MEMBER_OWNER)], MEMBER_ROUND)] != domain.z)
 			continue;
-		int root = owners[find_root(parents, active[id])];
+		int root_slot = active[id];
+		while (parents[root_slot] != root_slot) /* nobody changes that now */
+			root_slot = parents[root_slot];
+		int root = owners[root_slot];
 		if (members[MEMBER(id, MEMBER_HITS)] > 0)
 			atomic_sub(&status[STATUS_HITS], members[MEMBER(id, MEMBER_HITS)]);
 		if (members[MEMBER(id, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * id + WORK_TURN], WORK_HELD) > 0.0f)
