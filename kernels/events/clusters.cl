@@ -81,10 +81,11 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
-		/* of a pair one at least was done in this round, and finds the other */
+		/* of a pair one at least was done in this round, and finds the other; in the first round both were, and one look is enough */
 		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
 			continue;
-		for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++) {
+		int end = spans[SPAN(s, status[STATUS_BEGUN] == domain.z ? SPAN_HALF : SPAN_END)];
+		for (int k = spans[SPAN(s, SPAN_START)]; k < end; k++) {
 			int other = neighbours[k], other_id = owners[other];
 			if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
 				continue;

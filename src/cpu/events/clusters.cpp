@@ -116,10 +116,11 @@ template <typename T> static void check_one(const Clusters<T> &clusters, const W
 	const Member *members = clusters.members;
 	const int32_t s = clusters.active[id], owner = members[id].owner;
 	auto done_again = [&](int32_t leader) { return __atomic_load_n(&members[leader].round, __ATOMIC_RELAXED) > round; };
-	/* Of a pair one at least was done in this round, and finds the other. */
+	/* Of a pair one at least was done in this round, and finds the other; in the first round both were, and one look is enough. */
 	if (s < 0 || members[id].events == 0 || __atomic_load_n(&members[owner].round, __ATOMIC_RELAXED) != round)
 		return;
-	for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
+	const Span &span = clusters.spans[s];
+	for (int32_t k = span.start, end = round == clusters.status[STATUS_BEGUN] ? span.half : span.end; k < end; k++) {
 		const int32_t other = clusters.neighbours[k], other_id = clusters.owners[other];
 		if (other_id < 0 || members[other_id].events == 0 || members[other_id].owner == owner || done_again(members[other_id].owner))
 			continue;
