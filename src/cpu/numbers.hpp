@@ -75,7 +75,7 @@ template <typename T> int32_t nearest(T x)
 {
 	if (!(std::abs(x) < T(LARGEST_TURN)))
 		return 0;
-	return static_cast<int32_t>(x < 0 ? x - T(0.5) : x + T(0.5));
+	return static_cast<int32_t>(x + std::copysign(T(0.5), x)); /* no branch: signs can't be foretold */
 }
 
 /* Cosine and sine by Cephes' polynomials: those of the C library differ from host to host. */
@@ -87,12 +87,8 @@ inline Vec<float> rotation_of(float angle)
 	float z = x * x;
 	float s = x + (x * z) * (SINE_3 + z * (SINE_5 + z * SINE_7));
 	float c = (1.0f - 0.5f * z) + (z * z) * (COSINE_4 + z * (COSINE_6 + z * COSINE_8));
-	switch (q & 3) {
-	case 0: return {c, s};
-	case 1: return {-s, c};
-	case 2: return {-c, -s};
-	default: return {s, -c};
-	}
+	const float parts[2] = {c, s};
+	return {parts[q & 1] * static_cast<float>(1 - ((q + 1) & 2)), parts[~q & 1] * static_cast<float>(1 - (q & 2))};
 }
 
 inline Vec<double> rotation_of(double angle)
