@@ -225,33 +225,34 @@
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
 /* Status: ints, and some floats in their bits */
-#define STATUS_WIDTH 32
-#define STATUS_STALE 0       /* 1: the lists of neighbours are to be made anew before the next step */
-#define STATUS_SMALL 1       /* 1: Neighbours or Nodes has too little room for them */
-#define STATUS_UNDER_WAY 2   /* 1: a step is, with clusters to do again */
-#define STATUS_COMMIT 3      /* 1: the step is done */
-#define STATUS_LEFT 4        /* 1: a body would leave its reach: the step begins again, with other lists */
-#define STATUS_ROUND 5       /* the last round that has clusters to do; rounds are numbered on and on */
-#define STATUS_ACTIVE 6      /* numbers given */
-#define STATUS_SEEDS 7       /* of these when the round began */
-#define STATUS_HITS 8        /* of the step */
-#define STATUS_HELD 9        /* bodies, of the step */
-#define STATUS_NEIGHBOURS 10 /* ints wanted in Neighbours */
-#define STATUS_NODES 11      /* nodes wanted */
-#define STATUS_ROOM 12       /* ints there are in Neighbours */
-#define STATUS_NODE_ROOM 13
-#define STATUS_LEVELS 14  /* bits: levels that have bodies */
-#define STATUS_PLACED 15  /* slots that have got their place */
-#define STATUS_PACE 16    /* float bits, m: what the slower bodies may go before the lists are stale */
-#define STATUS_CELL 17    /* float bits, m: the side of a cell of level 0 */
-#define STATUS_WINDOW 21  /* float bits, s: how long the lists are to last */
-#define STATUS_BUILDS 18  /* since the host asked: how often lists were made, */
-#define STATUS_STEPS 19   /* steps done, */
-#define STATUS_NUMBERS 24 /* there are for bodies that events change */
-#define STATUS_FOUND 25   /* hits in Found */
-#define STATUS_BEGUN 26   /* the step's first round */
-#define STATUS_IDLE 22    /* not begun for want of lists, */
-#define STATUS_AGAIN 23   /* and not done since they needed more rounds */
+#define STATUS_WIDTH 64
+#define STATUS_STALE 0     /* 1: the lists of neighbours are to be made anew before the next step */
+#define STATUS_SMALL 1     /* 1: Neighbours or Nodes has too little room for them */
+#define STATUS_UNDER_WAY 2 /* 1: a step is, with clusters to do again */
+#define STATUS_COMMIT 3    /* 1: the step is done */
+#define STATUS_LEFT 4      /* 1: a body would leave its reach: the step begins again, with other lists */
+#define STATUS_ROUND 5     /* the last round that has clusters to do; rounds are numbered on and on */
+#define STATUS_BEGUN 6     /* the step's first round */
+#define STATUS_SEEDS 7     /* numbers given when the round began */
+#define STATUS_NUMBERS 8   /* there are for bodies that events change */
+#define STATUS_ROOM 9      /* ints there are in Neighbours */
+#define STATUS_NODE_ROOM 10
+#define STATUS_LEVELS 11 /* bits: levels that have bodies */
+#define STATUS_PACE 12   /* float bits, m: what the slower bodies may go before the lists are stale */
+#define STATUS_CELL 13   /* float bits, m: the side of a cell of level 0 */
+#define STATUS_WINDOW 14 /* float bits, s: how long the lists are to last */
+#define STATUS_BUILDS 15 /* since the host asked: how often lists were made, */
+#define STATUS_STEPS 16  /* steps done, */
+#define STATUS_IDLE 17   /* not begun for want of lists, */
+#define STATUS_AGAIN 18  /* and not done since they needed more rounds */
+/* What many count at the same time is no neighbour of what they all read. */
+#define STATUS_ACTIVE 32     /* numbers given */
+#define STATUS_FOUND 33      /* hits in Found */
+#define STATUS_HITS 34       /* of the step */
+#define STATUS_HELD 35       /* bodies, of the step */
+#define STATUS_NEIGHBOURS 36 /* ints wanted in Neighbours */
+#define STATUS_NODES 37      /* nodes wanted */
+#define STATUS_PLACED 38     /* slots that have got their place */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late).
