@@ -58,9 +58,10 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 rules_of_hit event_rules(float restitution, bool rapid)
 {
 	rules_of_hit rules;
-	rules.restitution = rapid ? 1.0f : restitution;
+	rules.restitution = restitution;
 	rules.micro = restitution < 1.0f ? MICRO : 0.0f;
 	rules.stillness = 0.5f;
+	rules.rapid = rapid;
 	return rules;
 }
 

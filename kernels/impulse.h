@@ -28,7 +28,17 @@ float2 contact_impulses(body a, body b, contact c, float restitution, float stil
 /* How a hit is answered: MICRO or 0, and which part of the stillness an approach needs (what was found as a hit is one, whatever rounding did). */
 typedef struct rules_of_hit {
 	float restitution, micro, stillness;
+	bool rapid;
 } rules_of_hit;
+
+/* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step: what falls on a
+ * body at rest, which is in many rapid hits, is no collapse. */
+float restitution_of(rules_of_hit rules, contact c, float micro)
+{
+	float rate = c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
+	bool fast = micro > 0.0f && -rate > micro * (1.0f / MICRO);
+	return rules.rapid && !fast ? 1.0f : rules.restitution;
+}
 
 rules_of_hit first_impact_rules(float restitution)
 {
@@ -36,6 +46,7 @@ rules_of_hit first_impact_rules(float restitution)
 	rules.restitution = restitution;
 	rules.micro = 0.0f;
 	rules.stillness = 1.0f;
+	rules.rapid = false;
 	return rules;
 }
 
@@ -47,7 +58,8 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	float2 n = wall_normal(room, wall, &offset);
 	contact c = wall_contact(VERTICES, k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
-	float2 j = contact_impulses(walls, k, c, rules.restitution, wall_stillness(k) * rules.stillness, larger(-(rules.micro * inner(n, k.a)), 0.0f));
+	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f);
+	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), wall_stillness(k) * rules.stillness, micro);
 	*total = j.x + j.y;
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
 	return (float4)((*total * n.x) / length, (*total * n.y) / length, torque / length, 0.0f);
@@ -60,8 +72,8 @@ float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b) * rules.stillness;
 	contact c = contact_at(VERTICES, a, b, p, best_axis(VERTICES, a, b, p), slop);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float2 j = c.swapped ? contact_impulses(b, a, c, rules.restitution, stillness, micro)
-						 : contact_impulses(a, b, c, rules.restitution, stillness, micro);
+	float restitution = restitution_of(rules, c, micro);
+	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, stillness, micro) : contact_impulses(a, b, c, restitution, stillness, micro);
 	*total = j.x + j.y;
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;

@@ -255,7 +255,7 @@
 #define STATUS_PLACED 38     /* slots that have got their place */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
- * are elastic once the body had RAPID_MOST of them in the step (the TC model, late).
+ * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.
  * Bodies that are pushed together, and meet more slowly than MICRO of what the push makes of their speed in a step, part with that speed
  * (microcollisions). A body that is in more than HOLD_LIMIT events of one step is held until its end. */
 #define RAPID 0.0009765625f

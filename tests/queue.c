@@ -254,6 +254,7 @@ static double coupling(const touch *t, const party *r, const party *k, int i, in
 
 typedef struct rules {
 	double restitution, micro, stillness;
+	bool rapid; /* again and again */
 } rules;
 
 /* By how much the rate of a point is to grow. */
@@ -321,8 +322,8 @@ static void record(queue *q, queue_hit hit)
 static rules rules_of(const queue *q, const queue_body *a, const queue_body *b, double time)
 {
 	const double restitution = fmax(a->restitution, b ? b->restitution : q->room.restitution);
-	const bool elastic = (is_rapid(a, time) && a->rapid >= RAPID_MOST) || (is_rapid(b, time) && b->rapid >= RAPID_MOST);
-	return (rules){elastic ? 1.0 : restitution, restitution < 1.0 ? (double)MICRO : 0.0, 0.5};
+	const bool rapid = (is_rapid(a, time) && a->rapid >= RAPID_MOST) || (is_rapid(b, time) && b->rapid >= RAPID_MOST);
+	return (rules){restitution, restitution < 1.0 ? (double)MICRO : 0.0, 0.5, rapid};
 }
 
 /* How fast a push makes of them what it will, in a step; 0 where it parts them. */
@@ -352,6 +353,9 @@ static void answer(queue *q, queue_hit hit)
 	const party pa = party_of(a), pb = party_of(b), *reference = b && !t.swapped ? &pa : &pb, *incident = reference == &pa ? &pb : &pa;
 	how.stillness *= touch_stillness(&first, b ? &second : NULL);
 	how.micro *= pull_of(&t, &first, b ? &second : NULL);
+	const double approach = t.count > 1 ? fmax(-t.rate[0], -t.rate[1]) : -t.rate[0];
+	if (how.rapid && !(how.micro > 0.0 && approach > how.micro / (double)MICRO))
+		how.restitution = 1.0;
 	solve(&t, reference, incident, &how, j);
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);

@@ -76,6 +76,33 @@ static void bodies_come_to_rest(void **unused)
 	}
 }
 
+/* With restitution 0 what falls on a ball that rests is not thrown back, though the ball has been in rapid hits before, and is in more now. */
+static void what_falls_on_a_resting_ball_stays(void **unused)
+{
+	(void)unused;
+	static const float masses[] = {1.0f, 10.0f, 100.0f};
+	SCENERY_EACH_DEVICE(device) {
+		for (size_t i = 0; i < sizeof masses / sizeof *masses; i++) {
+			carom_world_def def = runs_room(5.0f, 5.0f);
+			carom_body_def bodies[2] = {scenery_circle(0.0f, -4.4f, 0.0f, 0.0f, 0.5f), scenery_circle(0.0f, -2.4f, 0.0f, 0.0f, 0.5f)};
+			def.gravity.y = -(float)GRAVITY;
+			def.restitution = 0.0f;
+			bodies[0].mass = 1.0f;
+			bodies[1].mass = masses[i];
+			carom_world *world = runs_world(&def, device, bodies, 2);
+			if (!world)
+				break;
+			for (int k = 0; k < 60; k++) {
+				runs_step(world, 1);
+				assert_true(runs_state(world, 1).velocity.y < 0.05f);
+			}
+			runs_near((double)runs_state(world, 1).position.y, -3.5, 1e-3);
+			nothing_overlaps(world, 5.0);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* 1e-5 m of room on either side: slow, as many hits as the way has; fast, too many: it is held, and stays between the two. */
 static void squeezed_ball(void **unused)
 {
@@ -180,7 +207,7 @@ static void small_heap(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(bodies_come_to_rest), cmocka_unit_test(squeezed_ball), cmocka_unit_test(row_collapses), cmocka_unit_test(small_heap)};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_come_to_rest), cmocka_unit_test(what_falls_on_a_resting_ball_stays),
+		cmocka_unit_test(squeezed_ball), cmocka_unit_test(row_collapses), cmocka_unit_test(small_heap)};
 	return cmocka_run_group_tests_name("events_rest", tests, NULL, NULL);
 }

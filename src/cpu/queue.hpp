@@ -240,10 +240,14 @@ private:
 		T x, y, row_torque, column_torque, total;
 	};
 
+	/* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step. */
 	void set_rules(Collision<T> &collision, T restitution, T pull, bool rapid) const
 	{
-		collision.restitution = rapid ? T(1) : restitution;
+		const Contact<T> &c = collision.contact;
+		const T rate = c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
 		collision.micro = restitution < 1 ? larger(-(T(MICRO) * pull), T(0)) : T(0);
+		const bool fast = collision.micro > 0 && -rate > collision.micro * (1 / T(MICRO));
+		collision.restitution = rapid && !fast ? T(1) : restitution;
 		collision.stillness = collision.stillness * T(0.5);
 	}
 
