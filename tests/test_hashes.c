@@ -64,9 +64,9 @@ static const struct {
 	{4, SCENERY_CIRCLES, 196, 0.875f, -3.0f, RESTING_STEPS, 0x2c0cb69fffe63f90, 0x5222fe046872010e},
 	{5, SCENERY_POLYGONS, 81, 1.0f, -2.0f, STEPS, 0x0939fed0f3b497ef, 0xfd27677dfc2725eb},
 	{6, SCENERY_CIRCLES, 100, 1.0f, -9.81f, STEPS, 0x77c43753b16437fd, 0xba38d361258b61f1},
-	{7, SCENERY_MIXED, 16, 0.75f, -9.81f, STEPS, 0xb2ff4e999f8741f7, 0x1b60dbb8e9364a66},
-	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, STEPS, 0xbfc1b6f5f82d0607, 0xabe6f1cc9bb7d909},
-	{9, SCENERY_CIRCLES, 36, 0.875f, -3.0f, STEPS, 0x050b36b217d5ff67, 0xf2c1407d94e55beb},
+	{7, SCENERY_MIXED, 16, 0.75f, -9.81f, STEPS, 0xb2ff4e999f8741f7, 0x8519eacfc673ab83},
+	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, STEPS, 0xbfc1b6f5f82d0607, 0x994e94bb20497064},
+	{9, SCENERY_CIRCLES, 36, 0.875f, -3.0f, STEPS, 0x050b36b217d5ff67, 0x0451b262516a94d9},
 };
 
 static carom_world *random_world(size_t i, const char *step, const scenery_device *device)
