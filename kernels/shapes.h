@@ -1,8 +1,8 @@
 /* Convex shapes in pixels, y down, clipped and measured from the first pixel that they may touch: there floats are exact
  * enough for any shape. */
 
-#define SHAPES_OUT TEX_OUT(shapes), TEX_OUT(edges)
-#define SHAPES TEX(shapes), TEX(edges)
+#define SHAPES_OUT RECORD_OUT(shapes), RECORD_OUT(edges)
+#define SHAPES shapes, edges
 
 float clamped(float v, float low, float high) /* NaN becomes low */
 {
@@ -56,13 +56,13 @@ float4 ink_of(float fill, float outline, float width, float opacity, float bread
 		clamped(opacity, 0.0f, 1.0f) * clamped(breadth, least, 1.0f));
 }
 
-void put_shape(TEX_OUT(shapes), int shape, float4 box, float4 ink, int first, int count)
+void put_shape(RECORD_OUT(shapes), int shape, float4 box, float4 ink, int first, int count)
 {
-	ROW_STORE(shapes, SHAPES_WIDTH * shape + SHAPE_BOX, box);
+	shapes[SHAPES_WIDTH * shape + SHAPE_BOX] = box;
 	if (is_empty(box))
 		return;
-	ROW_STORE(shapes, SHAPES_WIDTH * shape + SHAPE_INK, ink);
-	ROW_STORE(shapes, SHAPES_WIDTH * shape + SHAPE_EDGES, (float4)((float)first, (float)count, 0.0f, 0.0f));
+	shapes[SHAPES_WIDTH * shape + SHAPE_INK] = ink;
+	shapes[SHAPES_WIDTH * shape + SHAPE_EDGES] = (float4)((float)first, (float)count, 0.0f, 0.0f);
 }
 
 /* From `from` along a unit vector, with square ends. */
@@ -75,13 +75,13 @@ void put_line(SHAPES_OUT, int shape, int edge, float2 from, float2 along, float 
 	float size = norm((float2)(high.x - low.x, high.y - low.y));
 	float seen_breadth = (reach * breadth) / larger(size, 1.0f), out = growth(seen_breadth);
 	float4 box = reach > 0.0f ? touched_box(low, high, out, clip) : (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	put_shape(TEX(shapes), shape, box, ink_of(color, color, 0.0f, opacity, seen_breadth, size), edge, LINE_EDGES);
+	put_shape(shapes, shape, box, ink_of(color, color, 0.0f, opacity, seen_breadth, size), edge, LINE_EDGES);
 	if (is_empty(box))
 		return;
 	float2 at = (float2)(first_pixel(box).x - from.x, first_pixel(box).y - from.y), across = (float2)(along.y, -along.x);
 	float ahead = inner(along, at), aside = inner(across, at), side = half_breadth + out;
-	ROW_STORE(edges, edge, (float4)(-along.x, -along.y, -ahead - out, 0.0f));
-	ROW_STORE(edges, edge + 1, (float4)(along.x, along.y, (ahead - reach) - out, 0.0f));
-	ROW_STORE(edges, edge + 2, (float4)(-across.x, -across.y, -aside - side, 0.0f));
-	ROW_STORE(edges, edge + 3, (float4)(across.x, across.y, aside - side, 0.0f));
+	edges[edge] = (float4)(-along.x, -along.y, -ahead - out, 0.0f);
+	edges[edge + 1] = (float4)(along.x, along.y, (ahead - reach) - out, 0.0f);
+	edges[edge + 2] = (float4)(-across.x, -across.y, -aside - side, 0.0f);
+	edges[edge + 3] = (float4)(across.x, across.y, aside - side, 0.0f);
 }

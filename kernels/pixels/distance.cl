@@ -16,11 +16,11 @@ float4 squared_color(float color)
 }
 
 /* The signed distance from the shape to the pixels; x and y are counted from the first pixel of its box. */
-float16 distance16(TEX_IN(edges), int first, int count, float16 x, float16 y)
+float16 distance16(RECORD_IN(edges), int first, int count, float16 x, float16 y)
 {
 	float16 most = (float16)(-INFINITY);
 	for (int k = first; k < first + count; k++) {
-		float4 edge = ROW_LOAD(edges, k);
+		float4 edge = edges[k];
 		float bend = CHANNEL(edge, EDGE_BEND);
 		float16 s = (CHANNEL(edge, EDGE_AT) + (CHANNEL(edge, EDGE_SLOPE_Y) + bend * y) * y) + (CHANNEL(edge, EDGE_SLOPE_X) + bend * x) * x;
 		if (bend > 0.0f) {
@@ -37,9 +37,9 @@ float16 blended(float16 ground, float outline, float fill, float16 cover, float1
 	return ground + opacity * ((outline * (cover - inside) + fill * inside) - cover * ground);
 }
 
-void draw(lights *light, TEX_IN(shapes), TEX_IN(edges), int shape, float4 box, float16 x, float16 y)
+void draw(lights *light, RECORD_IN(shapes), RECORD_IN(edges), int shape, float4 box, float16 x, float16 y)
 {
-	float4 ink = ROW_LOAD(shapes, SHAPES_WIDTH * shape + SHAPE_INK), sides = ROW_LOAD(shapes, SHAPES_WIDTH * shape + SHAPE_EDGES);
+	float4 ink = shapes[SHAPES_WIDTH * shape + SHAPE_INK], sides = shapes[SHAPES_WIDTH * shape + SHAPE_EDGES];
 	float4 fill = squared_color(CHANNEL(ink, INK_FILL)), outline = squared_color(CHANNEL(ink, INK_OUTLINE));
 	int count = (int)CHANNEL(sides, EDGES_COUNT);
 	float opacity = CHANNEL(ink, INK_OPACITY);
@@ -50,7 +50,7 @@ void draw(lights *light, TEX_IN(shapes), TEX_IN(edges), int shape, float4 box, f
 		light->blue = inside_box ? (float16)(fill.z) : light->blue;
 		return;
 	}
-	float16 far = distance16(TEX(edges), (int)CHANNEL(sides, EDGES_FIRST), count, x - CHANNEL(box, BOX_X0), y - CHANNEL(box, BOX_Y0));
+	float16 far = distance16(edges, (int)CHANNEL(sides, EDGES_FIRST), count, x - CHANNEL(box, BOX_X0), y - CHANNEL(box, BOX_Y0));
 	float16 near = 0.5f - (inside_box ? far : (float16)(1.0f));
 	float16 cover = share16(near), inside = share16(near - CHANNEL(ink, INK_WIDTH));
 	light->red = blended(light->red, outline.x, fill.x, cover, inside, opacity);
@@ -58,7 +58,8 @@ void draw(lights *light, TEX_IN(shapes), TEX_IN(edges), int shape, float4 box, f
 	light->blue = blended(light->blue, outline.z, fill.z, cover, inside, opacity);
 }
 
-__kernel void pixels(TEX_IN(shapes), TEX_IN(edges), TEX_IN(frame), LIST_IN(ends), LIST_IN(list), RECORD_OUT(light), BYTES_OUT(picture), int4 domain)
+__kernel void pixels(RECORD_IN(shapes), RECORD_IN(edges), TEX_IN(frame), LIST_IN(ends), LIST_IN(list), RECORD_OUT(light), BYTES_OUT(picture),
+	int4 domain)
 {
 	int item = get_global_id(0), row = get_global_id(1), column = item / (PIXEL_TILE / 2);
 	int2 first = (int2)(column * PIXEL_TILE, row * PIXEL_TILE + item % (PIXEL_TILE / 2) * 2);
@@ -77,9 +78,9 @@ __kernel void pixels(TEX_IN(shapes), TEX_IN(edges), TEX_IN(frame), LIST_IN(ends)
 	int tile = row * ((int)CHANNEL(tiles, TILES_COLUMNS) + 1) + column;
 	uint end = min((uint)ends[tile + 1], (uint)domain.z);
 	for (uint k = (uint)ends[tile]; k < end; k++) {
-		float4 its = ROW_LOAD(shapes, SHAPES_WIDTH * list[k] + SHAPE_BOX);
+		float4 its = shapes[SHAPES_WIDTH * list[k] + SHAPE_BOX];
 		if (top + 1.0f >= CHANNEL(its, BOX_Y0) && top < CHANNEL(its, BOX_Y1))
-			draw(&all, TEX(shapes), TEX(edges), list[k], its, xs, ys);
+			draw(&all, shapes, edges, list[k], its, xs, ys);
 	}
 	if (pass & PASS_UNDER)
 		keep(all, light, first, size);

@@ -17,7 +17,7 @@ void put_mark(TEX_IN(marks), TEX_IN(view), SHAPES_OUT, int i, int shape, int edg
 	float4 picture = (float4)(0.0f, 0.0f, CHANNEL(scale, SCALE_WIDTH), CHANNEL(scale, SCALE_HEIGHT));
 	float color = CHANNEL(style, STYLE_COLOR), breadth = CHANNEL(style, STYLE_BREADTH);
 	if (!(breadth > 0.0f)) {
-		put_shape(TEX(shapes), shape, place, (float4)(color, color, 0.0f, 1.0f), edge, 0);
+		put_shape(shapes, shape, place, (float4)(color, color, 0.0f, 1.0f), edge, 0);
 		return;
 	}
 	float2 from = place.lo, to = place.hi, way = (float2)(to.x - from.x, to.y - from.y);
@@ -33,9 +33,9 @@ void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape,
 	float radius = norm(to_rim), breadth = ((DISC_AREA * radius) * radius) / larger(2.0f * radius, 1.0f);
 	float r = radius + growth(breadth);
 	float4 box = touched_box((float2)(c.x - r, c.y - r), (float2)(c.x + r, c.y + r), 0.0f, clip);
-	put_shape(TEX(shapes), shape, box, ink_of(CHANNEL(ink, INK_FILL), outline, line, 1.0f, breadth, 2.0f * radius), edge, 1);
+	put_shape(shapes, shape, box, ink_of(CHANNEL(ink, INK_FILL), outline, line, 1.0f, breadth, 2.0f * radius), edge, 1);
 	if (is_empty(box) || !(radius >= SHOW_ANGLE)) {
-		ROW_STORE(shapes, SHAPES_WIDTH * (shape + 1) + SHAPE_BOX, (float4)(0.0f, 0.0f, 0.0f, 0.0f));
+		shapes[SHAPES_WIDTH * (shape + 1) + SHAPE_BOX] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	} else {
 		float2 along = (float2)(to_rim.x / radius, to_rim.y / radius);
 		float opacity = (radius - SHOW_ANGLE) * (1.0f / SHOW_ANGLE);
@@ -47,7 +47,7 @@ void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape,
 	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y);
 	float square = magnitude(at.x) > magnitude(at.y) ? ((c.x - r) - f.x) * ((c.x + r) - f.x) + at.y * at.y
 													 : ((c.y - r) - f.y) * ((c.y + r) - f.y) + at.x * at.x;
-	ROW_STORE(edges, edge, (float4)(at.x / r, at.y / r, square / (2.0f * r), 1.0f / (2.0f * r)));
+	edges[edge] = (float4)(at.x / r, at.y / r, square / (2.0f * r), 1.0f / (2.0f * r));
 }
 
 void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count, int shape, int edge, float4 ink)
@@ -66,7 +66,7 @@ void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count
 	float breadth = (0.5f * twice_area) / larger(size, 1.0f), out = growth(breadth);
 	float4 box = touched_box((float2)(c.x + low.x, c.y + low.y), (float2)(c.x + high.x, c.y + high.y), out, clip);
 	float4 seen = ink_of(CHANNEL(ink, INK_FILL), CHANNEL(ink, INK_OUTLINE), line, 1.0f, breadth, size);
-	put_shape(TEX(shapes), shape, box, seen, edge, count);
+	put_shape(shapes, shape, box, seen, edge, count);
 	if (is_empty(box))
 		return;
 	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y), from = first;
@@ -76,7 +76,7 @@ void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count
 		float length = norm(side), nx = -side.y / length, ny = side.x / length;
 		bool lost = !(length > 0.0f);
 		float distance = (nx * (at.x - from.x) + ny * (at.y - from.y)) - out;
-		ROW_STORE(edges, edge + k, lost ? (float4)(0.0f, 0.0f, NO_EDGE, 0.0f) : (float4)(nx, ny, distance, 0.0f));
+		edges[edge + k] = lost ? (float4)(0.0f, 0.0f, NO_EDGE, 0.0f) : (float4)(nx, ny, distance, 0.0f);
 		from = to;
 	}
 }

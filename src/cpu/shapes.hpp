@@ -60,7 +60,7 @@ template <typename T> Ink<T> seen(const Ink<T> &ink, T breadth, T length)
 template <typename T> class ShapeWriter
 {
 public:
-	ShapeWriter(const Texels<T> &to_shapes, const Texels<T> &to_edges) : shapes(to_shapes), edges(to_edges) {}
+	ShapeWriter(const Records<T> &to_shapes, const Records<T> &to_edges) : shapes(to_shapes), edges(to_edges) {}
 
 	void hide(int32_t shape) const { put(SHAPES_WIDTH * shape + SHAPE_BOX, {0, 0, 0, 0}); }
 
@@ -94,7 +94,7 @@ private:
 			shapes.of(texel, channel) = with.channels[channel];
 	}
 
-	const Texels<T> shapes, edges;
+	const Records<T> shapes, edges;
 };
 
 /* A line from a point along a unit vector. */

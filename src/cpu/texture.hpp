@@ -55,6 +55,18 @@ private:
 	size_t width;
 };
 
+/* Records: the four numbers of each lie side by side, so that one that is read by itself is near. */
+template <typename T> class Records
+{
+public:
+	explicit Records(T *first) : numbers(first) {}
+
+	T &of(int32_t index, int32_t channel) const { return numbers[static_cast<size_t>(index) * channel_count + static_cast<size_t>(channel)]; }
+
+private:
+	T *numbers;
+};
+
 /* Bytes, the four of a texel side by side: a row is one byte a column. */
 class Bytes
 {

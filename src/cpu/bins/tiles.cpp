@@ -14,7 +14,7 @@ template <typename T> class Grid
 public:
 	const int32_t columns, rows;
 
-	Grid(const Texels<T> &to_shapes, const Texels<T> &frame)
+	Grid(const Records<T> &to_shapes, const Texels<T> &frame)
 		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))),
 		  shapes(to_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)),
 		  y1(frame.fact(FRAME_BOX, BOX_Y1))
@@ -36,7 +36,7 @@ public:
 private:
 	static int32_t whole(T v) { return static_cast<int32_t>(v); }
 
-	const Texels<T> shapes;
+	const Records<T> shapes;
 	const T x0, y0, x1, y1;
 };
 
@@ -52,7 +52,7 @@ template <typename T, typename Visit> void visit_chunk(const Job<T> &job, const 
 
 template <typename T> static void count(const Job<T> &job)
 {
-	const Grid<T> grid(job.texels(0), job.texels(1));
+	const Grid<T> grid(Records<T>(job.records(0)), job.texels(1));
 	int32_t *counts = job.list(2);
 	job.pool.run(job.domain[0], 8, [&](int32_t begin, int32_t end) {
 		std::fill(counts + 2 * begin * grid.rows, counts + 2 * end * grid.rows, 0);
@@ -90,7 +90,7 @@ static uint32_t up(int32_t &position)
 
 template <typename T> static void sort_by_row(const Job<T> &job)
 {
-	const Grid<T> grid(job.texels(0), job.texels(1));
+	const Grid<T> grid(Records<T>(job.records(0)), job.texels(1));
 	const int32_t *totals = job.list(2);
 	int32_t *offsets = job.list(3), *list = job.list(4);
 	const uint32_t room = static_cast<uint32_t>(job.domain[3]);
@@ -144,7 +144,7 @@ template <typename T> static void sort_row(const Job<T> &job, const Grid<T> &gri
 
 template <typename T> static void sort_by_tile(const Job<T> &job)
 {
-	const Grid<T> grid(job.texels(0), job.texels(1));
+	const Grid<T> grid(Records<T>(job.records(0)), job.texels(1));
 	job.pool.run(job.domain[0], 4, [&](int32_t begin, int32_t end) {
 		for (int32_t r = begin; r < end; r++)
 			sort_row(job, grid, r);

@@ -83,7 +83,7 @@ template <typename T> struct Distances {
 template <typename T> class Painter
 {
 public:
-	explicit Painter(const Job<T> &job) : shapes(job.texels(FROM_SHAPES)), edges(job.texels(FROM_EDGES)) {}
+	explicit Painter(const Job<T> &job) : shapes(job.records(FROM_SHAPES)), edges(job.records(FROM_EDGES)) {}
 
 	void draw(Tile<T> &tile, int32_t shape) const
 	{
@@ -104,7 +104,21 @@ public:
 		blend(tile, top * side, distances, SHAPES_WIDTH * shape + SHAPE_INK);
 	}
 
+	/* Shapes lie in the order of the bodies, which may be anywhere: those that are drawn soon are fetched while others are drawn. */
+	[[gnu::always_inline]] void fetch(const int32_t *next, const int32_t *end) const
+	{
+		if (next + far_ahead < end)
+			__builtin_prefetch(&shapes.of(SHAPES_WIDTH * next[far_ahead] + SHAPE_EDGES, 0));
+		if (next + near_ahead < end) {
+			const int32_t shape = SHAPES_WIDTH * next[near_ahead];
+			__builtin_prefetch(&shapes.of(shape + SHAPE_BOX, 0));
+			__builtin_prefetch(&edges.of(static_cast<int32_t>(shapes.of(shape + SHAPE_EDGES, EDGES_FIRST)), 0));
+		}
+	}
+
 private:
+	static constexpr int32_t near_ahead = 6, far_ahead = 12;
+
 	void measure(Distances<T> &distances, int32_t edge) const
 	{
 		const T slope_x = edges.of(edge, EDGE_SLOPE_X), slope_y = edges.of(edge, EDGE_SLOPE_Y), at = edges.of(edge, EDGE_AT);
@@ -140,7 +154,7 @@ private:
 		}
 	}
 
-	const Texels<T> shapes, edges;
+	const Records<T> shapes, edges;
 };
 
 template <typename T> struct Frame {
@@ -202,6 +216,7 @@ template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &fr
 {
 	const int32_t *ends = job.list(FROM_ENDS) + row * (frame.columns + 1), *list = job.list(FROM_LIST);
 	const uint32_t room = static_cast<uint32_t>(job.domain[2]);
+	const uint32_t last = std::min(static_cast<uint32_t>(ends[frame.columns]), room);
 	const Painter<T> painter(job);
 	Tile<T> tile;
 	for (int32_t c = 0; c < frame.columns; c++) {
@@ -211,8 +226,10 @@ template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &fr
 		tile.fill(frame.ground);
 		if (frame.pass & PASS_OVER)
 			take_light(tile, job.records(LIGHT), frame, c * side, row * side);
-		for (uint32_t k = static_cast<uint32_t>(ends[c]); k < end; k++)
+		for (uint32_t k = static_cast<uint32_t>(ends[c]); k < end; k++) {
+			painter.fetch(list + k, list + last);
 			painter.draw(tile, list[k]);
+		}
 		if (frame.pass & PASS_UNDER)
 			leave_light(tile, job.records(LIGHT), frame, c * side, row * side);
 		else

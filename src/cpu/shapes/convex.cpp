@@ -13,7 +13,7 @@ template <typename T> struct Scene {
 
 	Scene(const Job<T> &job, const Texels<T> &view)
 		: draws(job.texels(FROM_DRAWS)), marks(job.texels(FROM_MARKS)), placed(job.texels(FROM_PLACED)),
-		  to(job.texels(TO_SHAPES), job.texels(TO_EDGES)),
+		  to(Records<T>(job.records(TO_SHAPES)), Records<T>(job.records(TO_EDGES))),
 		  line(view.fact(VIEW_SCALE, SCALE_LINE)), picture{0, 0, view.fact(VIEW_SCALE, SCALE_WIDTH), view.fact(VIEW_SCALE, SCALE_HEIGHT)},
 		  clip{view.fact(VIEW_CLIP, BOX_X0), view.fact(VIEW_CLIP, BOX_Y0), view.fact(VIEW_CLIP, BOX_X1), view.fact(VIEW_CLIP, BOX_Y1)}
 	{
