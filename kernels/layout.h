@@ -319,20 +319,20 @@
 #define STYLE_COLOR 0
 #define STYLE_BREADTH 1 /* pixels, of a line; 0: a box */
 
-/* Shapes: three texels a shape, in painter's order */
+/* Shapes: three records a shape, in painter's order */
 #define SHAPES_WIDTH 3
-#define SHAPE_BOX 0 /* texel: the pixels that it may touch; none: it is not seen, and the rest is not written */
-#define SHAPE_INK 1 /* texel */
+#define SHAPE_BOX 0 /* record: the pixels that it may touch; none: it is not seen, and the rest is not written */
+#define SHAPE_INK 1 /* record */
 #define INK_FILL 0  /* 0xRRGGBB as a number */
 #define INK_OUTLINE 1
 #define INK_WIDTH 2   /* pixels, of the outline */
 #define INK_OPACITY 3 /* 0..1 */
-#define SHAPE_EDGES 2 /* texel */
+#define SHAPE_EDGES 2 /* record */
 #define EDGES_FIRST 0
 #define EDGES_COUNT 1 /* 0: the whole box */
 #define LINE_EDGES 4  /* of a line */
 
-/* Edges: a half plane, or with a bend > 0 a disc of radius 1 / (2 bend): inside is where
+/* Edges: a record each, a half plane, or with a bend > 0 a disc of radius 1 / (2 bend): inside is where
  * at + x slope_x + y slope_y + (x^2 + y^2) bend < 0, with x and y from the centre of the box's first pixel */
 #define EDGE_SLOPE_X 0
 #define EDGE_SLOPE_Y 1

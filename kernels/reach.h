@@ -182,12 +182,11 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 			int row = first - (first & (columns - 1));
 			int from = cells[CELL_WIDTH * first + CELL_START], to = cells[CELL_WIDTH * last + CELL_END];
 			if (last < first) {
-				near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own,
-					cells[CELL_WIDTH * row + CELL_START], to, list, neighbours, half_at);
+				near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own, cells[CELL_WIDTH * row + CELL_START], to, list,
+					neighbours, half_at);
 				to = cells[CELL_WIDTH * (row + columns - 1) + CELL_END];
 			}
-			near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own, from, to, list, neighbours,
-				half_at);
+			near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own, from, to, list, neighbours, half_at);
 		}
 	}
 }

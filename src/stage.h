@@ -49,8 +49,8 @@ typedef enum carom_role {
 	ROLE_PLACED,      /* one texel a vertex */
 	ROLE_DRAWS,       /* DRAWS_WIDTH texels a body */
 	ROLE_MARKS,       /* MARKS_WIDTH texels a mark */
-	ROLE_SHAPES,      /* SHAPES_WIDTH texels a shape */
-	ROLE_EDGES,       /* one texel an edge */
+	ROLE_SHAPES,      /* SHAPES_WIDTH records a shape */
+	ROLE_EDGES,       /* one record an edge */
 	ROLE_FRAME,       /* FRAME_WIDTH x 1 */
 	ROLE_BIN_COUNTS,  /* list: two of each chunk and row of tiles */
 	ROLE_BIN_OFFSETS, /* list: the same */

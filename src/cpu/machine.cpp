@@ -44,7 +44,8 @@ void prefer_large_pages(void *memory, size_t bytes)
 	if (aligned < end && end - aligned >= large)
 		static_cast<void>(madvise(reinterpret_cast<void *>(aligned), (end - aligned) / large * large, MADV_HUGEPAGE));
 #else
-	static_cast<void>(memory), static_cast<void>(bytes);
+	static_cast<void>(memory);
+	static_cast<void>(bytes);
 #endif
 }
 
