@@ -225,14 +225,17 @@ private:
 	 * `above`, and not larger than `most`. */
 	void search_alike(int32_t s, const Box<T> &box, int32_t first, int32_t end, const Sizes &sizes, Finds &ahead, Finds &behind) const
 	{
+		const auto is_near = [&](int32_t other) {
+			return static_cast<int32_t>(box.touches(boxes[other])) & static_cast<int32_t>(sizes.have(boxes[other]));
+		};
 		int32_t *before = behind.next(end - first), *after = ahead.next(end - first);
 		for (int32_t other = first; other < std::min(end, s); other++) {
 			*before = other;
-			before += box.touches(boxes[other]) & sizes.have(boxes[other]);
+			before += is_near(other);
 		}
 		for (int32_t other = std::max(first, s + 1); other < end; other++) {
 			*after = other;
-			after += box.touches(boxes[other]) & sizes.have(boxes[other]);
+			after += is_near(other);
 		}
 		behind.keep(before);
 		ahead.keep(after);
