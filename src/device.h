@@ -73,6 +73,9 @@ bool carom_cl_has_alternative(const char *slot, const char *alternative);
 /* The index-th name of an alternative of `slot`, by name; NULL past the last. */
 const char *carom_cl_alternative(const char *slot, size_t index);
 
+/* Asks the system for large pages for memory that nobody has touched yet; where it has none nothing happens. */
+void carom_prefer_large_pages(void *memory, size_t size);
+
 void carom_cpu_info(carom_device_info *info);
 carom_status carom_cpu_open(const carom_device_def *def, carom_device **device, carom_error *error);
 /* The same stages in double precision: the tests' oracle. Uploads floats and downloads doubles (bytes stay bytes). */

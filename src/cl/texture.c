@@ -1,9 +1,4 @@
 /* Textures of the OpenCL device: images, or buffers of the same rows. */
-#ifdef __linux__
-#define _DEFAULT_SOURCE /* madvise */
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,24 +38,16 @@ static cl_int make_buffer(cl_device *d, carom_texture *t)
 	return code;
 }
 
-/* A CPU finds the pages of a texture much sooner if they are large: reading whole textures takes a fifth less. It has to be asked for before they are
- * touched, and where the system has none nothing happens. */
+/* Of a CPU, to which reading whole textures takes a fifth less then. It has to be asked for before they are touched. */
 static cl_int ask_for_large_pages(cl_device *d, carom_texture *t)
 {
-#ifdef MADV_HUGEPAGE
-	const size_t page = (size_t)sysconf(_SC_PAGESIZE), size = (size_t)t->width * t->height * texel_size(t->format);
+	const size_t size = (size_t)t->width * t->height * texel_size(t->format);
 	cl_int code;
-	char *memory = d->cl.clEnqueueMapBuffer(d->queue, t->memory, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, size, 0, NULL, NULL, &code);
+	void *memory = d->cl.clEnqueueMapBuffer(d->queue, t->memory, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, size, 0, NULL, NULL, &code);
 	if (code)
 		return code;
-	const size_t skipped = (page - (uintptr_t)memory % page) % page;
-	if (size > skipped)
-		madvise(memory + skipped, size - skipped, MADV_HUGEPAGE);
+	carom_prefer_large_pages(memory, size);
 	return d->cl.clEnqueueUnmapMemObject(d->queue, t->memory, memory, 0, NULL, NULL);
-#else
-	(void)d, (void)t;
-	return CL_SUCCESS;
-#endif
 }
 
 /* Drivers allocate when a texture is first touched: filling it now makes it fail now. */

@@ -114,7 +114,7 @@ static carom_status create(carom_device *device, const char *name, carom_texel_f
 	if (!made || !made->memory)
 		return fail_texture(error, CAROM_OUT_OF_MEMORY, name, width, height, bytes, "there is not enough memory on the CPU");
 	if (format == TEXELS_LIST || format == TEXELS_RECORD)
-		prefer_large_pages(made->memory.get(), bytes);
+		carom_prefer_large_pages(made->memory.get(), bytes);
 	if (std::any_of(fill, fill + 4, [](float channel) { return channel != 0; }))
 		fill_rows<T>(*made, fill); /* else the pages stay the system's until they are written */
 	*texture = reinterpret_cast<carom_texture *>(made.release());

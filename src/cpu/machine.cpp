@@ -1,6 +1,5 @@
 #include "cpu/machine.hpp"
 
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -34,19 +33,6 @@ static uint64_t physical_memory()
 		return static_cast<uint64_t>(pages) * static_cast<uint64_t>(size);
 #endif
 	return uint64_t(1) << 30;
-}
-
-void prefer_large_pages(void *memory, size_t bytes)
-{
-#ifdef MADV_HUGEPAGE
-	constexpr uintptr_t large = uintptr_t(1) << 21;
-	const uintptr_t start = reinterpret_cast<uintptr_t>(memory), aligned = (start + large - 1) / large * large, end = start + bytes;
-	if (aligned < end && end - aligned >= large)
-		static_cast<void>(madvise(reinterpret_cast<void *>(aligned), (end - aligned) / large * large, MADV_HUGEPAGE));
-#else
-	static_cast<void>(memory);
-	static_cast<void>(bytes);
-#endif
 }
 
 void describe_machine(carom_device_info &info)

@@ -2,17 +2,12 @@
 #ifndef CAROM_CPU_MACHINE_HPP
 #define CAROM_CPU_MACHINE_HPP
 
-#include <cstddef>
-
 #include "carom.h"
 
 namespace carom::cpu {
 
 /* Fills in the names, the cores and the memory. Where the memory is not known it is taken to be 1 GiB. */
 void describe_machine(carom_device_info &info);
-
-/* Asks the system for large pages, where it has them: what is read here and there is found faster. Only whole ones in the memory are taken. */
-void prefer_large_pages(void *memory, size_t bytes);
 
 }
 
