@@ -2,11 +2,14 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cl/api.h"
 #include "faults/walk.h"
 
-static int grown; /* lists that could not */
+static int grown;  /* lists that could not */
+static int spared; /* calls of the cache, which is done without */
+static char cache[] = "/tmp/carom-test-XXXXXX";
 
 static void opencl_failed(const char *call, carom_status status, const carom_error *error)
 {
@@ -22,12 +25,50 @@ static void opencl_failed(const char *call, carom_status status, const carom_err
 	grown += strstr(error->text, "Neighbours, ") && strstr(error->text, "can't be made");
 }
 
+static void empty_cache(void)
+{
+	char line[128];
+	snprintf(line, sizeof line, "rm -f '%s'/*", cache);
+	assert_int_equal(system(line), 0);
+}
+
+/* Without these kernels are built from their sources, or not kept. */
+static void cache_failed(const char *call, carom_status status, const carom_error *error)
+{
+	static const char *const calls[] = {"clGetPlatformInfo", "clGetDeviceInfo", "clCreateProgramWithBinary", "clBuildProgram", "clGetProgramInfo"};
+	for (size_t i = 0; call && !status && i < sizeof calls / sizeof *calls; i++) {
+		if (strcmp(call, calls[i]) == 0) {
+			spared++;
+			return;
+		}
+	}
+	opencl_failed(call, status, error);
+}
+
+static void empty_cache_failed(const char *call, carom_status status, const carom_error *error)
+{
+	if (call && strcmp(call, "clBuildProgram") == 0)
+		assert_int_not_equal(status, CAROM_OK);
+	cache_failed(call, status, error);
+	empty_cache();
+}
+
+/* With a cache that is empty each time, then with one that has all. For each of two programs two calls ask for the platform and five for the device, and two
+ * get the program from the cache or into it. */
 static void worlds_that_open(void **unused)
 {
 	(void)unused;
-	SCENERY_EACH_DEVICE(device)
-		if (device->storage == CAROM_STORAGE_BUFFER) /* of OpenCL; with images it is the same */
-			walk_opening(device, "events", FAULTS_OPENCL, opencl_failed);
+	static walk_judge *const judges[] = {empty_cache_failed, cache_failed};
+	assert_non_null(mkdtemp(cache));
+	setenv("CAROM_CACHE", cache, 1);
+	for (int i = 0; i < 2; i++) {
+		spared = 0;
+		if (walk_opening(&scenery_devices[2], "events", FAULTS_OPENCL, judges[i])) /* with images it is the same */
+			assert_int_equal(spared, 2 * (2 + 5 + 2));
+	}
+	unsetenv("CAROM_CACHE");
+	empty_cache();
+	assert_int_equal(rmdir(cache), 0);
 }
 
 static void worlds_that_run(void **unused)

@@ -44,4 +44,16 @@ cl_int carom_cl_has_formats(const carom_cl_api *cl, cl_context context, bool *ha
 carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws, bool images,
 	bool exact, cl_program *program, carom_error *error);
 
+/* A place for a program among those kept in the folder that CAROM_CACHE names. NULL, which all take, where nothing is kept. */
+typedef struct carom_cl_entry carom_cl_entry;
+carom_cl_entry *carom_cl_cache_find(const carom_cl_api *cl, cl_device_id device, const char *options, char *const *sources, size_t count);
+/* The program, built; NULL if it is not there, or not what it was when it was kept. */
+cl_program carom_cl_cache_load(const carom_cl_entry *entry, const carom_cl_api *cl, cl_context context, cl_device_id device, const char *options);
+/* Keeps a program that was built, in place of what is there, if it can. */
+void carom_cl_cache_keep(const carom_cl_entry *entry, const carom_cl_api *cl, cl_program program);
+void carom_cl_cache_leave(carom_cl_entry *entry);
+
+/* All of a file, with a NUL behind it, to be freed; NULL if it can't be read. */
+char *carom_cl_read_file(const char *path, size_t *size);
+
 #endif

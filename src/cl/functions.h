@@ -17,6 +17,8 @@
 	X(clCreateCommandQueue)       \
 	X(clReleaseCommandQueue)      \
 	X(clCreateProgramWithSource)  \
+	X(clCreateProgramWithBinary)  \
+	X(clGetProgramInfo)           \
 	X(clBuildProgram)             \
 	X(clGetProgramBuildInfo)      \
 	X(clReleaseProgram)           \

@@ -2,6 +2,7 @@
  * of the slots. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cl/api.h"
 #include "cl/kernels.h"
@@ -44,23 +45,29 @@ const char *carom_cl_alternative(const char *slot, size_t index)
 	return NULL;
 }
 
+char *carom_cl_read_file(const char *path, size_t *size)
+{
+	FILE *file = fopen(path, "rb");
+	struct stat info;
+	char *bytes = NULL;
+	if (!file)
+		return NULL;
+	if (!fstat(fileno(file), &info) && S_ISREG(info.st_mode) && (bytes = malloc((size_t)info.st_size + 1)))
+		bytes[ *size = fread(bytes, 1, (size_t)info.st_size, file)] = 0;
+	fclose(file);
+	return bytes;
+}
+
 /* While developing, CAROM_KERNEL_DIR names a folder to read the kernels from instead; NULL where it has none. */
 static char *read_override(const char *path)
 {
 	const char *folder = getenv("CAROM_KERNEL_DIR");
-	char name[4096], *text = NULL;
-	FILE *file;
-	long size;
+	char name[4096];
+	size_t size;
 	if (!folder)
 		return NULL;
 	snprintf(name, sizeof name, "%s/%s", folder, path + strlen("kernels/"));
-	file = fopen(name, "rb");
-	if (!file)
-		return NULL;
-	if (!fseek(file, 0, SEEK_END) && (size = ftell(file)) >= 0 && !fseek(file, 0, SEEK_SET) && (text = malloc((size_t)size + 1)))
-		text[fread(text, 1, (size_t)size, file)] = 0;
-	fclose(file);
-	return text;
+	return carom_cl_read_file(name, &size);
 }
 
 static carom_status append(sources *all, const char *slot, const char *name, carom_error *error)
@@ -118,34 +125,55 @@ static void keep_log(const carom_cl_api *cl, cl_program program, cl_device_id de
 	free(log);
 }
 
+static carom_status build_sources(const carom_cl_api *cl, cl_context context, cl_device_id device, const char *options, const sources *all,
+	cl_program *program, carom_error *error)
+{
+	cl_int code;
+	cl_program built = cl->clCreateProgramWithSource(context, (cl_uint)all->count, (const char **)all->text, NULL, &code);
+	if (built)
+		code = cl->clBuildProgram(built, 1, &device, options, NULL, NULL);
+	if (!code) {
+		*program = built;
+		return CAROM_OK;
+	}
+	const carom_status status = carom_cl_fail(error, code, "the kernels can't be built");
+	if (built) {
+		keep_log(cl, built, device, error);
+		cl->clReleaseProgram(built);
+	}
+	return status;
+}
+
+/* From the cache, or from the sources into it. */
+static carom_status make_program(const carom_cl_api *cl, cl_context context, cl_device_id device, const char *options, const sources *all,
+	cl_program *program, carom_error *error)
+{
+	carom_cl_entry *kept = carom_cl_cache_find(cl, device, options, all->text, all->count);
+	carom_status status = CAROM_OK;
+	cl_program loaded = carom_cl_cache_load(kept, cl, context, device, options);
+	if (loaded) {
+		*program = loaded;
+	} else {
+		status = build_sources(cl, context, device, options, all, program, error);
+		if (!status)
+			carom_cl_cache_keep(kept, cl, *program);
+	}
+	carom_cl_cache_leave(kept);
+	return status;
+}
+
 carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws, bool images,
 	bool exact, cl_program *program, carom_error *error)
 {
 	/* the macro brings back the image functions that PoCL 7.1 hides from OpenCL C 1.2 */
 	char options[256];
 	sources all = {.count = 0};
-	cl_program built = NULL;
-	cl_int code;
 	carom_status status = collect(&all, &def->pipeline, draws, error);
-	if (status)
-		goto end;
 	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s%s", images ? " -DCAROM_IMAGES" : "",
 		!strcmp(carom_pipeline_get(&def->pipeline, "step"), "events") ? " -DCAROM_OUTLINES" : "", def->count_reads ? " -DCAROM_COUNT_READS" : "",
 		exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
-	built = cl->clCreateProgramWithSource(context, (cl_uint)all.count, (const char **)all.text, NULL, &code);
-	if (built)
-		code = cl->clBuildProgram(built, 1, &device, options, NULL, NULL);
-	if (code) {
-		status = carom_cl_fail(error, code, "the kernels can't be built");
-		if (built)
-			keep_log(cl, built, device, error);
-		goto end;
-	}
-	*program = built;
-	built = NULL;
-end:
-	if (built)
-		cl->clReleaseProgram(built);
+	if (!status)
+		status = make_program(cl, context, device, options, &all, program, error);
 	for (size_t i = 0; i < all.count; i++)
 		free(all.text[i]);
 	return status;

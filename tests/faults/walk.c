@@ -84,10 +84,15 @@ static carom_status open_all(const char *path, const scenery_device *device, con
 	return status;
 }
 
-void walk_opening(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge)
+bool walk_opening(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge)
 {
+	const carom_world_def def = carom_default_world_def();
+	carom_world *world = scenery_world(&def, device);
 	char path[128];
 	const char *failed = "";
+	if (!world)
+		return false;
+	carom_world_destroy(world);
 	snprintf(path, sizeof path, "%s/everything.json", folder);
 	write_text(path, everything, sizeof everything - 1);
 	for (uint64_t n = 1; failed; n++) {
@@ -100,6 +105,7 @@ void walk_opening(const scenery_device *device, const char *step, faults_kind ki
 		nothing_is_alive(failed);
 	}
 	unlink(path);
+	return true;
 }
 
 /* ---- Running */

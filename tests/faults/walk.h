@@ -10,8 +10,8 @@
 typedef void walk_judge(const char *call, carom_status status, const carom_error *error);
 
 /* Reads a scene, makes a world and draws it: the n-th call of the kind fails, for every n. Nothing may be left over, and what could not be
- * drawn can be, when it is tried again. */
-void walk_opening(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge);
+ * drawn can be, when it is tried again. False where there is no such device. */
+bool walk_opening(const scenery_device *device, const char *step, faults_kind kind, walk_judge *judge);
 
 /* Steps, measures, hashes, writes and draws a world that has no textures yet, likewise. After a failure the state is that after the
  * steps that are reported, files are as they were before, and what failed works when it is tried again. */
