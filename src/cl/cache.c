@@ -64,8 +64,10 @@ carom_cl_entry *carom_cl_cache_find(const carom_cl_api *cl, cl_device_id device,
 		return NULL;
 	if (make_key(e, cl, device, options, sources, count)) {
 		int length = snprintf(e->path, sizeof e->path, "%s/carom-%016" PRIx64 ".kernels", folder, hash(e->key, e->size));
-		if (length > 0 && (size_t)length < sizeof e->path)
+		if (length > 0 && (size_t)length < sizeof e->path) {
+			mkdir(folder, 0700); /* its owner's alone: what is in it is run */
 			return e;
+		}
 	}
 	carom_cl_cache_leave(e);
 	return NULL;
@@ -106,12 +108,10 @@ cl_program carom_cl_cache_load(const carom_cl_entry *e, const carom_cl_api *cl, 
 	return program;
 }
 
-/* The folder is its owner's alone: what is in it is run. */
 static void write_file(const char *path, const char *bytes, size_t size)
 {
 	carom_file *file;
 	FILE *stream;
-	mkdir(getenv("CAROM_CACHE"), 0700);
 	if (carom_file_create(path, &file, &stream, NULL))
 		return;
 	fwrite(bytes, 1, size, stream);
