@@ -308,7 +308,7 @@
 #define DRAW_PARTS 0   /* texel */
 #define PARTS_VERTEX 0 /* the first in Stream and Placed */
 #define PARTS_COUNT 1  /* of vertices */
-#define PARTS_EDGE 2   /* the first: a polygon has `count`, a circle 1 and LINE_EDGES of its radius line */
+#define PARTS_EDGE 2   /* the first in Edges: a polygon has all but one there, a circle LINE_REST of its radius line */
 #define PARTS_SHAPE 3  /* a polygon has one, a circle two */
 #define DRAW_INK 1     /* texel, the channels of SHAPE_INK */
 
@@ -319,18 +319,22 @@
 #define STYLE_COLOR 0
 #define STYLE_BREADTH 1 /* pixels, of a line; 0: a box */
 
-/* Shapes: three records a shape, in painter's order */
-#define SHAPES_WIDTH 3
-#define SHAPE_BOX 0 /* record: the pixels that it may touch; none: it is not seen, and the rest is not written */
+/* Boxes: a record a shape, in painter's order: the pixels that it may touch; none: it is not seen, and Shapes has nothing of it */
+
+/* Shapes: four records a shape, which are a line of a cache */
+#define SHAPES_WIDTH 4
+#define SHAPE_BOX 0 /* record: as in Boxes */
 #define SHAPE_INK 1 /* record */
 #define INK_FILL 0  /* 0xRRGGBB as a number */
 #define INK_OUTLINE 1
 #define INK_WIDTH 2   /* pixels, of the outline */
 #define INK_OPACITY 3 /* 0..1 */
 #define SHAPE_EDGES 2 /* record */
-#define EDGES_FIRST 0
+#define EDGES_REST 0  /* the second edge in Edges, and those after it */
 #define EDGES_COUNT 1 /* 0: the whole box */
+#define SHAPE_EDGE 3  /* record: the first edge */
 #define LINE_EDGES 4  /* of a line */
+#define LINE_REST 3   /* those of them that are in Edges */
 
 /* Edges: a record each, a half plane, or with a bend > 0 a disc of radius 1 / (2 bend): inside is where
  * at + x slope_x + y slope_y + (x^2 + y^2) bend < 0, with x and y from the centre of the box's first pixel */

@@ -9,6 +9,12 @@ uint16 levels(float16 squared)
 	return convert_uint16(sqrt(squared > 0.0f ? squared : (float16)(0.0f)) + 0.5f);
 }
 
+/* The four of a pixel as a word, as it lies in memory. */
+uint16 bytes_of(lights all)
+{
+	return levels(all.red) | levels(all.green) << 8 | levels(all.blue) << 16 | 255u << 24;
+}
+
 /* Of 16 pixels number k is this one, if the frame has it. */
 int2 pixel_of(int2 first, int k)
 {
@@ -42,15 +48,22 @@ void keep(lights all, RECORD_OUT(light), int2 first, int2 size)
 	}
 }
 
-void show(lights all, BYTES_OUT(picture), int2 first, int2 size)
+void show_row(uint8 words, BYTES_OUT(picture), int x, int y, int2 size)
 {
-	uint reds[16], greens[16], blues[16];
-	vstore16(levels(all.red), 0, reds);
-	vstore16(levels(all.green), 0, greens);
-	vstore16(levels(all.blue), 0, blues);
-	for (int k = 0; k < 16; k++) {
-		int2 at = pixel_of(first, k);
-		if (at.x < size.x && at.y < size.y)
-			BYTES_STORE(picture, at.x, at.y, (uint4)(reds[k], greens[k], blues[k], 255));
+	uint each[8];
+	if (y >= size.y)
+		return;
+	if (x + 8 <= size.x) {
+		BYTES_STORE8(picture, x, y, words);
+		return;
 	}
+	vstore8(words, 0, each);
+	for (int k = 0; x + k < size.x; k++)
+		BYTES_STORE(picture, x + k, y, convert_uint4(as_uchar4(each[k])));
+}
+
+void show(uint16 words, BYTES_OUT(picture), int2 first, int2 size)
+{
+	show_row(words.lo, TEX(picture), first.x, first.y, size);
+	show_row(words.hi, TEX(picture), first.x, first.y + 1, size);
 }

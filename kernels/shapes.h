@@ -1,8 +1,8 @@
 /* Convex shapes in pixels, y down, clipped and measured from the first pixel that they may touch: there floats are exact
  * enough for any shape. */
 
-#define SHAPES_OUT RECORD_OUT(shapes), RECORD_OUT(edges)
-#define SHAPES shapes, edges
+#define SHAPES_OUT RECORD_OUT(boxes), RECORD_OUT(shapes), RECORD_OUT(edges)
+#define SHAPES boxes, shapes, edges
 
 float clamped(float v, float low, float high) /* NaN becomes low */
 {
@@ -56,17 +56,28 @@ float4 ink_of(float fill, float outline, float width, float opacity, float bread
 		clamped(opacity, 0.0f, 1.0f) * clamped(breadth, least, 1.0f));
 }
 
-void put_shape(RECORD_OUT(shapes), int shape, float4 box, float4 ink, int first, int count)
+/* False: it is not seen. `rest`: where its other edges are. */
+bool put_shape(SHAPES_OUT, int shape, float4 box, float4 ink, int rest, int count)
 {
-	shapes[SHAPES_WIDTH * shape + SHAPE_BOX] = box;
+	boxes[shape] = box;
 	if (is_empty(box))
-		return;
+		return false;
+	shapes[SHAPES_WIDTH * shape + SHAPE_BOX] = box;
 	shapes[SHAPES_WIDTH * shape + SHAPE_INK] = ink;
-	shapes[SHAPES_WIDTH * shape + SHAPE_EDGES] = (float4)((float)first, (float)count, 0.0f, 0.0f);
+	shapes[SHAPES_WIDTH * shape + SHAPE_EDGES] = (float4)((float)rest, (float)count, 0.0f, 0.0f);
+	return true;
+}
+
+void put_edge(SHAPES_OUT, int shape, int rest, int k, float4 edge)
+{
+	if (k == 0)
+		shapes[SHAPES_WIDTH * shape + SHAPE_EDGE] = edge;
+	else
+		edges[rest + k - 1] = edge;
 }
 
 /* From `from` along a unit vector, with square ends. */
-void put_line(SHAPES_OUT, int shape, int edge, float2 from, float2 along, float reach, float breadth, float color, float opacity, float4 clip)
+void put_line(SHAPES_OUT, int shape, int rest, float2 from, float2 along, float reach, float breadth, float color, float opacity, float4 clip)
 {
 	float half_breadth = 0.5f * breadth, x = half_breadth * magnitude(along.y), y = half_breadth * magnitude(along.x);
 	float2 to = (float2)(from.x + along.x * reach, from.y + along.y * reach);
@@ -75,13 +86,12 @@ void put_line(SHAPES_OUT, int shape, int edge, float2 from, float2 along, float 
 	float size = norm((float2)(high.x - low.x, high.y - low.y));
 	float seen_breadth = (reach * breadth) / larger(size, 1.0f), out = growth(seen_breadth);
 	float4 box = reach > 0.0f ? touched_box(low, high, out, clip) : (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	put_shape(shapes, shape, box, ink_of(color, color, 0.0f, opacity, seen_breadth, size), edge, LINE_EDGES);
-	if (is_empty(box))
+	if (!put_shape(SHAPES, shape, box, ink_of(color, color, 0.0f, opacity, seen_breadth, size), rest, LINE_EDGES))
 		return;
 	float2 at = (float2)(first_pixel(box).x - from.x, first_pixel(box).y - from.y), across = (float2)(along.y, -along.x);
 	float ahead = inner(along, at), aside = inner(across, at), side = half_breadth + out;
-	edges[edge] = (float4)(-along.x, -along.y, -ahead - out, 0.0f);
-	edges[edge + 1] = (float4)(along.x, along.y, (ahead - reach) - out, 0.0f);
-	edges[edge + 2] = (float4)(-across.x, -across.y, -aside - side, 0.0f);
-	edges[edge + 3] = (float4)(across.x, across.y, aside - side, 0.0f);
+	put_edge(SHAPES, shape, rest, 0, (float4)(-along.x, -along.y, -ahead - out, 0.0f));
+	put_edge(SHAPES, shape, rest, 1, (float4)(along.x, along.y, (ahead - reach) - out, 0.0f));
+	put_edge(SHAPES, shape, rest, 2, (float4)(-across.x, -across.y, -aside - side, 0.0f));
+	put_edge(SHAPES, shape, rest, 3, (float4)(across.x, across.y, aside - side, 0.0f));
 }

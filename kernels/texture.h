@@ -25,6 +25,13 @@
 #define TEX_STORE(t, x, y, texel) write_imagef(t, (int2)((x), (y)), (texel))
 #define BYTES_LOAD(t, x, y) (COUNT(t) read_imageui(t, (int2)((x), (y))))
 #define BYTES_STORE(t, x, y, texel) write_imageui(t, (int2)((x), (y)), (texel))
+#define WORD_STORE(t, x, y, word) write_imageui(t, (int2)((x), (y)), convert_uint4(as_uchar4(word)))
+#define BYTES_STORE8(t, x, y, words)                                                                                   \
+	{                                                                                                                  \
+		WORD_STORE(t, (x), y, words.s0), WORD_STORE(t, (x) + 1, y, words.s1), WORD_STORE(t, (x) + 2, y, words.s2);     \
+		WORD_STORE(t, (x) + 3, y, words.s3), WORD_STORE(t, (x) + 4, y, words.s4), WORD_STORE(t, (x) + 5, y, words.s5); \
+		WORD_STORE(t, (x) + 6, y, words.s6), WORD_STORE(t, (x) + 7, y, words.s7);                                      \
+	}
 #else
 #define TEX_IN(t) __global const float4 *restrict t, int t##_width COUNTER(t)
 #define TEX_OUT(t) __global float4 *restrict t, int t##_width COUNTER(t)
@@ -35,6 +42,7 @@
 #define TEX_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = (texel))
 #define BYTES_LOAD(t, x, y) (COUNT(t) convert_uint4((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)]))
 #define BYTES_STORE(t, x, y, texel) ((t)[(size_t)(y) * (size_t)(t##_width) + (size_t)(x)] = convert_uchar4(texel))
+#define BYTES_STORE8(t, x, y, words) vstore8(words, 0, (__global uint *)((t) + (size_t)(y) * (size_t)(t##_width) + (size_t)(x)))
 #endif
 
 /* TEX_STREAM stores what a later kernel reads: past the caches where the compiler can, for they would first fetch what is overwritten, and have
@@ -51,9 +59,19 @@
  * is inlined.) */
 #define LIST_IN(t) __global const int *t
 #define LIST_OUT(t) __global int *t
+/* Lists of two ints an entry. */
+#define PAIRS_IN(t) __global const int2 *t
+#define PAIRS_OUT(t) __global int2 *t
 /* Records, four floats, likewise. */
 #define RECORD_IN(t) __global const float4 *t
 #define RECORD_OUT(t) __global float4 *t
+
+/* FETCH brings what will be read soon into the caches: on CPUs, where all memory has one kind of address. */
+#if defined(__has_builtin) && (defined(__x86_64__) || defined(__aarch64__))
+#define FETCH(address) __builtin_prefetch((const void *)(size_t)(address))
+#else
+#define FETCH(address) (void)(address)
+#endif
 
 /* An int that other work-items may be changing atomically, read without waiting for them: what is found may be old, which costs time at most.
  * Where races are looked for (Oclgrind) the read is atomic, too, so that what is still reported is a mistake. */

@@ -16,7 +16,7 @@
 #define MOST_TEXELS (1ull << 24)
 /* Room for all marks of a layer, and the smallest block. */
 #define LEAST_TEXELS 512u
-#define MARK_TEXELS (LINE_EDGES * CAROM_MAX_MARKS)
+#define MARK_TEXELS (SHAPES_WIDTH * CAROM_MAX_MARKS)
 
 /* What there are shapes of, but no pixels yet. More than there is room for are drawn in passes, each over those before. */
 typedef struct carom_pass {
@@ -49,9 +49,10 @@ static carom_status hold_shapes(carom_world *world, const carom_picture *picture
 	uint64_t shapes = 0, edges = 0;
 	for (size_t i = 0; i < picture->layer_count; i++) {
 		shapes += picture->layers[i].mark_count + world->canvas.all_shapes;
-		edges += LINE_EDGES * picture->layers[i].mark_count + world->canvas.all_edges;
+		edges += LINE_REST * picture->layers[i].mark_count + world->canvas.all_edges;
 	}
 	*at_once = has_room(most, shapes, edges);
+	TRY(carom_canvas_hold(world, ROLE_BOXES, *at_once ? shapes : most / SHAPES_WIDTH, error));
 	TRY(carom_canvas_hold(world, ROLE_SHAPES, *at_once ? SHAPES_WIDTH * shapes : most, error));
 	return carom_canvas_hold(world, ROLE_EDGES, *at_once ? edges : most, error);
 }
@@ -69,7 +70,7 @@ static carom_status make_shapes(carom_world *world, const carom_picture *picture
 	if (items)
 		TRY(carom_run(world, STAGE_SHAPES, items, 1, (int32_t)marks, 0, error));
 	pass->shapes += marks + canvas->shapes;
-	pass->edges += LINE_EDGES * marks + canvas->edges;
+	pass->edges += LINE_REST * marks + canvas->edges;
 	return CAROM_OK;
 }
 
@@ -93,7 +94,8 @@ static carom_status hold_picture(carom_world *world, uint32_t width, uint32_t he
 static carom_status sort_shapes(carom_world *world, uint32_t shapes, int32_t rows, carom_error *error)
 {
 	const uint32_t *room = world->canvas.room;
-	const int32_t chunks = carom_parts_of(shapes, BIN_CHUNK), row_room = (int32_t)room[ROLE_ROW_LIST], tile_room = (int32_t)room[ROLE_TILE_LIST];
+	const int32_t chunks = carom_parts_of(shapes, BIN_CHUNK), row_room = (int32_t)(room[ROLE_ROW_LIST] / 2),
+				  tile_room = (int32_t)room[ROLE_TILE_LIST];
 	if (chunks)
 		TRY(carom_run(world, STAGE_BIN_COUNT, chunks, 1, (int32_t)shapes, 0, error));
 	TRY(carom_run(world, STAGE_BIN_SUM, rows, 1, chunks, 0, error));
@@ -105,7 +107,7 @@ static carom_status sort_shapes(carom_world *world, uint32_t shapes, int32_t row
 /* Makes the lists longer if they were too short: `again` tells. */
 static carom_status check_lists(carom_world *world, int32_t rows, bool *again, carom_error *error)
 {
-	const uint32_t row_room = world->canvas.room[ROLE_ROW_LIST], tile_room = world->canvas.room[ROLE_TILE_LIST];
+	const uint32_t row_room = world->canvas.room[ROLE_ROW_LIST] / 2, tile_room = world->canvas.room[ROLE_TILE_LIST];
 	const uint32_t room = world->canvas.room[ROLE_BIN_TOTALS];
 	uint64_t in_rows = 0, in_tiles = 0;
 	uint32_t *totals = calloc(room, sizeof *totals);
@@ -120,7 +122,7 @@ static carom_status check_lists(carom_world *world, int32_t rows, bool *again, c
 	free(totals);
 	*again = in_rows > row_room || in_tiles > tile_room;
 	if (!status)
-		status = carom_canvas_hold(world, ROLE_ROW_LIST, in_rows, error);
+		status = carom_canvas_hold(world, ROLE_ROW_LIST, 2 * in_rows, error);
 	return status ? status : carom_canvas_hold(world, ROLE_TILE_LIST, in_tiles, error);
 }
 
@@ -135,14 +137,14 @@ static carom_status draw_pass(carom_world *world, carom_pixels block, uint32_t g
 	TRY(carom_canvas_hold(world, ROLE_BIN_OFFSETS, counts, error));
 	TRY(carom_canvas_hold(world, ROLE_BIN_TOTALS, 2 * (uint64_t)rows, error));
 	TRY(carom_canvas_hold(world, ROLE_TILE_ENDS, (uint64_t)(columns + 1) * (uint64_t)rows, error));
-	TRY(carom_canvas_hold(world, ROLE_ROW_LIST, 2 * (uint64_t)pass->shapes, error));
+	TRY(carom_canvas_hold(world, ROLE_ROW_LIST, 4 * (uint64_t)pass->shapes, error));
 	TRY(carom_canvas_hold(world, ROLE_TILE_LIST, 3 * (uint64_t)pass->shapes + (uint64_t)columns * (uint64_t)rows, error));
 	TRY(carom_canvas_send_frame(world, block, ground, (pass->is_first ? 0u : PASS_OVER) | (pass->is_last ? 0u : PASS_UNDER), error));
 	while (again) {
 		TRY(sort_shapes(world, pass->shapes, rows, error));
 		TRY(check_lists(world, rows, &again, error));
 	}
-	TRY(carom_run(world, STAGE_PIXELS, columns * (PIXEL_TILE / 2), rows, (int32_t)world->canvas.room[ROLE_TILE_LIST], 0, error));
+	TRY(carom_run(world, STAGE_PIXELS, columns, rows, (int32_t)world->canvas.room[ROLE_TILE_LIST], 0, error));
 	pass->is_first = false;
 	pass->shapes = pass->edges = 0;
 	return CAROM_OK;
@@ -155,7 +157,7 @@ static carom_status draw_layer(carom_world *world, const carom_picture *picture,
 	uint64_t drawn = 0;
 	do {
 		TRY(carom_canvas_send_bodies(world, drawn, pass->most - MARK_TEXELS, error));
-		if (!has_room(pass->most, pass->shapes + marks + world->canvas.shapes, pass->edges + LINE_EDGES * marks + world->canvas.edges))
+		if (!has_room(pass->most, pass->shapes + marks + world->canvas.shapes, pass->edges + LINE_REST * marks + world->canvas.edges))
 			TRY(draw_pass(world, block, picture->ground, pass, error));
 		TRY(make_shapes(world, picture, layer, marks, pass, error));
 		drawn = world->canvas.end;

@@ -85,9 +85,10 @@ static void fill_draw(const carom_body *body, uint32_t index, const carom_canvas
 	ink[INK_OUTLINE] = (float)carom_darker_color(fill);
 }
 
+/* In Edges. */
 static uint32_t edges_of(const carom_body *body)
 {
-	return body->vertex_count == 1 ? 1 + LINE_EDGES : body->vertex_count;
+	return body->vertex_count == 1 ? LINE_REST : body->vertex_count - 1;
 }
 
 static uint32_t shapes_of(const carom_body *body)

@@ -49,13 +49,14 @@ typedef enum carom_role {
 	ROLE_PLACED,      /* one texel a vertex */
 	ROLE_DRAWS,       /* DRAWS_WIDTH texels a body */
 	ROLE_MARKS,       /* MARKS_WIDTH texels a mark */
+	ROLE_BOXES,       /* one record a shape */
 	ROLE_SHAPES,      /* SHAPES_WIDTH records a shape */
-	ROLE_EDGES,       /* one record an edge */
+	ROLE_EDGES,       /* one record an edge, but for the first of each shape */
 	ROLE_FRAME,       /* FRAME_WIDTH x 1 */
 	ROLE_BIN_COUNTS,  /* list: two of each chunk and row of tiles */
 	ROLE_BIN_OFFSETS, /* list: the same */
 	ROLE_BIN_TOTALS,  /* list: two of each row of tiles */
-	ROLE_ROW_LIST,    /* list: the shapes of each row of tiles */
+	ROLE_ROW_LIST,    /* list: the shapes of each row of tiles, two ints each */
 	ROLE_TILE_ENDS,   /* list: columns + 1 of each row of tiles */
 	ROLE_TILE_LIST,   /* list: the shapes of each tile */
 	ROLE_LIGHT,       /* records, one a pixel; one alone where a single pass draws all */
@@ -97,7 +98,7 @@ typedef enum carom_stage {
 	STAGE_BIN_SUM,   /* (rows of tiles, 1, chunks) */
 	STAGE_BIN_ROWS,  /* (chunks, 1, shapes, room in the list) */
 	STAGE_BIN_TILES, /* (rows of tiles, 1, room in the rows' list, room in the tiles') */
-	STAGE_PIXELS,    /* (tile columns x PIXEL_TILE / 2, rows of tiles, room in the tiles' list): two rows of pixels */
+	STAGE_PIXELS,    /* (tile columns, rows of tiles, room in the tiles' list): a tile of pixels */
 	STAGE_COUNT
 } carom_stage;
 

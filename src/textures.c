@@ -30,8 +30,8 @@ static carom_texel_format format_of(carom_role role)
 {
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED)
 		return TEXELS_LIST;
-	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_SHAPES || role == ROLE_EDGES
-		|| role == ROLE_LIGHT)
+	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES || role == ROLE_SHAPES
+		|| role == ROLE_EDGES || role == ROLE_LIGHT)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -73,6 +73,7 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_PLACED] = "Placed",
 	[ROLE_DRAWS] = "Draws",
 	[ROLE_MARKS] = "Marks",
+	[ROLE_BOXES] = "Boxes",
 	[ROLE_SHAPES] = "Shapes",
 	[ROLE_EDGES] = "Edges",
 	[ROLE_FRAME] = "Frame",
@@ -313,14 +314,12 @@ static carom_status unload(carom_world *world, carom_error *error)
 	return status;
 }
 
-carom_status carom_textures_hold(carom_world *world, carom_error *error)
+static carom_status hold(carom_world *world, carom_error *error)
 {
 	const uint32_t polygons = carom_polygon_texels(world);
 	const uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(polygons + circle_texels(world));
 	const uint32_t polygon_capacity = polygons ? carom_capacity(polygons) : 0;
-	carom_status status = unload(world, error);
-	if (status)
-		return status;
+	carom_status status = CAROM_OK;
 	if (capacity != world->capacity || vertex_capacity != world->vertex_capacity || polygon_capacity != world->polygon_capacity) {
 		carom_textures_destroy(world);
 		status = create_all(world, capacity, vertex_capacity, error);
@@ -344,6 +343,12 @@ carom_status carom_textures_hold(carom_world *world, carom_error *error)
 	if (!status)
 		world->device_current = true;
 	return status;
+}
+
+carom_status carom_textures_hold(carom_world *world, carom_error *error)
+{
+	carom_status status = unload(world, error);
+	return status || (world->bodies_current && world->device_current) ? status : hold(world, error);
 }
 
 carom_status carom_textures_update(carom_world *world, carom_error *error)

@@ -52,10 +52,11 @@ static void compare_values(trial *t, carom_role role, uint32_t items)
 static void compare_stages(trial *t, uint32_t marks, uint32_t width, uint32_t height)
 {
 	const carom_canvas *canvas = &t->reference->canvas;
-	const uint32_t shapes = marks + canvas->shapes, edges = LINE_EDGES * marks + canvas->edges;
+	const uint32_t shapes = marks + canvas->shapes, edges = LINE_REST * marks + canvas->edges;
 	const uint32_t columns = (width + PIXEL_TILE - 1) / PIXEL_TILE, rows = (height + PIXEL_TILE - 1) / PIXEL_TILE;
 	int32_t *ends = fetch(t->reference, ROLE_TILE_ENDS, rows * (columns + 1), sizeof(float));
 	compare_bits(t, ROLE_PLACED, canvas->vertices, 4 * sizeof(float));
+	compare_bits(t, ROLE_BOXES, shapes, 4 * sizeof(float));
 	compare_bits(t, ROLE_SHAPES, SHAPES_WIDTH * shapes, 4 * sizeof(float));
 	compare_bits(t, ROLE_EDGES, edges, 4 * sizeof(float));
 	compare_bits(t, ROLE_BIN_TOTALS, 2 * rows, sizeof(int32_t));

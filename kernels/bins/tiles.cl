@@ -2,9 +2,8 @@
  * counted and written by one work-item each, so the order holds without atomics. */
 
 /* The tiles that a shape touches: first column and row, and those behind the last; none: the columns are equal. */
-int4 tiles_of(RECORD_IN(shapes), float4 frame, int shape)
+int4 tiles_of(float4 box, float4 frame)
 {
-	float4 box = shapes[SHAPES_WIDTH * shape + SHAPE_BOX];
 	int x0 = (int)(larger(CHANNEL(box, BOX_X0), CHANNEL(frame, BOX_X0)) - CHANNEL(frame, BOX_X0));
 	int y0 = (int)(larger(CHANNEL(box, BOX_Y0), CHANNEL(frame, BOX_Y0)) - CHANNEL(frame, BOX_Y0));
 	int x1 = (int)(smaller(CHANNEL(box, BOX_X1), CHANNEL(frame, BOX_X1)) - CHANNEL(frame, BOX_X0));
@@ -21,7 +20,7 @@ int frame_fact(TEX_IN(frame), bool rows)
 }
 
 /* Of each row of tiles: how many of the chunk's shapes touch it, and how many tiles of it they touch. */
-__kernel void bin_count(RECORD_IN(shapes), TEX_IN(frame), LIST_OUT(counts), int4 domain)
+__kernel void bin_count(RECORD_IN(boxes), TEX_IN(frame), LIST_OUT(counts), int4 domain)
 {
 	int chunk = get_global_id(0), rows = frame_fact(TEX(frame), true);
 	if (chunk >= domain.x)
@@ -31,7 +30,7 @@ __kernel void bin_count(RECORD_IN(shapes), TEX_IN(frame), LIST_OUT(counts), int4
 	for (int r = 0; r < 2 * rows; r++)
 		mine[r] = 0;
 	for (int k = chunk * BIN_CHUNK; k < min((chunk + 1) * BIN_CHUNK, domain.z); k++) {
-		int4 t = tiles_of(shapes, box, k);
+		int4 t = tiles_of(boxes[k], box);
 		for (int r = t.y; r < t.w; r++) {
 			mine[2 * r]++;
 			mine[2 * r + 1] += t.z - t.x;
@@ -54,7 +53,7 @@ __kernel void bin_sum(LIST_IN(counts), TEX_IN(frame), LIST_OUT(offsets), LIST_OU
 	totals[2 * r + 1] = tiles;
 }
 
-__kernel void bin_rows(RECORD_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_OUT(offsets), LIST_OUT(list), int4 domain)
+__kernel void bin_rows(RECORD_IN(boxes), TEX_IN(frame), LIST_IN(totals), LIST_OUT(offsets), PAIRS_OUT(list), int4 domain)
 {
 	int chunk = get_global_id(0), rows = frame_fact(TEX(frame), true), start = 0;
 	if (chunk >= domain.x)
@@ -66,16 +65,16 @@ __kernel void bin_rows(RECORD_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_O
 		start += totals[2 * r];
 	}
 	for (int k = chunk * BIN_CHUNK; k < min((chunk + 1) * BIN_CHUNK, domain.z); k++) {
-		int4 t = tiles_of(shapes, box, k);
+		int4 t = tiles_of(boxes[k], box);
 		for (int r = t.y; r < t.w; r++) {
 			uint at = (uint)mine[r]++;
 			if (at < (uint)domain.w)
-				list[at] = k;
+				list[at] = (int2)(k, t.x | t.z << 16);
 		}
 	}
 }
 
-__kernel void bin_tiles(RECORD_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_IN(rows), LIST_OUT(ends), LIST_OUT(list), int4 domain)
+__kernel void bin_tiles(TEX_IN(frame), LIST_IN(totals), PAIRS_IN(rows), LIST_OUT(ends), LIST_OUT(list), int4 domain)
 {
 	int row = get_global_id(0), columns = frame_fact(TEX(frame), false);
 	uint begin = 0, from = 0, room = (uint)domain.w;
@@ -86,23 +85,22 @@ __kernel void bin_tiles(RECORD_IN(shapes), TEX_IN(frame), LIST_IN(totals), LIST_
 		from += (uint)totals[2 * r + 1];
 	}
 	uint end = min(begin + (uint)totals[2 * row], (uint)domain.z);
-	float4 box = TEX_LOAD(frame, FRAME_BOX, 0);
 	__global int *mine = ends + row * (columns + 1);
 	for (int c = 0; c <= columns; c++)
 		mine[c] = 0;
 	for (uint k = begin; k < end; k++) {
-		int4 t = tiles_of(shapes, box, rows[k]);
-		for (int c = t.x; c < t.z; c++)
+		int its = rows[k].y;
+		for (int c = its & 0xffff; c < its >> 16; c++)
 			mine[c]++;
 	}
 	for (int c = 0; c <= columns; c++)
 		mine[c] = (int)(from += (uint)mine[c]);
 	for (uint k = end; k-- > begin;) { /* from the back: each tile's end becomes its beginning */
-		int4 t = tiles_of(shapes, box, rows[k]);
-		for (int c = t.x; c < t.z; c++) {
+		int2 its = rows[k];
+		for (int c = its.y & 0xffff; c < its.y >> 16; c++) {
 			uint at = (uint)--mine[c];
 			if (at < room)
-				list[at] = rows[k];
+				list[at] = its.x;
 		}
 	}
 }

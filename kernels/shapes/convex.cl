@@ -10,22 +10,22 @@ float2 center_of(float4 placed)
 	return (float2)(CHANNEL(placed, PLACED_CENTER_X), CHANNEL(placed, PLACED_CENTER_Y));
 }
 
-void put_mark(TEX_IN(marks), TEX_IN(view), SHAPES_OUT, int i, int shape, int edge)
+void put_mark(TEX_IN(marks), TEX_IN(view), SHAPES_OUT, int i, int shape, int rest)
 {
 	float4 place = ROW_LOAD(marks, MARKS_WIDTH * i + MARK_PLACE), style = ROW_LOAD(marks, MARKS_WIDTH * i + MARK_STYLE);
 	float4 scale = TEX_LOAD(view, VIEW_SCALE, 0);
 	float4 picture = (float4)(0.0f, 0.0f, CHANNEL(scale, SCALE_WIDTH), CHANNEL(scale, SCALE_HEIGHT));
 	float color = CHANNEL(style, STYLE_COLOR), breadth = CHANNEL(style, STYLE_BREADTH);
 	if (!(breadth > 0.0f)) {
-		put_shape(shapes, shape, place, (float4)(color, color, 0.0f, 1.0f), edge, 0);
+		put_shape(SHAPES, shape, place, (float4)(color, color, 0.0f, 1.0f), rest, 0);
 		return;
 	}
 	float2 from = place.lo, to = place.hi, way = (float2)(to.x - from.x, to.y - from.y);
 	float reach = norm(way);
-	put_line(SHAPES, shape, edge, from, (float2)(way.x / reach, way.y / reach), reach, breadth, color, 1.0f, picture);
+	put_line(SHAPES, shape, rest, from, (float2)(way.x / reach, way.y / reach), reach, breadth, color, 1.0f, picture);
 }
 
-void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape, int edge, float4 ink)
+void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape, int rest, float4 ink)
 {
 	float4 p = ROW_LOAD(placed, vertex), clip = TEX_LOAD(view, VIEW_CLIP, 0);
 	float line = CHANNEL(TEX_LOAD(view, VIEW_SCALE, 0), SCALE_LINE), outline = CHANNEL(ink, INK_OUTLINE);
@@ -33,24 +33,24 @@ void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape,
 	float radius = norm(to_rim), breadth = ((DISC_AREA * radius) * radius) / larger(2.0f * radius, 1.0f);
 	float r = radius + growth(breadth);
 	float4 box = touched_box((float2)(c.x - r, c.y - r), (float2)(c.x + r, c.y + r), 0.0f, clip);
-	put_shape(shapes, shape, box, ink_of(CHANNEL(ink, INK_FILL), outline, line, 1.0f, breadth, 2.0f * radius), edge, 1);
-	if (is_empty(box) || !(radius >= SHOW_ANGLE)) {
-		shapes[SHAPES_WIDTH * (shape + 1) + SHAPE_BOX] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	bool seen = put_shape(SHAPES, shape, box, ink_of(CHANNEL(ink, INK_FILL), outline, line, 1.0f, breadth, 2.0f * radius), rest, 1);
+	if (!seen || !(radius >= SHOW_ANGLE)) {
+		boxes[shape + 1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	} else {
 		float2 along = (float2)(to_rim.x / radius, to_rim.y / radius);
 		float opacity = (radius - SHOW_ANGLE) * (1.0f / SHOW_ANGLE);
-		put_line(SHAPES, shape + 1, edge + 1, c, along, radius - 0.5f * line, line, outline, opacity, clip);
+		put_line(SHAPES, shape + 1, rest, c, along, radius - 0.5f * line, line, outline, opacity, clip);
 	}
-	if (is_empty(box))
+	if (!seen)
 		return;
 	/* the difference of two large squares as a product: a rim is sharp however large the disc */
 	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y);
 	float square = magnitude(at.x) > magnitude(at.y) ? ((c.x - r) - f.x) * ((c.x + r) - f.x) + at.y * at.y
 													 : ((c.y - r) - f.y) * ((c.y + r) - f.y) + at.x * at.x;
-	edges[edge] = (float4)(at.x / r, at.y / r, square / (2.0f * r), 1.0f / (2.0f * r));
+	put_edge(SHAPES, shape, rest, 0, (float4)(at.x / r, at.y / r, square / (2.0f * r), 1.0f / (2.0f * r)));
 }
 
-void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count, int shape, int edge, float4 ink)
+void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count, int shape, int rest, float4 ink)
 {
 	float4 p = ROW_LOAD(placed, vertex), clip = TEX_LOAD(view, VIEW_CLIP, 0);
 	float2 c = center_of(p), first = offset_of(p), low = first, high = first, before = (float2)(0.0f, 0.0f);
@@ -66,8 +66,7 @@ void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count
 	float breadth = (0.5f * twice_area) / larger(size, 1.0f), out = growth(breadth);
 	float4 box = touched_box((float2)(c.x + low.x, c.y + low.y), (float2)(c.x + high.x, c.y + high.y), out, clip);
 	float4 seen = ink_of(CHANNEL(ink, INK_FILL), CHANNEL(ink, INK_OUTLINE), line, 1.0f, breadth, size);
-	put_shape(shapes, shape, box, seen, edge, count);
-	if (is_empty(box))
+	if (!put_shape(SHAPES, shape, box, seen, rest, count))
 		return;
 	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y), from = first;
 	for (int k = 0; k < count; k++) {
@@ -76,7 +75,7 @@ void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count
 		float length = norm(side), nx = -side.y / length, ny = side.x / length;
 		bool lost = !(length > 0.0f);
 		float distance = (nx * (at.x - from.x) + ny * (at.y - from.y)) - out;
-		edges[edge + k] = lost ? (float4)(0.0f, 0.0f, NO_EDGE, 0.0f) : (float4)(nx, ny, distance, 0.0f);
+		put_edge(SHAPES, shape, rest, k, lost ? (float4)(0.0f, 0.0f, NO_EDGE, 0.0f) : (float4)(nx, ny, distance, 0.0f));
 		from = to;
 	}
 }
@@ -87,17 +86,17 @@ __kernel void shapes(TEX_IN(draws), TEX_IN(marks), TEX_IN(placed), TEX_IN(view),
 	if (i >= domain.x)
 		return;
 	float4 start = TEX_LOAD(view, VIEW_FIRST, 0);
-	int shape = (int)CHANNEL(start, FIRST_SHAPE), edge = (int)CHANNEL(start, FIRST_EDGE);
+	int shape = (int)CHANNEL(start, FIRST_SHAPE), rest = (int)CHANNEL(start, FIRST_EDGE);
 	if (k < 0) {
-		put_mark(TEX(marks), TEX(view), SHAPES, i, shape + i, edge + LINE_EDGES * i);
+		put_mark(TEX(marks), TEX(view), SHAPES, i, shape + i, rest + LINE_REST * i);
 		return;
 	}
 	float4 parts = ROW_LOAD(draws, DRAWS_WIDTH * k + DRAW_PARTS), ink = ROW_LOAD(draws, DRAWS_WIDTH * k + DRAW_INK);
 	int vertex = (int)CHANNEL(parts, PARTS_VERTEX), count = (int)CHANNEL(parts, PARTS_COUNT);
 	shape += mark_count + (int)CHANNEL(parts, PARTS_SHAPE);
-	edge += LINE_EDGES * mark_count + (int)CHANNEL(parts, PARTS_EDGE);
+	rest += LINE_REST * mark_count + (int)CHANNEL(parts, PARTS_EDGE);
 	if (count == 1)
-		put_circle(TEX(placed), TEX(view), SHAPES, vertex, shape, edge, ink);
+		put_circle(TEX(placed), TEX(view), SHAPES, vertex, shape, rest, ink);
 	else
-		put_polygon(TEX(placed), TEX(view), SHAPES, vertex, count, shape, edge, ink);
+		put_polygon(TEX(placed), TEX(view), SHAPES, vertex, count, shape, rest, ink);
 }

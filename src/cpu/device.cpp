@@ -99,6 +99,15 @@ template <typename T> static void fill_rows(Texture &texture, const float fill[4
 	}
 }
 
+/* Zeros, from the beginning of a line of the caches on: records that are as long lie in one. */
+static std::unique_ptr<void, Free> zeros(uint64_t bytes)
+{
+	constexpr size_t line = 64;
+	char *memory = static_cast<char *>(std::calloc(1, bytes + line));
+	const size_t skipped = memory ? line - reinterpret_cast<uintptr_t>(memory) % line : 0;
+	return {memory ? memory + skipped : nullptr, Free{skipped}};
+}
+
 template <typename T>
 static carom_status create(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
 	carom_texture **texture, carom_error *error)
@@ -109,7 +118,7 @@ static carom_status create(carom_device *device, const char *name, carom_texel_f
 		return fail_texture(error, CAROM_LIMIT, name, width, height, bytes, "a side has 1 to %llu on the CPU", longest);
 	if (bytes > device->info.max_allocation)
 		return fail_texture(error, CAROM_LIMIT, name, width, height, bytes, "one has at most %llu bytes on the CPU", device->info.max_allocation);
-	std::unique_ptr<void, Free> memory(std::calloc(texels, channel_count * scalar_size<T>(format)));
+	std::unique_ptr<void, Free> memory = zeros(bytes);
 	std::unique_ptr<Texture> made(new (std::nothrow) Texture{format, width, height, std::move(memory)});
 	if (!made || !made->memory)
 		return fail_texture(error, CAROM_OUT_OF_MEMORY, name, width, height, bytes, "there is not enough memory on the CPU");
@@ -163,18 +172,25 @@ template <typename T> static carom_status upload(carom_device *, carom_texture *
 	return CAROM_OK;
 }
 
-template <typename T> static carom_status download(carom_device *, carom_texture *texture, uint32_t rows, void *texels, carom_error *error)
-{
+template <typename T> static carom_status download(carom_device *device, carom_texture *texture, uint32_t rows, void *texels, carom_error *error)
+try {
 	Texture &from = of(texture);
 	if (carom_status status = check_rows(from, rows, error))
 		return status;
-	if (from.format != TEXELS_FLOAT) {
-		std::memcpy(texels, from.memory.get(), channel_count * scalar_size<T>(from.format) * from.width * rows);
-	} else {
+	if (from.format == TEXELS_FLOAT) {
 		T *numbers = static_cast<T *>(texels);
 		copy_rows<T>(from, rows, [=](T &number, size_t index) { numbers[index] = number; });
+		return CAROM_OK;
 	}
+	const size_t row = channel_count * scalar_size<T>(from.format) * from.width;
+	const char *memory = static_cast<const char *>(from.memory.get());
+	of<T>(device).pool.run(static_cast<int32_t>(rows), 64, [&](int32_t begin, int32_t end) { /* a picture is large */
+		const size_t first = static_cast<size_t>(begin) * row;
+		std::memcpy(static_cast<char *>(texels) + first, memory + first, static_cast<size_t>(end) * row - first);
+	});
 	return CAROM_OK;
+} catch (const std::exception &) {
+	return out_of_memory(error, "a copy", "");
 }
 
 /* ---- Running */

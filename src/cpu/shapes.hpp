@@ -60,41 +60,33 @@ template <typename T> Ink<T> seen(const Ink<T> &ink, T breadth, T length)
 template <typename T> class ShapeWriter
 {
 public:
-	ShapeWriter(const Records<T> &to_shapes, const Records<T> &to_edges) : shapes(to_shapes), edges(to_edges) {}
+	ShapeWriter(T *to_boxes, T *to_shapes, T *to_edges) : boxes(to_boxes), shapes(to_shapes), edges(to_edges) {}
 
-	void hide(int32_t shape) const { put(SHAPES_WIDTH * shape + SHAPE_BOX, {0, 0, 0, 0}); }
+	void hide(int32_t shape) const { boxes.put(shape, 0, 0, 0, 0); }
 
-	/* False: it is not seen. */
-	bool shape(int32_t shape, const PixelBox<T> &box, const Ink<T> &ink, int32_t first_edge, int32_t count) const
+	/* False: it is not seen. `rest`: where its other edges are. */
+	bool shape(int32_t shape, const PixelBox<T> &box, const Ink<T> &ink, int32_t rest, int32_t count) const
 	{
-		put(SHAPES_WIDTH * shape + SHAPE_BOX, {box.x0, box.y0, box.x1, box.y1});
+		boxes.put(shape, box.x0, box.y0, box.x1, box.y1);
 		if (box.empty())
 			return false;
-		put(SHAPES_WIDTH * shape + SHAPE_INK, {ink.fill, ink.outline, ink.width, ink.opacity});
-		put(SHAPES_WIDTH * shape + SHAPE_EDGES, {static_cast<T>(first_edge), static_cast<T>(count), 0, 0});
+		shapes.put(SHAPES_WIDTH * shape + SHAPE_BOX, box.x0, box.y0, box.x1, box.y1);
+		shapes.put(SHAPES_WIDTH * shape + SHAPE_INK, ink.fill, ink.outline, ink.width, ink.opacity);
+		shapes.put(SHAPES_WIDTH * shape + SHAPE_EDGES, static_cast<T>(rest), static_cast<T>(count), 0, 0);
 		return true;
 	}
 
-	void edge(int32_t index, const Vec<T> &slope, T at, T bend) const
+	/* Edge k of the shape. */
+	void edge(int32_t shape, int32_t rest, int32_t k, const Vec<T> &slope, T at, T bend) const
 	{
-		edges.of(index, EDGE_SLOPE_X) = slope.x();
-		edges.of(index, EDGE_SLOPE_Y) = slope.y();
-		edges.of(index, EDGE_AT) = at;
-		edges.of(index, EDGE_BEND) = bend;
+		if (k == 0)
+			shapes.put(SHAPES_WIDTH * shape + SHAPE_EDGE, slope.x(), slope.y(), at, bend);
+		else
+			edges.put(rest + k - 1, slope.x(), slope.y(), at, bend);
 	}
 
 private:
-	struct Texel {
-		T channels[channel_count];
-	};
-
-	void put(int32_t texel, const Texel &with) const
-	{
-		for (int channel = 0; channel < static_cast<int>(channel_count); channel++)
-			shapes.of(texel, channel) = with.channels[channel];
-	}
-
-	const Records<T> shapes, edges;
+	const Records<T> boxes, shapes, edges;
 };
 
 /* A line from a point along a unit vector. */
@@ -102,7 +94,7 @@ template <typename T> struct Line {
 	Vec<T> from, along;
 	T reach, breadth, color, opacity;
 
-	void write(const ShapeWriter<T> &to, int32_t shape, int32_t edge, const PixelBox<T> &clip) const
+	void write(const ShapeWriter<T> &to, int32_t shape, int32_t rest, const PixelBox<T> &clip) const
 	{
 		const T half = T(0.5) * breadth;
 		const Vec<T> end = from + reach * along, wide(half * std::abs(along.y()), half * std::abs(along.x()));
@@ -110,14 +102,14 @@ template <typename T> struct Line {
 		const Vec<T> high(larger(from.x(), end.x()) + wide.x(), larger(from.y(), end.y()) + wide.y());
 		const T size = norm(high - low), mean = (reach * breadth) / larger(size, T(1)), out = growth(mean);
 		const PixelBox<T> box = reach > 0 ? touched(low, high, out, clip) : PixelBox<T>{};
-		if (!to.shape(shape, box, seen<T>({color, color, 0, opacity}, mean, size), edge, LINE_EDGES))
+		if (!to.shape(shape, box, seen<T>({color, color, 0, opacity}, mean, size), rest, LINE_EDGES))
 			return;
 		const Vec<T> d = box.first_pixel() - from, aside(along.y(), -along.x());
 		const T far = inner(along, d), off = inner(aside, d), side = half + out;
-		to.edge(edge, -along, -far - out, 0);
-		to.edge(edge + 1, along, (far - reach) - out, 0);
-		to.edge(edge + 2, -aside, -off - side, 0);
-		to.edge(edge + 3, aside, off - side, 0);
+		to.edge(shape, rest, 0, -along, -far - out, 0);
+		to.edge(shape, rest, 1, along, (far - reach) - out, 0);
+		to.edge(shape, rest, 2, -aside, -off - side, 0);
+		to.edge(shape, rest, 3, aside, off - side, 0);
 	}
 };
 

@@ -14,8 +14,11 @@ namespace carom::cpu {
 
 constexpr size_t channel_count = 4;
 
+/* Memory from calloc, of which the first bytes may be left out. */
 struct Free {
-	void operator()(void *memory) const { std::free(memory); }
+	size_t skipped;
+
+	void operator()(void *memory) const { std::free(static_cast<char *>(memory) - skipped); }
 };
 
 struct Texture {
@@ -62,6 +65,15 @@ public:
 	explicit Records(T *first) : numbers(first) {}
 
 	T &of(int32_t index, int32_t channel) const { return numbers[static_cast<size_t>(index) * channel_count + static_cast<size_t>(channel)]; }
+
+	void put(int32_t index, T first, T second, T third, T fourth) const
+	{
+		T *record = &of(index, 0);
+		record[0] = first;
+		record[1] = second;
+		record[2] = third;
+		record[3] = fourth;
+	}
 
 private:
 	T *numbers;

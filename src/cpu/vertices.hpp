@@ -62,10 +62,17 @@ template <typename T, typename Receive> void place_vertices(const Job<T> &job, c
 	const Projection<T> to(job.texels(PLACE_VIEW));
 	const Texels<T> placed = job.texels(PLACE_OUTPUT);
 	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
+		int32_t body = -1;
+		Transform<T> at{};
+		Vec<T> rotation(1, 0);
 		for (int32_t i = begin; i < end; i++) {
 			const Sent<T> sent = receive(i);
-			const Transform<T> at = job.transform(job, sent.body);
-			const Vec<T> v = turn(rotation_of(at.angle), sent.local);
+			if (sent.body != body || job.reads) { /* the vertices of a body follow one another */
+				body = sent.body;
+				at = job.transform(job, body);
+				rotation = rotation_of(at.angle);
+			}
+			const Vec<T> v = turn(rotation, sent.local);
 			placed.of(i, PLACED_X) = v.x() * to.scale;
 			placed.of(i, PLACED_Y) = -(v.y() * to.scale);
 			placed.of(i, PLACED_CENTER_X) = ((at.x - to.left) - to.left_low) * to.scale;

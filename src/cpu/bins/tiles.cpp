@@ -14,9 +14,9 @@ template <typename T> class Grid
 public:
 	const int32_t columns, rows;
 
-	Grid(const Records<T> &to_shapes, const Texels<T> &frame)
+	Grid(const Records<T> &of_shapes, const Texels<T> &frame)
 		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))),
-		  shapes(to_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)),
+		  boxes(of_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)),
 		  y1(frame.fact(FRAME_BOX, BOX_Y1))
 	{
 	}
@@ -24,10 +24,9 @@ public:
 	/* Which tiles a shape touches. */
 	Tiles of(int32_t shape) const
 	{
-		const int32_t texel = SHAPES_WIDTH * shape + SHAPE_BOX;
-		const int32_t left = whole(larger(shapes.of(texel, BOX_X0), x0) - x0), top = whole(larger(shapes.of(texel, BOX_Y0), y0) - y0);
-		const int32_t right = whole(smaller(shapes.of(texel, BOX_X1), x1) - x0);
-		const int32_t bottom = whole(smaller(shapes.of(texel, BOX_Y1), y1) - y0);
+		const int32_t left = whole(larger(boxes.of(shape, BOX_X0), x0) - x0), top = whole(larger(boxes.of(shape, BOX_Y0), y0) - y0);
+		const int32_t right = whole(smaller(boxes.of(shape, BOX_X1), x1) - x0);
+		const int32_t bottom = whole(smaller(boxes.of(shape, BOX_Y1), y1) - y0);
 		if (left >= right || top >= bottom)
 			return {0, 0, 0, 0};
 		return {left / PIXEL_TILE, top / PIXEL_TILE, (right - 1) / PIXEL_TILE + 1, (bottom - 1) / PIXEL_TILE + 1};
@@ -36,7 +35,7 @@ public:
 private:
 	static int32_t whole(T v) { return static_cast<int32_t>(v); }
 
-	const Records<T> shapes;
+	const Records<T> boxes;
 	const T x0, y0, x1, y1;
 };
 
@@ -88,6 +87,20 @@ static uint32_t up(int32_t &position)
 	return before;
 }
 
+/* Columns in RowList, beside their shape. */
+static int32_t packed(const Tiles &tiles)
+{
+	return tiles.column | tiles.column_end << 16;
+}
+
+/* Calls `visit(shape, column)` for what entry k of RowList has. */
+template <typename Visit> void visit_columns(const int32_t *list, uint32_t k, Visit visit)
+{
+	const int32_t shape = list[2 * size_t(k)], columns = list[2 * size_t(k) + 1];
+	for (int32_t c = columns & 0xffff; c < columns >> 16; c++)
+		visit(shape, c);
+}
+
 template <typename T> static void sort_by_row(const Job<T> &job)
 {
 	const Grid<T> grid(Records<T>(job.records(0)), job.texels(1));
@@ -100,54 +113,52 @@ template <typename T> static void sort_by_row(const Job<T> &job)
 			uint32_t start = 0;
 			for (int32_t r = 0; r < grid.rows; start += static_cast<uint32_t>(totals[2 * r++]))
 				mine[r] = static_cast<int32_t>(static_cast<uint32_t>(mine[r]) + start);
-			visit_chunk(job, grid, c, [&](int32_t k, int32_t r, const Tiles &) {
+			visit_chunk(job, grid, c, [&](int32_t k, int32_t r, const Tiles &tiles) {
 				const uint32_t at = up(mine[r]);
-				if (at < room)
-					list[at] = k;
+				if (at < room) {
+					list[2 * size_t(at)] = k;
+					list[2 * size_t(at) + 1] = packed(tiles);
+				}
 			});
 		}
 	});
 }
 
 /* One row of tiles: its shapes are counted a column, then written. */
-template <typename T> static void sort_row(const Job<T> &job, const Grid<T> &grid, int32_t row)
+template <typename T> static void sort_row(const Job<T> &job, int32_t columns, int32_t row)
 {
-	const int32_t *totals = job.list(2), *shapes = job.list(3);
-	int32_t *ends = job.list(4) + row * (grid.columns + 1), *list = job.list(5);
+	const int32_t *totals = job.list(1), *shapes = job.list(2);
+	int32_t *ends = job.list(3) + row * (columns + 1), *list = job.list(4);
 	uint32_t begin = 0, start = 0;
 	for (int32_t r = 0; r < row; r++) {
 		begin += static_cast<uint32_t>(totals[2 * r]);
 		start += static_cast<uint32_t>(totals[2 * r + 1]);
 	}
 	const uint32_t end = std::min(begin + static_cast<uint32_t>(totals[2 * row]), static_cast<uint32_t>(job.domain[2]));
-	std::vector<uint32_t> next(static_cast<size_t>(grid.columns) + 1, 0);
-	for (uint32_t k = begin; k < end; k++) {
-		const Tiles tiles = grid.of(shapes[k]);
-		for (int32_t c = tiles.column; c < tiles.column_end; c++)
-			next[static_cast<size_t>(c)]++;
-	}
-	for (int32_t c = 0; c <= grid.columns; c++) {
+	std::vector<uint32_t> next(static_cast<size_t>(columns) + 1, 0);
+	for (uint32_t k = begin; k < end; k++)
+		visit_columns(shapes, k, [&](int32_t, int32_t c) { next[static_cast<size_t>(c)]++; });
+	for (int32_t c = 0; c <= columns; c++) {
 		const uint32_t count = next[static_cast<size_t>(c)];
 		next[static_cast<size_t>(c)] = start;
 		ends[c] = static_cast<int32_t>(start);
 		start += count;
 	}
 	for (uint32_t k = begin; k < end; k++) {
-		const Tiles tiles = grid.of(shapes[k]);
-		for (int32_t c = tiles.column; c < tiles.column_end; c++) {
+		visit_columns(shapes, k, [&](int32_t shape, int32_t c) {
 			const uint32_t at = next[static_cast<size_t>(c)]++;
 			if (at < static_cast<uint32_t>(job.domain[3]))
-				list[at] = shapes[k];
-		}
+				list[at] = shape;
+		});
 	}
 }
 
 template <typename T> static void sort_by_tile(const Job<T> &job)
 {
-	const Grid<T> grid(Records<T>(job.records(0)), job.texels(1));
+	const int32_t columns = static_cast<int32_t>(job.texels(0).fact(FRAME_TILES, TILES_COLUMNS));
 	job.pool.run(job.domain[0], 4, [&](int32_t begin, int32_t end) {
 		for (int32_t r = begin; r < end; r++)
-			sort_row(job, grid, r);
+			sort_row<T>(job, columns, r);
 	});
 }
 

@@ -1,82 +1,29 @@
-#include "cpu/stages.hpp"
+#include "cpu/pixels.hpp"
 
-#include <algorithm>
+#include <cstring>
 
 namespace carom::cpu {
 
 /* Where the slot's textures are in the list. */
 enum : int { FROM_SHAPES, FROM_EDGES, FROM_FRAME, FROM_ENDS, FROM_LIST, LIGHT, TO_PICTURE };
 
-constexpr int32_t side = PIXEL_TILE, area = side * side;
+/* A shape as a tile sees it. */
+template <typename T> struct Seen {
+	int32_t shape;
+	T x0, y0, x1, width, opacity;
+	int32_t rest, count, top, bottom; /* edges; rows of the tile, from `top` to `bottom` - 1 */
+	T fill, outline;
 
-/* Colours as squares: light adds up nearly as the squares of sRGB values do. */
-template <typename T> struct Light {
-	T channels[3];
-
-	explicit Light(T color)
+	Seen(const Records<T> &shapes, int32_t number, const Tile<T> &tile)
+		: shape(number), x0(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_X0)), y0(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_Y0)),
+		  x1(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_X1)), width(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_WIDTH)),
+		  opacity(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_OPACITY)),
+		  rest(static_cast<int32_t>(shapes.of(SHAPES_WIDTH * shape + SHAPE_EDGES, EDGES_REST))),
+		  count(static_cast<int32_t>(shapes.of(SHAPES_WIDTH * shape + SHAPE_EDGES, EDGES_COUNT))),
+		  top(static_cast<int32_t>(larger(y0 - tile.y, T(0)))),
+		  bottom(static_cast<int32_t>(smaller(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_Y1) - tile.y, T(side)))),
+		  fill(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_FILL)), outline(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_OUTLINE))
 	{
-		const int32_t rgb = static_cast<int32_t>(color);
-		for (int c = 0; c < 3; c++) {
-			const T level = static_cast<T>(rgb >> (16 - 8 * c) & 255);
-			channels[c] = level * level;
-		}
-	}
-};
-
-/* The pixels of a tile, row by row: one loop over all that a shape may touch, which compilers make vectors of. */
-template <typename T> struct Tile {
-	T x, y; /* of the first pixel */
-	T light[3][area];
-
-	void fill(const Light<T> &ground)
-	{
-		for (int c = 0; c < 3; c++)
-			std::fill(light[c], light[c] + area, ground.channels[c]);
-	}
-};
-
-template <typename T> T share(T v)
-{
-	v = v > 0 ? v : 0;
-	return v < 1 ? v : 1;
-}
-
-/* Pixels of a tile, counted from the first pixel of a shape's box, and how far they are from the shape. */
-template <typename T> struct Distances {
-	int32_t count = 0;
-	T x[area], y[area], far[area];
-
-	/* The rows from `top` to `bottom` - 1 of the tile. */
-	Distances(int32_t top, int32_t bottom, T from_x, T from_y)
-	{
-		for (int32_t row = top; row < bottom; row++) {
-			for (int32_t i = 0; i < side; i++, count++) {
-				x[count] = from_x + static_cast<T>(i);
-				y[count] = from_y + static_cast<T>(row);
-				far[count] = -infinite<T>;
-			}
-		}
-	}
-
-	void beyond_line(T slope_x, T slope_y, T at)
-	{
-		for (int32_t i = 0; i < count; i++)
-			far[i] = larger(far[i], (at + slope_y * y[i]) + slope_x * x[i]);
-	}
-
-	void beyond_disc(T slope_x, T slope_y, T at, T bend)
-	{
-		for (int32_t i = 0; i < count; i++) {
-			const T s = (at + (slope_y + bend * y[i]) * y[i]) + (slope_x + bend * x[i]) * x[i];
-			far[i] = larger(far[i], (2 * s) / (1 + std::sqrt(larger(T(0), 1 + (4 * bend) * s))));
-		}
-	}
-
-	/* What is outside the box is far. */
-	void mask(T width)
-	{
-		for (int32_t i = 0; i < count; i++)
-			far[i] = ((x[i] >= 0) & (x[i] < width)) ? far[i] : T(1);
 	}
 };
 
@@ -85,75 +32,114 @@ template <typename T> class Painter
 public:
 	explicit Painter(const Job<T> &job) : shapes(job.records(FROM_SHAPES)), edges(job.records(FROM_EDGES)) {}
 
-	void draw(Tile<T> &tile, int32_t shape) const
+	/* In the end of a tile `finish` must be called. */
+	void draw(Tile<T> &tile, int32_t shape)
 	{
-		const int32_t box = SHAPES_WIDTH * shape + SHAPE_BOX, sides = SHAPES_WIDTH * shape + SHAPE_EDGES;
-		const T x0 = shapes.of(box, BOX_X0), y0 = shapes.of(box, BOX_Y0);
-		const int32_t top = static_cast<int32_t>(larger(y0 - tile.y, T(0)));
-		const int32_t bottom = static_cast<int32_t>(smaller(shapes.of(box, BOX_Y1) - tile.y, T(side)));
-		const int32_t first = static_cast<int32_t>(shapes.of(sides, EDGES_FIRST));
-		const int32_t count = static_cast<int32_t>(shapes.of(sides, EDGES_COUNT));
-		Distances<T> distances(top, bottom, tile.x - x0, tile.y - y0);
-		if (count == 0) {
-			cover(tile, top * side, distances, shapes.of(box, BOX_X1) - x0, Light<T>(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_FILL)));
-			return;
+		const Seen<T> seen(shapes, shape, tile);
+		const int32_t left = static_cast<int32_t>(larger(seen.x0 - tile.x, T(0)));
+		const int32_t right = static_cast<int32_t>(smaller(seen.x1 - tile.x, T(side)));
+		if (seen.count == 0 || waiting == batch)
+			finish(tile);
+		if (seen.count == 0)
+			cover(tile, seen, left, right);
+		else if (right - left <= side / 2)
+			begin<side / 2>(tile, seen, std::min(left, side / 2));
+		else
+			begin<side>(tile, seen, 0);
+	}
+
+	void finish(Tile<T> &tile)
+	{
+		if (waiting > 0)
+			tile.spread();
+		for (int32_t k = 0; k < waiting; k++) {
+			if (strokes[k].width == side)
+				blend<side>(tile, strokes[k]);
+			else
+				blend<side / 2>(tile, strokes[k]);
 		}
-		for (int32_t k = first; k < first + count; k++)
-			measure(distances, k);
-		distances.mask(shapes.of(box, BOX_X1) - x0);
-		blend(tile, top * side, distances, SHAPES_WIDTH * shape + SHAPE_INK);
+		waiting = 0;
 	}
 
 	/* Shapes lie in the order of the bodies, which may be anywhere: those that are drawn soon are fetched while others are drawn. */
 	[[gnu::always_inline]] void fetch(const int32_t *next, const int32_t *end) const
 	{
 		if (next + far_ahead < end)
-			__builtin_prefetch(&shapes.of(SHAPES_WIDTH * next[far_ahead] + SHAPE_EDGES, 0));
-		if (next + near_ahead < end) {
-			const int32_t shape = SHAPES_WIDTH * next[near_ahead];
-			__builtin_prefetch(&shapes.of(shape + SHAPE_BOX, 0));
-			__builtin_prefetch(&edges.of(static_cast<int32_t>(shapes.of(shape + SHAPE_EDGES, EDGES_FIRST)), 0));
-		}
+			__builtin_prefetch(&shapes.of(SHAPES_WIDTH * next[far_ahead], 0));
+		if (next + near_ahead < end)
+			__builtin_prefetch(&edges.of(static_cast<int32_t>(shapes.of(SHAPES_WIDTH * next[near_ahead] + SHAPE_EDGES, EDGES_REST)), 0));
 	}
 
 private:
-	static constexpr int32_t near_ahead = 6, far_ahead = 12;
-
-	void measure(Distances<T> &distances, int32_t edge) const
-	{
-		const T slope_x = edges.of(edge, EDGE_SLOPE_X), slope_y = edges.of(edge, EDGE_SLOPE_Y), at = edges.of(edge, EDGE_AT);
-		const T bend = edges.of(edge, EDGE_BEND);
-		if (bend > 0)
-			distances.beyond_disc(slope_x, slope_y, at, bend);
-		else
-			distances.beyond_line(slope_x, slope_y, at);
-	}
+	static constexpr int32_t near_ahead = 10, far_ahead = 20;
 
 	/* A shape without edges is its box, opaque. */
-	static void cover(Tile<T> &tile, int32_t from, const Distances<T> &distances, T width, const Light<T> &fill)
+	static void cover(Tile<T> &tile, const Seen<T> &seen, int32_t left, int32_t right)
 	{
-		for (int c = 0; c < 3; c++) {
-			const T light = fill.channels[c];
-			T *ground = tile.light[c] + from;
-			for (int32_t i = 0; i < distances.count; i++)
-				ground[i] = ((distances.x[i] >= 0) & (distances.x[i] < width)) ? light : ground[i];
+		if ((right - left) * (seen.bottom - seen.top) == area) {
+			tile.fill(Light<T>(seen.fill));
+			return;
+		}
+		const Light<T> fill(seen.fill);
+		tile.spread();
+		for (int c = 0; c < 3; c++)
+			for (int32_t row = seen.top; row < seen.bottom; row++)
+				std::fill(tile.light[c] + row * side + left, tile.light[c] + row * side + right, fill.channels[c]);
+	}
+
+	/* Measures `width` pixels of each row, from column `left` of the tile on. */
+	template <int32_t width> void begin(const Tile<T> &tile, const Seen<T> &seen, int32_t left)
+	{
+		Stroke<T> &stroke = strokes[waiting++];
+		Span<T, width> span;
+		stroke.width = width;
+		stroke.left = left;
+		stroke.top = seen.top;
+		stroke.bottom = seen.bottom;
+		stroke.opacity = seen.opacity;
+		stroke.fill = Light<T>(seen.fill);
+		stroke.outline = Light<T>(seen.outline);
+		span.begin((tile.x - seen.x0) + static_cast<T>(left));
+		for (int32_t row = seen.top; row < seen.bottom; row++) {
+			const T y = (tile.y - seen.y0) + static_cast<T>(row);
+			span.reset();
+			measure(span, shapes, SHAPES_WIDTH * seen.shape + SHAPE_EDGE, y);
+			for (int32_t k = seen.rest; k < seen.rest + seen.count - 1; k++)
+				measure(span, edges, k, y);
+			span.mask(seen.x1 - seen.x0);
+			span.share(stroke.cover + row * side, 0);
+			span.share(stroke.inside + row * side, seen.width);
 		}
 	}
 
-	void blend(Tile<T> &tile, int32_t from, const Distances<T> &distances, int32_t ink) const
+	template <int32_t width> static void measure(Span<T, width> &span, const Records<T> &edges, int32_t k, T y)
 	{
-		const Light<T> fill(shapes.of(ink, INK_FILL)), outline(shapes.of(ink, INK_OUTLINE));
-		const T width = shapes.of(ink, INK_WIDTH), opacity = shapes.of(ink, INK_OPACITY);
-		for (int c = 0; c < 3; c++) {
-			const T line = outline.channels[c], middle = fill.channels[c];
-			T *ground = tile.light[c] + from;
-			for (int32_t i = 0; i < distances.count; i++) {
-				const T near = T(0.5) - distances.far[i], cover = share(near), inside = share(near - width);
-				ground[i] = ground[i] + opacity * ((line * (cover - inside) + middle * inside) - cover * ground[i]);
+		const Edge<T> edge{edges.of(k, EDGE_SLOPE_X), edges.of(k, EDGE_SLOPE_Y), edges.of(k, EDGE_AT), edges.of(k, EDGE_BEND)};
+		if (edge.bend > 0)
+			span.beyond_disc(edge, y);
+		else
+			span.beyond_line(edge, y);
+	}
+
+	template <int32_t width> static void blend(Tile<T> &tile, const Stroke<T> &stroke)
+	{
+		for (int32_t at = stroke.top * side; at < stroke.bottom * side; at += side) {
+			const T *cover = stroke.cover + at, *inside = stroke.inside + at;
+			for (int c = 0; c < 3; c++) {
+				const T line = stroke.outline.channels[c], middle = stroke.fill.channels[c];
+				T *ground = tile.light[c] + at + stroke.left;
+#pragma omp simd
+				for (int32_t i = 0; i < width; i++)
+					ground[i] = ground[i] + stroke.opacity * ((line * (cover[i] - inside[i]) + middle * inside[i]) - cover[i] * ground[i]);
 			}
 		}
 	}
 
+	/* Measuring takes long, but waits for nothing that is drawn: some shapes are measured, and then drawn together, so that processors do much
+	 * of it at once. */
+	static constexpr int32_t batch = 8;
+	Stroke<T> strokes[batch];
+	int32_t waiting = 0;
 	const Records<T> shapes, edges;
 };
 
@@ -181,14 +167,16 @@ template <typename T, typename Visit> static void visit_pixels(const Frame<T> &f
 /* The passes hand on what they have drawn, unrounded. */
 template <typename T> static void take_light(Tile<T> &tile, const T *light, const Frame<T> &frame, int32_t x, int32_t y)
 {
+	tile.plain = false;
 	visit_pixels(frame, x, y, [&](int32_t i, int32_t pixel) {
 		for (int c = 0; c < 3; c++)
 			tile.light[c][i] = light[4 * pixel + c];
 	});
 }
 
-template <typename T> static void leave_light(const Tile<T> &tile, T *light, const Frame<T> &frame, int32_t x, int32_t y)
+template <typename T> static void leave_light(Tile<T> &tile, T *light, const Frame<T> &frame, int32_t x, int32_t y)
 {
+	tile.spread();
 	visit_pixels(frame, x, y, [&](int32_t i, int32_t pixel) {
 		for (int c = 0; c < 3; c++)
 			light[4 * pixel + c] = tile.light[c][i];
@@ -198,17 +186,20 @@ template <typename T> static void leave_light(const Tile<T> &tile, T *light, con
 /* Writes the tile that begins at column x and row y of the frame. */
 template <typename T> static void put_tile(const Tile<T> &tile, const Bytes &picture, const Frame<T> &frame, int32_t x, int32_t y)
 {
-	int32_t levels[3][area];
-	for (int c = 0; c < 3; c++)
-		for (int32_t i = 0; i < area; i++)
-			levels[c][i] = static_cast<int32_t>(std::sqrt(larger(T(0), tile.light[c][i])) + T(0.5));
+	constexpr size_t whole_row = sizeof(uint32_t) * side;
+	const size_t row_size = std::min(sizeof(uint32_t) * static_cast<size_t>(frame.width - x), whole_row);
+	uint32_t pixels[area];
+	if (tile.plain)
+		round_light<side>(tile, pixels);
+	else
+		round_light<area>(tile, pixels);
 	for (int32_t row = 0; row < std::min(side, frame.height - y); row++) {
-		uint8_t *pixels = picture.texel(x, y + row);
-		for (int32_t i = 0; i < std::min(side, frame.width - x); i++) {
-			for (int c = 0; c < 3; c++)
-				pixels[4 * i + c] = static_cast<uint8_t>(levels[c][row * side + i]);
-			pixels[4 * i + 3] = 255;
-		}
+		uint8_t *to = picture.texel(x, y + row);
+		const uint32_t *from = pixels + (tile.plain ? 0 : side * row);
+		if (row_size == whole_row)
+			std::memcpy(to, from, whole_row); /* no call: the compiler knows how long it is */
+		else
+			std::memcpy(to, from, row_size);
 	}
 }
 
@@ -217,7 +208,7 @@ template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &fr
 	const int32_t *ends = job.list(FROM_ENDS) + row * (frame.columns + 1), *list = job.list(FROM_LIST);
 	const uint32_t room = static_cast<uint32_t>(job.domain[2]);
 	const uint32_t last = std::min(static_cast<uint32_t>(ends[frame.columns]), room);
-	const Painter<T> painter(job);
+	Painter<T> painter(job);
 	Tile<T> tile;
 	for (int32_t c = 0; c < frame.columns; c++) {
 		const uint32_t end = std::min(static_cast<uint32_t>(ends[c + 1]), room);
@@ -230,6 +221,7 @@ template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &fr
 			painter.fetch(list + k, list + last);
 			painter.draw(tile, list[k]);
 		}
+		painter.finish(tile);
 		if (frame.pass & PASS_UNDER)
 			leave_light(tile, job.records(LIGHT), frame, c * side, row * side);
 		else
@@ -237,12 +229,31 @@ template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &fr
 	}
 }
 
+#if defined(__x86_64__)
+/* The same with longer vectors, where the processor has them: each lane is rounded as before. */
+[[gnu::target("avx2"), gnu::flatten]] static void draw_row_wide(const Job<float> &job, const Frame<float> &frame, int32_t row)
+{
+	draw_row(job, frame, row);
+}
+
+static auto best_draw_row(float)
+{
+	return __builtin_cpu_supports("avx2") ? draw_row_wide : draw_row<float>;
+}
+#endif
+
+template <typename T> static auto best_draw_row(T)
+{
+	return draw_row<T>;
+}
+
 template <typename T> static void distance(const Job<T> &job)
 {
 	const Frame<T> frame(job.texels(FROM_FRAME));
+	const auto draw = best_draw_row(T());
 	job.pool.run(job.domain[1], 2, [&](int32_t begin, int32_t end) {
 		for (int32_t row = begin; row < end; row++)
-			draw_row(job, frame, row);
+			draw(job, frame, row);
 	});
 }
 

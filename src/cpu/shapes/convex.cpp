@@ -3,7 +3,7 @@
 namespace carom::cpu {
 
 /* Where the slot's textures are in the list. */
-enum : int { FROM_DRAWS, FROM_MARKS, FROM_PLACED, FROM_VIEW, TO_SHAPES, TO_EDGES };
+enum : int { FROM_DRAWS, FROM_MARKS, FROM_PLACED, FROM_VIEW, TO_BOXES, TO_SHAPES, TO_EDGES };
 
 template <typename T> struct Scene {
 	const Texels<T> draws, marks, placed;
@@ -13,7 +13,7 @@ template <typename T> struct Scene {
 
 	Scene(const Job<T> &job, const Texels<T> &view)
 		: draws(job.texels(FROM_DRAWS)), marks(job.texels(FROM_MARKS)), placed(job.texels(FROM_PLACED)),
-		  to(Records<T>(job.records(TO_SHAPES)), Records<T>(job.records(TO_EDGES))),
+		  to(job.records(TO_BOXES), job.records(TO_SHAPES), job.records(TO_EDGES)),
 		  line(view.fact(VIEW_SCALE, SCALE_LINE)), picture{0, 0, view.fact(VIEW_SCALE, SCALE_WIDTH), view.fact(VIEW_SCALE, SCALE_HEIGHT)},
 		  clip{view.fact(VIEW_CLIP, BOX_X0), view.fact(VIEW_CLIP, BOX_Y0), view.fact(VIEW_CLIP, BOX_X1), view.fact(VIEW_CLIP, BOX_Y1)}
 	{
@@ -23,35 +23,36 @@ template <typename T> struct Scene {
 	Vec<T> center(int32_t vertex) const { return {placed.of(vertex, PLACED_CENTER_X), placed.of(vertex, PLACED_CENTER_Y)}; }
 };
 
-template <typename T> static void draw_mark(const Scene<T> &scene, int32_t i, int32_t shape, int32_t edge)
+template <typename T> static void draw_mark(const Scene<T> &scene, int32_t i, int32_t shape, int32_t rest)
 {
 	const int32_t place = MARKS_WIDTH * i + MARK_PLACE, style = MARKS_WIDTH * i + MARK_STYLE;
 	const T x0 = scene.marks.of(place, 0), y0 = scene.marks.of(place, 1), x1 = scene.marks.of(place, 2), y1 = scene.marks.of(place, 3);
 	const T color = scene.marks.of(style, STYLE_COLOR), breadth = scene.marks.of(style, STYLE_BREADTH);
 	if (!(breadth > 0)) {
-		scene.to.shape(shape, {x0, y0, x1, y1}, {color, color, 0, 1}, edge, 0);
+		scene.to.shape(shape, {x0, y0, x1, y1}, {color, color, 0, 1}, rest, 0);
 		return;
 	}
 	const Vec<T> way(x1 - x0, y1 - y0);
 	const T reach = norm(way);
 	const Line<T> line{{x0, y0}, {way.x() / reach, way.y() / reach}, reach, breadth, color, 1};
-	line.write(scene.to, shape, edge, scene.picture);
+	line.write(scene.to, shape, rest, scene.picture);
 }
 
-template <typename T> static void draw_circle(const Scene<T> &scene, int32_t vertex, int32_t shape, int32_t edge, const Ink<T> &ink)
+template <typename T> static void draw_circle(const Scene<T> &scene, int32_t vertex, int32_t shape, int32_t rest, const Ink<T> &ink)
 {
 	const Vec<T> to_rim = scene.offset(vertex), c = scene.center(vertex);
 	const T radius = norm(to_rim), breadth = ((T(DISC_AREA) * radius) * radius) / larger(2 * radius, T(1)), r = radius + growth(breadth);
 	const PixelBox<T> box = touched<T>({c.x() - r, c.y() - r}, {c.x() + r, c.y() + r}, 0, scene.clip);
-	if (!scene.to.shape(shape, box, seen(ink, breadth, 2 * radius), edge, 1)) {
+	if (!scene.to.shape(shape, box, seen(ink, breadth, 2 * radius), rest, 1)) {
 		scene.to.hide(shape + 1);
 		return;
 	}
 	const Vec<T> f = box.first_pixel(), d = f - c;
-	const bool along_x = std::abs(d.x()) > std::abs(d.y());
-	const T square = along_x ? ((c.x() - r) - f.x()) * ((c.x() + r) - f.x()) + d.y() * d.y()
-							 : ((c.y() - r) - f.y()) * ((c.y() + r) - f.y()) + d.x() * d.x();
-	scene.to.edge(edge, {d.x() / r, d.y() / r}, square / (2 * r), 1 / (2 * r));
+	/* By indices, not by a branch: which way is as likely as the other. */
+	const T centers[2] = {c.y(), c.x()}, firsts[2] = {f.y(), f.x()}, ways[2] = {d.y(), d.x()};
+	const int main = std::abs(d.x()) > std::abs(d.y());
+	const T square = ((centers[main] - r) - firsts[main]) * ((centers[main] + r) - firsts[main]) + ways[!main] * ways[!main];
+	scene.to.edge(shape, rest, 0, {d.x() / r, d.y() / r}, square / (2 * r), 1 / (2 * r));
 	if (!(radius >= SHOW_ANGLE)) {
 		scene.to.hide(shape + 1);
 		return;
@@ -59,7 +60,7 @@ template <typename T> static void draw_circle(const Scene<T> &scene, int32_t ver
 	const Vec<T> along(to_rim.x() / radius, to_rim.y() / radius);
 	const T opacity = (radius - SHOW_ANGLE) * (1 / SHOW_ANGLE);
 	const Line<T> line{c, along, radius - T(0.5) * scene.line, scene.line, ink.outline, opacity};
-	line.write(scene.to, shape + 1, edge + 1, scene.clip);
+	line.write(scene.to, shape + 1, rest, scene.clip);
 }
 
 template <typename T> struct Extent {
@@ -84,13 +85,13 @@ template <typename T> static Extent<T> measure(const Scene<T> &scene, int32_t ve
 	return all;
 }
 
-template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t vertex, int32_t count, int32_t shape, int32_t edge, const Ink<T> &ink)
+template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t vertex, int32_t count, int32_t shape, int32_t rest, const Ink<T> &ink)
 {
 	const Extent<T> all = measure(scene, vertex, count);
 	const Vec<T> c = scene.center(vertex);
 	const T size = norm(all.high - all.low), breadth = all.area / larger(size, T(1)), out = growth(breadth);
 	const PixelBox<T> box = touched<T>(c + all.low, c + all.high, out, scene.clip);
-	if (!scene.to.shape(shape, box, seen(ink, breadth, size), edge, count))
+	if (!scene.to.shape(shape, box, seen(ink, breadth, size), rest, count))
 		return;
 	const Vec<T> d = box.first_pixel() - c;
 	for (int32_t k = 0; k < count; k++) {
@@ -98,24 +99,24 @@ template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t ve
 		const T length = norm(side);
 		const Vec<T> n(-side.y() / length, side.x() / length);
 		if (length > 0)
-			scene.to.edge(edge + k, n, inner(n, d - from) - out, 0);
+			scene.to.edge(shape, rest, k, n, inner(n, d - from) - out, 0);
 		else
-			scene.to.edge(edge + k, {0, 0}, NO_EDGE, 0);
+			scene.to.edge(shape, rest, k, {0, 0}, NO_EDGE, 0);
 	}
 }
 
-template <typename T> static void draw_body(const Scene<T> &scene, int32_t k, int32_t shape, int32_t edge)
+template <typename T> static void draw_body(const Scene<T> &scene, int32_t k, int32_t shape, int32_t rest)
 {
 	const int32_t parts = DRAWS_WIDTH * k + DRAW_PARTS, with = DRAWS_WIDTH * k + DRAW_INK;
 	const int32_t vertex = static_cast<int32_t>(scene.draws.of(parts, PARTS_VERTEX));
 	const int32_t count = static_cast<int32_t>(scene.draws.of(parts, PARTS_COUNT));
 	const Ink<T> ink{scene.draws.of(with, INK_FILL), scene.draws.of(with, INK_OUTLINE), scene.line, 1};
 	shape += static_cast<int32_t>(scene.draws.of(parts, PARTS_SHAPE));
-	edge += static_cast<int32_t>(scene.draws.of(parts, PARTS_EDGE));
+	rest += static_cast<int32_t>(scene.draws.of(parts, PARTS_EDGE));
 	if (count == 1)
-		draw_circle(scene, vertex, shape, edge, ink);
+		draw_circle(scene, vertex, shape, rest, ink);
 	else
-		draw_polygon(scene, vertex, count, shape, edge, ink);
+		draw_polygon(scene, vertex, count, shape, rest, ink);
 }
 
 template <typename T> static void convex(const Job<T> &job)
@@ -124,13 +125,13 @@ template <typename T> static void convex(const Job<T> &job)
 	const Scene<T> scene(job, view);
 	const int32_t marks = job.domain[2];
 	const int32_t shape = static_cast<int32_t>(view.fact(VIEW_FIRST, FIRST_SHAPE));
-	const int32_t edge = static_cast<int32_t>(view.fact(VIEW_FIRST, FIRST_EDGE));
+	const int32_t rest = static_cast<int32_t>(view.fact(VIEW_FIRST, FIRST_EDGE));
 	job.pool.run(job.domain[0], 512, [&](int32_t begin, int32_t end) {
 		for (int32_t i = begin; i < end; i++) {
 			if (i < marks)
-				draw_mark(scene, i, shape + i, edge + LINE_EDGES * i);
+				draw_mark(scene, i, shape + i, rest + LINE_REST * i);
 			else
-				draw_body(scene, i - marks, shape + marks, edge + LINE_EDGES * marks);
+				draw_body(scene, i - marks, shape + marks, rest + LINE_REST * marks);
 		}
 	});
 }

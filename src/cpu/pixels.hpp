@@ -1,0 +1,144 @@
+/* Tiles of pixels, and how far pixels are from edges: CONTRACT.md, "pixels". */
+#ifndef CAROM_CPU_PIXELS_HPP
+#define CAROM_CPU_PIXELS_HPP
+
+#include <algorithm>
+
+#include "cpu/stages.hpp"
+
+namespace carom::cpu {
+
+constexpr int32_t side = PIXEL_TILE, area = side * side;
+
+/* Colours as squares: light adds up nearly as the squares of sRGB values do. */
+template <typename T> struct Light {
+	T channels[3];
+
+	Light() = default;
+	explicit Light(T color)
+	{
+		const int32_t rgb = static_cast<int32_t>(color);
+		for (int c = 0; c < 3; c++) {
+			const T level = static_cast<T>(rgb >> (16 - 8 * c) & 255);
+			channels[c] = level * level;
+		}
+	}
+};
+
+/* The pixels of a tile, row by row. While all are alike it is plain, and the first row stands for all. */
+template <typename T> struct Tile {
+	T x, y; /* of the first pixel */
+	bool plain;
+	T light[3][area];
+
+	void fill(const Light<T> &all)
+	{
+		plain = true;
+		for (int c = 0; c < 3; c++)
+			std::fill(light[c], light[c] + side, all.channels[c]);
+	}
+
+	/* Before a part of it changes. */
+	void spread()
+	{
+		if (!plain)
+			return;
+		plain = false;
+		for (T *channel : light)
+			std::fill(channel + side, channel + area, channel[0]);
+	}
+};
+
+template <typename T> struct Edge {
+	T slope_x, slope_y, at, bend;
+};
+
+/* Some pixels of a row, as many as compilers make vectors of: counted from the first pixel of a shape's box. */
+template <typename T, int32_t width> struct Span {
+	T x[width], far[width];
+
+	void begin(T from_x)
+	{
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++)
+			x[i] = from_x + static_cast<T>(i);
+	}
+
+	void reset()
+	{
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++)
+			far[i] = -infinite<T>;
+	}
+
+	void beyond_line(const Edge<T> &edge, T y)
+	{
+		const T a = edge.at + edge.slope_y * y;
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++)
+			far[i] = larger(far[i], a + edge.slope_x * x[i]);
+	}
+
+	void beyond_disc(const Edge<T> &edge, T y)
+	{
+		const T a = edge.at + (edge.slope_y + edge.bend * y) * y;
+		T s[width], square[width];
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++) {
+			s[i] = a + (edge.slope_x + edge.bend * x[i]) * x[i];
+			square[i] = larger(T(0), 1 + (4 * edge.bend) * s[i]);
+		}
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++)
+			far[i] = larger(far[i], (2 * s[i]) / (1 + std::sqrt(square[i])));
+	}
+
+	/* What is outside the box is far. */
+	void mask(T box_width)
+	{
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++)
+			far[i] = ((x[i] >= 0) & (x[i] < box_width)) ? far[i] : T(1);
+	}
+
+	/* (One loop a limit: in one for both compilers don't see that they are a minimum and a maximum.) */
+	void share(T *of, T outline) const
+	{
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++)
+			of[i] = larger(T(0), (T(0.5) - far[i]) - outline);
+#pragma omp simd
+		for (int32_t i = 0; i < width; i++)
+			of[i] = smaller(T(1), of[i]);
+	}
+};
+
+/* What a shape does to some columns of the rows of a tile: how much of each pixel it covers, and how much of that is inside its outline. */
+template <typename T> struct Stroke {
+	int32_t width, left, top, bottom;
+	T opacity;
+	Light<T> fill, outline;
+	T cover[area], inside[area];
+};
+
+/* Where in a word the byte lies that is number `c` in memory. */
+constexpr int32_t shift_of(int c)
+{
+	return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? 8 * c : 24 - 8 * c;
+}
+
+/* The bytes of the tile's first pixels, `count` of them, as words, of which compilers make vectors. */
+template <int32_t count, typename T> void round_light(const Tile<T> &tile, uint32_t *pixels)
+{
+#pragma omp simd
+	for (int32_t i = 0; i < count; i++) {
+		uint32_t word = uint32_t(255) << shift_of(3);
+		for (int c = 0; c < 3; c++)
+			word |= static_cast<uint32_t>(static_cast<int32_t>(std::sqrt(larger(T(0), tile.light[c][i])) + T(0.5))) << shift_of(c);
+		pixels[i] = word;
+	}
+}
+
+}
+
+#endif
