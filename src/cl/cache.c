@@ -125,8 +125,10 @@ void carom_cl_cache_keep(const carom_cl_entry *e, const carom_cl_api *cl, cl_pro
 		return;
 	const size_t size = e->size + length;
 	char *file = malloc(size + sizeof(uint64_t));
+	if (!file)
+		return;
 	unsigned char *binary = (unsigned char *)file + e->size;
-	if (file && !cl->clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)) {
+	if (!cl->clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)) {
 		memcpy(file, e->key, e->size);
 		const uint64_t checksum = hash(file, size);
 		memcpy(file + size, &checksum, sizeof checksum);
