@@ -4,6 +4,8 @@
 /* The tiles that a shape touches: first column and row, and those behind the last; none: the columns are equal. */
 int4 tiles_of(float4 box, float4 frame)
 {
+	if (is_empty(box))
+		return (int4)(0, 0, 0, 0);
 	int x0 = (int)(larger(CHANNEL(box, BOX_X0), CHANNEL(frame, BOX_X0)) - CHANNEL(frame, BOX_X0));
 	int y0 = (int)(larger(CHANNEL(box, BOX_Y0), CHANNEL(frame, BOX_Y0)) - CHANNEL(frame, BOX_Y0));
 	int x1 = (int)(smaller(CHANNEL(box, BOX_X1), CHANNEL(frame, BOX_X1)) - CHANNEL(frame, BOX_X0));

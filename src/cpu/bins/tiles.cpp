@@ -24,6 +24,8 @@ public:
 	/* Which tiles a shape touches. */
 	Tiles of(int32_t shape) const
 	{
+		if (!(boxes.of(shape, BOX_X0) < boxes.of(shape, BOX_X1)))
+			return {0, 0, 0, 0}; /* not seen, as most radius lines */
 		const int32_t left = whole(larger(boxes.of(shape, BOX_X0), x0) - x0), top = whole(larger(boxes.of(shape, BOX_Y0), y0) - y0);
 		const int32_t right = whole(smaller(boxes.of(shape, BOX_X1), x1) - x0);
 		const int32_t bottom = whole(smaller(boxes.of(shape, BOX_Y1), y1) - y0);

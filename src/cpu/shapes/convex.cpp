@@ -63,23 +63,28 @@ template <typename T> static void draw_circle(const Scene<T> &scene, int32_t ver
 	line.write(scene.to, shape + 1, rest, scene.clip);
 }
 
+/* (Single numbers: where compilers copy vectors as words that were written by halves, processors wait.) */
 template <typename T> struct Extent {
-	Vec<T> low, high;
-	T area;
+	T low_x, low_y, high_x, high_y, area;
+
+	Vec<T> low() const { return {low_x, low_y}; }
+	Vec<T> high() const { return {high_x, high_y}; }
 };
 
 template <typename T> static Extent<T> measure(const Scene<T> &scene, int32_t vertex, int32_t count)
 {
-	const Vec<T> first = scene.offset(vertex);
-	Vec<T> before(0, 0);
-	Extent<T> all{first, first, 0};
-	T twice = 0;
+	const T x0 = scene.placed.of(vertex, PLACED_X), y0 = scene.placed.of(vertex, PLACED_Y);
+	Extent<T> all{x0, y0, x0, y0, 0};
+	T before_x = 0, before_y = 0, twice = 0;
 	for (int32_t k = 1; k < count; k++) {
-		const Vec<T> v = scene.offset(vertex + k), from_first = v - first;
-		all.low = Vec<T>(smaller(all.low.x(), v.x()), smaller(all.low.y(), v.y()));
-		all.high = Vec<T>(larger(all.high.x(), v.x()), larger(all.high.y(), v.y()));
-		twice = twice + cross(from_first, before);
-		before = from_first;
+		const T x = scene.placed.of(vertex + k, PLACED_X), y = scene.placed.of(vertex + k, PLACED_Y);
+		all.low_x = smaller(all.low_x, x);
+		all.low_y = smaller(all.low_y, y);
+		all.high_x = larger(all.high_x, x);
+		all.high_y = larger(all.high_y, y);
+		twice = twice + cross(Vec<T>(x - x0, y - y0), Vec<T>(before_x, before_y));
+		before_x = x - x0;
+		before_y = y - y0;
 	}
 	all.area = T(0.5) * twice;
 	return all;
@@ -89,8 +94,8 @@ template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t ve
 {
 	const Extent<T> all = measure(scene, vertex, count);
 	const Vec<T> c = scene.center(vertex);
-	const T size = norm(all.high - all.low), breadth = all.area / larger(size, T(1)), out = growth(breadth);
-	const PixelBox<T> box = touched<T>(c + all.low, c + all.high, out, scene.clip);
+	const T size = norm(all.high() - all.low()), breadth = all.area / larger(size, T(1)), out = growth(breadth);
+	const PixelBox<T> box = touched<T>(c + all.low(), c + all.high(), out, scene.clip);
 	if (!scene.to.shape(shape, box, seen(ink, breadth, size), rest, count))
 		return;
 	const Vec<T> d = box.first_pixel() - c;
