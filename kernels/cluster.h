@@ -1,7 +1,8 @@
 /* Events of bodies in slots, and the clusters in which they are answered: CONTRACT.md, "The step events". */
 
-#define LISTS_IN LIST_OUT(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(found)
-#define LISTS spans, neighbours, status, members, active, found
+#define LISTS_IN \
+	LIST_OUT(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(found), LIST_IN(extra), LIST_OUT(wakes)
+#define LISTS spans, neighbours, status, members, active, found, extra, wakes
 
 /* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. Those whose discs stay apart
  * need not be asked. */
@@ -18,13 +19,21 @@ float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k
 	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;
 }
 
-/* Can the body reach the room's walls before the step ends? */
-bool near_walls(body k, float4 room)
+/* Can the body reach the room's walls in so many steps? */
+bool near_walls(body k, float4 room, float steps)
 {
-	float pad = (((span(k.a) + k.radius) + span(k.v)) + span(k.x)) * (4.0f * SLOP) + (k.radius + span(k.a));
-	float2 end = (float2)(k.x.x + k.v.x, k.x.y + k.v.y);
+	float push = (steps * steps) * span(k.a), way = steps * span(k.v);
+	float pad = (((push + k.radius) + way) + span(k.x)) * ((4.0f * steps) * SLOP) + (k.radius + push);
+	float2 end = (float2)(k.x.x + steps * k.v.x, k.x.y + steps * k.v.y);
 	return smaller(k.x.x, end.x) - pad < CHANNEL(room, ROOM_MIN_X) || smaller(k.x.y, end.y) - pad < CHANNEL(room, ROOM_MIN_Y)
 		|| larger(k.x.x, end.x) + pad > CHANNEL(room, ROOM_MAX_X) || larger(k.x.y, end.y) + pad > CHANNEL(room, ROOM_MAX_Y);
+}
+
+/* So many steps are sure to be without a hit at a wall. */
+bool is_clear_of_walls(TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, float steps)
+{
+	return !(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || slot_is_static(slots, s)
+		|| !near_walls(body_of(slots, s, k, length), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), steps);
 }
 
 /* When the trajectory hits which wall first. */
@@ -37,7 +46,7 @@ float wall_time(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), float4 rules, i
 	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f))
 		return NO_HIT;
 	body b = body_of(slots, s, k, length);
-	if (!(b.inverse_mass > 0.0f) || !near_walls(b, room))
+	if (!(b.inverse_mass > 0.0f) || !near_walls(b, room, 1.0f))
 		return NO_HIT;
 	for (int wall = 0; wall < 4; wall++) {
 		float offset, done = 1.0f;
@@ -136,4 +145,45 @@ void conflict(LIST_OUT(status), LIST_OUT(members), LIST_IN(active), LIST_OUT(par
 bool lists_are_good(LIST_OUT(status))
 {
 	return !status[STATUS_STALE] && !status[STATUS_SMALL];
+}
+
+/* Goes through a slot's neighbours: k is an index of Neighbours up to `end`, then -2 - an index of Extra's nodes, then -1. */
+INLINE int node_cursor(int node)
+{
+	return node < 0 ? -1 : -2 - node;
+}
+
+INLINE int first_neighbour(LIST_IN(spans), LIST_IN(extra), int s, int end)
+{
+	int k = spans[SPAN(s, SPAN_START)];
+	return k < end ? k : node_cursor(extra[s]);
+}
+
+INLINE int next_neighbour(LIST_IN(extra), int s, int end, int k)
+{
+	if (k < 0)
+		return node_cursor(extra[(-2 - k) + NODE_LINK]);
+	return k + 1 < end ? k + 1 : node_cursor(extra[s]);
+}
+
+INLINE int neighbour_of(LIST_IN(neighbours), LIST_IN(extra), int k)
+{
+	return k < 0 ? extra[(-2 - k) + NODE_SLOT] : neighbours[k];
+}
+
+/* How many steps after this one a look is good for: none if it is cut short, for those are longer. */
+float steps_ahead(TEX_IN(uniforms), float length)
+{
+	return length < CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP) ? 0.0f : (float)(HORIZON - 1);
+}
+
+/* The step of a time that is counted from this one's beginning, but not this one. */
+INLINE int step_of(LIST_IN(status), float time)
+{
+	return status[STATUS_AGE] + max((int)time, 1);
+}
+
+INLINE void wake_before(LIST_IN(status), LIST_OUT(wakes), int s, float time)
+{
+	wakes[WAKE(s, WAKE_NEXT)] = min(wakes[WAKE(s, WAKE_NEXT)], step_of(status, time));
 }

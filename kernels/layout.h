@@ -145,8 +145,7 @@
 #define PUSH_TORQUE 2 /* rad/s^2 */
 #define PUSH_BODY 3   /* index of the body */
 
-/* Outlines: a record a vertex of polygons, from twice the body's GEOMETRY_FIRST on, which MASS_FIRST is: vertices once more, with what is
- * wanted beside them */
+/* Outlines: a record a vertex of polygons, from twice the body's GEOMETRY_FIRST on, which MASS_FIRST is */
 #define OUTLINE_X 0
 #define OUTLINE_Y 1
 #define OUTLINE_NORMAL_X 2 /* outward, 1 long, of the side from here to the next vertex */
@@ -175,8 +174,7 @@
 /* So many numbers more than bodies, since a cluster loses one where another claims the body first. */
 #define NUMBERS_SPARE 4096
 
-/* From this round of a step on a cluster that meets another is united with all that are around it: in a dense crowd most would meet, one after the
- * other, and each time all would be done again. */
+/* From this round of a step on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other. */
 #define SPREAD_ROUND 2
 
 /* Members: twelve ints a number */
@@ -193,8 +191,7 @@
 #define MEMBER_SIBLING 10 /* the next of those it belongs to, */
 #define MEMBER_BEFORE 11  /* and the one before, or for the first the one above */
 
-/* Owners: the number of the body in the slot, -1 for none (-2: just being given one); Active: the slot of the number, -1 for none; Parents: union-find over
- * slots: clusters that meet are one */
+/* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 
 /* Spans: four ints a slot */
 #define SPAN_WIDTH 4
@@ -205,6 +202,16 @@
 #define SPAN_FOUND 3 /* once the lists are made: the first of its hits that the step begins with, or one of the next two */
 #define FOUND_NONE -1
 #define FOUND_NO_ROOM -2 /* some were not kept: it is to be looked for them again */
+
+/* Movers: slots whose reach has changed since the lists were made. Extra: an int a slot, where in Extra its neighbours begin that are not in its span, -1 for
+ * none; behind those ints nodes like those of Nodes */
+
+/* Wake: two ints a slot, steps as STATUS_AGE counts them. Of two neighbours the one that was changed later watches the other; of two that were changed
+ * alike the one that has the other in its span's first part. */
+#define WAKE_WIDTH 2
+#define WAKE_CHANGED 0 /* the step before which the body last changed its way, 0: not since the lists were made */
+#define WAKE_NEXT 1    /* the step in which to look again: before, it has no hit with what it watches, nor with a wall */
+#define HORIZON 6      /* steps that one look is good for, at most */
 
 /* Cells: three ints a cell, of CELL_ROW cells a row */
 #define CELL_WIDTH 3
@@ -237,14 +244,17 @@
 #define STATUS_NUMBERS 8   /* there are for bodies that events change */
 #define STATUS_ROOM 9      /* ints there are in Neighbours */
 #define STATUS_NODE_ROOM 10
-#define STATUS_LEVELS 11 /* bits: levels that have bodies */
-#define STATUS_PACE 12   /* float bits, m: what the slower bodies may go before the lists are stale */
-#define STATUS_CELL 13   /* float bits, m: the side of a cell of level 0 */
-#define STATUS_WINDOW 14 /* float bits, s: how long the lists are to last */
-#define STATUS_BUILDS 15 /* since the host asked: how often lists were made, */
-#define STATUS_STEPS 16  /* steps done, */
-#define STATUS_IDLE 17   /* not begun for want of lists, */
-#define STATUS_AGAIN 18  /* and not done since they needed more rounds */
+#define STATUS_LEVELS 11     /* bits: levels that have bodies */
+#define STATUS_PACE 12       /* float bits, m: what the slower bodies may go before the lists are stale */
+#define STATUS_CELL 13       /* float bits, m: the side of a cell of level 0 */
+#define STATUS_WINDOW 14     /* float bits, s: how long the lists are to last */
+#define STATUS_BUILDS 15     /* since the host asked: how often lists were made, */
+#define STATUS_STEPS 16      /* steps done, */
+#define STATUS_IDLE 17       /* not begun for want of lists, */
+#define STATUS_AGAIN 18      /* and not done since they needed more rounds */
+#define STATUS_AGE 19        /* steps done with these lists */
+#define STATUS_EXTRA_ROOM 20 /* ints there are in Extra */
+#define STATUS_MENDED 21     /* of Movers: those that are with their new neighbours */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */
@@ -253,6 +263,8 @@
 #define STATUS_NEIGHBOURS 36 /* ints wanted in Neighbours */
 #define STATUS_NODES 37      /* nodes wanted */
 #define STATUS_PLACED 38     /* slots that have got their place */
+#define STATUS_MOVERS 39     /* slots in Movers */
+#define STATUS_EXTRA 40      /* ints wanted in Extra */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.

@@ -6,6 +6,17 @@
 #define NEAR_LEVELS 2      /* a body looks for smaller ones so many levels below; those farther below look for it */
 #define DRIFT_FACTOR 1.34f /* of the pace, a part of it that bodies can go in a step by a hit */
 
+/* Lists begin of so many slots. */
+void status_begin(LIST_OUT(status), int count)
+{
+	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
+	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
+		status[i] = 0;
+	status[STATUS_LEVELS] = 1;
+	status[STATUS_EXTRA] = count;
+	status[STATUS_BUILDS]++;
+}
+
 /* How far bodies go, from a sample of them. None of this changes a result: it only decides how long lists last. */
 void pace_choose(RECORD_IN(slots), int count, float window, LIST_OUT(status))
 {
@@ -43,16 +54,20 @@ float4 static_box(VERTICES_IN, RECORD_IN(slots), int s)
 	return (float4)(low.x - grow, low.y - grow, high.x + grow, high.y + grow);
 }
 
-float4 reach_box(VERTICES_IN, RECORD_IN(slots), int s, float need, LIST_IN(status))
+/* Of a body that moves. */
+float4 reach_about(RECORD_IN(slots), int s, float need, LIST_IN(status))
 {
 	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), push = SLOT_LOAD(slots, s, SLOT_PUSH);
 	float window = as_float(status[STATUS_WINDOW]), radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
-	if (slot_is_static(slots, s))
-		return static_box(VERTICES, slots, s);
 	float speed = norm((float2)(at.z, at.w)) + norm((float2)(push.x, push.y)) * window;
 	float way = larger(larger(as_float(status[STATUS_PACE]), REACH_FACTOR * speed * window), REACH_FACTOR * need);
 	way += radius + ((magnitude(at.x) + magnitude(at.y)) + radius) * (8.0f * SLOP);
 	return (float4)(at.x - way, at.y - way, at.x + way, at.y + way);
+}
+
+float4 reach_box(VERTICES_IN, RECORD_IN(slots), int s, float need, LIST_IN(status))
+{
+	return slot_is_static(slots, s) ? static_box(VERTICES, slots, s) : reach_about(slots, s, need, status);
 }
 
 float level_side(LIST_IN(status), int level)

@@ -3,6 +3,7 @@
 #define SLOT_LOAD(slots, s, record) ((slots)[SLOT_WIDTH * (s) + (record)])
 #define MEMBER(id, field) (MEMBER_WIDTH * (id) + (field))
 #define SPAN(s, field) (SPAN_WIDTH * (s) + (field))
+#define WAKE(s, field) (WAKE_WIDTH * (s) + (field))
 
 /* How a body moves from `time` on. */
 typedef struct trajectory {
@@ -116,35 +117,41 @@ disc disc_of(RECORD_IN(slots), int s, float4 place_record, float time, bool held
 	return d;
 }
 
-/* Does the disc, at the step's start, surely stay apart from the body in a slot, by the boxes of their ways? Cheap, and right for most. */
-INLINE bool boxes_apart(disc a, RECORD_IN(slots), int other, float length)
+/* Does the disc, at the step's start, surely stay apart from the body in a slot for so many steps, by the boxes of their ways? Cheap, and right for most. */
+INLINE bool boxes_apart(disc a, RECORD_IN(slots), int other, float length, float steps)
 {
 	float4 b = SLOT_LOAD(slots, other, SLOT_PLACE), push = SLOT_LOAD(slots, other, SLOT_PUSH);
 	float dx = magnitude(CHANNEL(b, LINEAR_X) - a.x.x), dy = magnitude(CHANNEL(b, LINEAR_Y) - a.x.y);
-	float vx = magnitude(CHANNEL(b, LINEAR_VX) * length - a.v.x), vy = magnitude(CHANNEL(b, LINEAR_VY) * length - a.v.y);
+	float vx = steps * magnitude(CHANNEL(b, LINEAR_VX) * length - a.v.x), vy = steps * magnitude(CHANNEL(b, LINEAR_VY) * length - a.v.y);
 	float differ = magnitude((CHANNEL(push, PUSH_X) * length) * length - a.a.x) + magnitude((CHANNEL(push, PUSH_Y) * length) * length - a.a.y);
-	float most = (a.radius + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS)) + differ;
-	most += (((a.far + most) + (dx + dy)) + (vx + vy)) * (4.0f * SLOP);
+	float most = (a.radius + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS)) + (steps * steps) * differ;
+	most += (((a.far + most) + (dx + dy)) + ((vx + vy) + steps * span(a.v))) * (8.0f * SLOP);
 	return (dx > most + vx) | (dy > most + vy);
 }
 
-/* Do two discs surely stay apart until the step ends? The way of one seen from the other is a line but for what their
- * pushes differ, which the distance allows for. */
+/* Before which time, counted from the step's beginning, two discs surely have no hit, while nothing changes their ways: in this step and `ahead` steps more.
+ * The way of one seen from the other is a line but for what their pushes differ, which the distance allows for. Circles that fall alike have none
+ * once they part. */
+INLINE float first_meeting(disc a, disc b, float ahead, bool circles)
+{
+	float t0 = larger(a.time, b.time), da = t0 - a.time, db = t0 - b.time, last = 1.0f + ahead, never = last + 1.0f;
+	float2 from = place(a.x, a.v, a.a, da), to = place(b.x, b.v, b.a, db), d = (float2)(to.x - from.x, to.y - from.y);
+	float2 v = (float2)((b.v.x + db * b.a.x) - (a.v.x + da * a.a.x), (b.v.y + db * b.a.y) - (a.v.y + da * a.a.y));
+	float differ = (last * last) * span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), reach = a.radius + b.radius;
+	float slack = ((span(from) + span(to)) + (reach + last * ((span(v) + span(a.v)) + span(b.v)))) * (8.0f * SLOP);
+	float most = ((reach + differ) + slack) * 1.00001f, square = most * most, distance = inner(d, d), approach = inner(d, v), speed = inner(v, v);
+	if (approach >= 0.0f && (distance > square || (circles && differ == 0.0f && approach > slack * span(v))))
+		return never;
+	if (!(distance > square))
+		return t0;
+	float x = cross2(d, v), under = square * speed - x * x, far = sqrt(distance);
+	if (under < 0.0f)
+		return never;
+	return t0 + (((far - most) * (far + most)) / (sqrt(under) - approach)) * 0.9999f;
+}
+
+/* The same of two bodies' trajectories in this step alone. */
 INLINE bool stay_apart(disc a, disc b)
 {
-	float t0 = larger(a.time, b.time), rest = 1.0f - t0, da = t0 - a.time, db = t0 - b.time;
-	float2 from = place(a.x, a.v, a.a, da), to = place(b.x, b.v, b.a, db);
-	float2 d = (float2)(to.x - from.x, to.y - from.y);
-	float2 v = (float2)((b.v.x + db * b.a.x) - (a.v.x + da * a.a.x), (b.v.y + db * b.a.y) - (a.v.y + da * a.a.y));
-	float differ = span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), reach = a.radius + b.radius;
-	float size = (span(from) + span(to)) + (reach + span(v));
-	float most = (reach + differ) + size * (4.0f * SLOP), distance = inner(d, d), approach = inner(d, v), square = (most * most) * 1.00001f;
-	if (approach < 0.0f) {
-		float2 last = (float2)(d.x + rest * v.x, d.y + rest * v.y);
-		float x = cross2(d, v);
-		if (inner(last, v) > 0.0f)
-			return x * x > square * inner(v, v);
-		distance = inner(last, last);
-	}
-	return distance > square;
+	return first_meeting(a, b, 0.0f, false) > 1.0f;
 }

@@ -40,6 +40,9 @@ typedef enum carom_role {
 	ROLE_SPANS,      /* list, SPAN_WIDTH a slot */
 	ROLE_NEIGHBOURS, /* list: slots */
 	ROLE_NODES,      /* list, NODE_WIDTH a node */
+	ROLE_EXTRA,      /* list, one a slot, and NODE_WIDTH a node */
+	ROLE_MOVERS,     /* list: slots */
+	ROLE_WAKE,       /* list, WAKE_WIDTH a slot */
 	ROLE_CELLS,      /* list, CELL_WIDTH a cell */
 	ROLE_STATUS,     /* list, STATUS_WIDTH */
 	/* of pictures, made when the first is drawn; lists are those of ints */
@@ -84,12 +87,13 @@ typedef enum carom_stage {
 	STAGE_SORT,    /* (slots) */
 	STAGE_NEAR,    /* (slots, 1, cells a row, rows) */
 	STAGE_GATHER,  /* (slots) */
+	STAGE_MEND,    /* (share, 1, cells a row, rows) */
 	STAGE_SEEK,    /* (slots, 1, round) */
 	STAGE_MUSTER,  /* (share, 1, round) */
 	STAGE_RESOLVE, /* (share, 1, round) */
 	STAGE_CHECK,   /* (share, 1, round) */
 	STAGE_SETTLE,  /* (1, 1, round) */
-	STAGE_DRIFT,   /* (slots) */
+	STAGE_DRIFT,   /* (slots, 1, room in Movers) */
 	STAGE_UNLOAD,  /* (slots): the slots into the state */
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
@@ -102,7 +106,7 @@ typedef enum carom_stage {
 	STAGE_COUNT
 } carom_stage;
 
-#define CAROM_MAX_TEXTURES 16
+#define CAROM_MAX_TEXTURES 17
 
 typedef struct carom_stage_def {
 	const char *slot;

@@ -9,28 +9,19 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 		return;
 	if (s == 0)
 		status[STATUS_BEGUN] = domain.z;
+	if (status[STATUS_AGE] == 0)
+		wakes[WAKE(s, WAKE_CHANGED)] = 0;
+	else if (wakes[WAKE(s, WAKE_NEXT)] > status[STATUS_AGE])
+		return;
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
-	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
-	float t = wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
+	float ahead = steps_ahead(TEX(uniforms), length);
+	bool clear = is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
+	wakes[WAKE(s, WAKE_NEXT)] = step_of(status, clear ? 1.0f + ahead : 1.0f);
+	float t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		activate(LISTS, owners, s, -1 - wall, t, pause, domain.z);
-	for (int i = spans[SPAN(s, SPAN_START)]; i < spans[SPAN(s, SPAN_HALF)]; i++) {
-		int other = neighbours[i];
-		if (boxes_apart(disc_k, slots, other, length)
-			|| stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
-			continue;
-		t = pair_time(VERTICES, slots, rules, s, k, other, trajectory_start(slots, other), length, &pause);
-		if (!(t <= 1.0f))
-			continue;
-		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
-		if (changes)
-			activate(LISTS, owners, s, other, t, pause, domain.z);
-		if (other_changes)
-			activate(LISTS, owners, other, s, t, pause, domain.z);
-		if (changes && other_changes)
-			unite(parents, s, other);
-	}
+	seek_neighbours(VERTICES, slots, LISTS, owners, parents, rules, s, k, length, ahead, domain.z);
 }
 
 __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners),
@@ -85,8 +76,8 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
 			continue;
 		int end = spans[SPAN(s, status[STATUS_BEGUN] == domain.z ? SPAN_HALF : SPAN_END)];
-		for (int k = spans[SPAN(s, SPAN_START)]; k < end; k++) {
-			int other = neighbours[k], other_id = owners[other];
+		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = next_neighbour(extra, s, end, k)) {
+			int other = neighbour_of(neighbours, extra, k), other_id = owners[other];
 			if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
 				continue;
 			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
@@ -94,6 +85,8 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 				continue;
 			if (ways_meet(VERTICES, slots, members, work, rules, s, id, other, other_id, length))
 				conflict(status, members, active, parents, owner, theirs, domain.z);
+			atomic_xchg(&wakes[WAKE(s, WAKE_NEXT)], status[STATUS_AGE] + 1); /* neither knew of the other's change */
+			atomic_xchg(&wakes[WAKE(other, WAKE_NEXT)], status[STATUS_AGE] + 1);
 		}
 	}
 }

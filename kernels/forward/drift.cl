@@ -14,8 +14,8 @@ bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_IN(status), float4 bo
 		|| y + way > CHANNEL(box, AABB_MAX_Y);
 }
 
-__kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(spans), int4 domain)
+__kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(members),
+	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(spans), LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))
@@ -27,10 +27,19 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 		trajectory k = moved(slots, s, id >= 0 ? work_load(work, id) : trajectory_start(slots, s), 1.0f, length);
 		slots[SLOT_WIDTH * s + SLOT_PLACE] = k.place;
 		slots[SLOT_WIDTH * s + SLOT_TURN] = (float4)(k.angle, k.velocity, CHANNEL(constants, TURN_RADIUS), CHANNEL(constants, TURN_RESTITUTION));
-		if (leaves_reach(TEX(uniforms), slots, status, reach[s], s, k.place))
-			atomic_or(&status[STATUS_STALE], 1);
+		if (leaves_reach(TEX(uniforms), slots, status, reach[s], s, k.place)) {
+			int mover = atomic_inc(&status[STATUS_MOVERS]);
+			if (mover < domain.z)
+				movers[mover] = s;
+			else
+				atomic_or(&status[STATUS_STALE], 1);
+			reach[s] = reach_about(slots, s, 0.0f, status);
+			wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
+		}
 	}
 	if (id >= 0) {
+		/* one that no event changed has not looked how it goes on */
+		wakes[WAKE(s, members[MEMBER(id, MEMBER_EVENTS)] > 0 ? WAKE_CHANGED : WAKE_NEXT)] = status[STATUS_AGE];
 		member_reset(members, id);
 		owners[s] = -1;
 		parents[s] = s;

@@ -5,11 +5,7 @@ __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(statu
 	if (get_global_id(0) > 0)
 		return;
 	float window = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP) * ((float)domain.w / 256.0f);
-	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = 0;
-	status[STATUS_ACTIVE] = status[STATUS_NEIGHBOURS] = status[STATUS_NODES] = status[STATUS_PLACED] = 0;
-	status[STATUS_LEVELS] = 1;
-	status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
-	status[STATUS_BUILDS]++;
+	status_begin(status, domain.z);
 	pace_choose(slots, domain.z, window, status);
 }
 
@@ -63,12 +59,13 @@ __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST
 }
 
 __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans), LIST_OUT(neighbours),
-	LIST_OUT(nodes), LIST_OUT(members), int4 domain)
+	LIST_OUT(nodes), LIST_OUT(members), LIST_OUT(extra), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x)
 		return;
 	near_list list;
+	extra[s] = -1;
 	list.ahead = list.behind = 0;
 	near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &list, neighbours, -1);
 	int all = list.ahead + list.behind, start = all > 0 ? neighbours_take(status, all) : 0;
@@ -80,8 +77,7 @@ __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(statu
 	spans[SPAN(s, SPAN_FOUND)] = FOUND_NONE;
 	if (all > NEAR_MOST) {
 		near_list again;
-		again.ahead = 0;
-		again.behind = 0;
+		again.ahead = again.behind = 0;
 		near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &again, neighbours + start, list.ahead);
 		return;
 	}
@@ -102,14 +98,23 @@ __kernel void neighbours_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neig
 		extra++;
 	int to = neighbours_take(status, (end - start) + extra);
 	if (to >= 0) {
-		for (int k = start; k < end; k++)
-			neighbours[to + (k - start)] = neighbours[k];
 		spans[SPAN(s, SPAN_START)] = to;
 		spans[SPAN(s, SPAN_HALF)] = to + (middle - start);
-		to += end - start;
+		for (int k = start; k < end; k++)
+			neighbours[to++] = neighbours[k];
 		for (int k = members[MEMBER(s, MEMBER_HEAD)]; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
 			neighbours[to++] = nodes[NODE_WIDTH * k + NODE_SLOT];
 		spans[SPAN(s, SPAN_END)] = to;
 	}
 	members[MEMBER(s, MEMBER_HEAD)] = -1;
+}
+
+/* The neighbours of bodies that have got another reach. */
+__kernel void neighbours_mend(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers),
+	LIST_OUT(extra), int4 domain)
+{
+	if (PEEK(status, STATUS_STALE) || status[STATUS_SMALL])
+		return;
+	for (int i = status[STATUS_MENDED] + get_global_id(0); i < status[STATUS_MOVERS]; i += get_global_size(0))
+		mend_search(reach, status, cells, spans, neighbours, movers, extra, movers[i], domain.z, domain.w);
 }

@@ -12,8 +12,8 @@
 
 /* Each header stands after those it needs. */
 static const char *const headers[2][20] = {
-	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "answer",
-		"heap", "queue"},
+	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "mend",
+		"answer", "heap", "queue"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
 };
 

@@ -21,13 +21,38 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 template <typename T> class Clusters : public Bodies<T>
 {
 public:
-	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active, found; owners and parents last. */
+	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active, found, extra, wake; owners and parents last. */
 	Clusters(const Job<T> &job, int owners_at)
 		: Bodies<T>(job), spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
 		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at)), parents(job.list(owners_at + 1)),
-		  found(reinterpret_cast<FoundHit *>(job.list(9)))
+		  found(reinterpret_cast<FoundHit *>(job.list(9))), extra(job.list(10)), wakes(reinterpret_cast<Wake *>(job.list(11))),
+		  ahead(this->length < this->time_step() ? 0 : HORIZON - 1)
 	{
 	}
+
+	/* Calls `visit(other, whether it is for this slot to test the pair, where the other could as well)` for those in the slot's span, up to an end, and
+	 * those that it got since. */
+	template <typename Visit> void each_neighbour(int32_t s, int32_t end, const Visit &visit) const
+	{
+		for (int32_t k = spans[s].start; k < end; k++)
+			visit(neighbours[k], k < spans[s].half);
+		for (int32_t k = extra[s]; k >= 0; k = extra[k + NODE_LINK])
+			visit(extra[k + NODE_SLOT], s < extra[k + NODE_SLOT]);
+	}
+
+	/* The body is to be looked at again at that time, in steps from the beginning of this one; but not in this one. */
+	void wake_at(int32_t s, T time) const { wakes[s].next = status[STATUS_AGE] + std::max(static_cast<int32_t>(time), 1); }
+
+	/* Not later than that. */
+	void wake_before(int32_t s, T time) const
+	{
+		const int32_t next = wakes[s].next;
+		wake_at(s, time);
+		wakes[s].next = std::min(wakes[s].next, next);
+	}
+
+	/* In the next step, whoever else says so, too. */
+	void rouse(int32_t s) const { __atomic_store_n(&wakes[s].next, status[STATUS_AGE] + 1, __ATOMIC_RELAXED); }
 
 	bool ready() const { return this->length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL]; }
 
@@ -97,6 +122,9 @@ public:
 	Member *const members;
 	int32_t *const active, *const owners, *const parents;
 	FoundHit *const found;
+	const int32_t *const extra;
+	Wake *const wakes;
+	const T ahead; /* steps after this one that a look is good for; a step that is cut short says nothing of longer ones */
 };
 
 }

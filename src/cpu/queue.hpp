@@ -88,13 +88,13 @@ private:
 	void spread() const
 	{
 		for (int32_t m = head; m >= 0; m = members[m].link) {
-			const Span &span = clusters.spans[clusters.active[m]];
-			for (int32_t k = span.start; k < span.end; k++) {
-				const int32_t id = __atomic_load_n(&clusters.owners[clusters.neighbours[k]], __ATOMIC_ACQUIRE);
+			const int32_t s = clusters.active[m];
+			clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
+				const int32_t id = __atomic_load_n(&clusters.owners[other], __ATOMIC_ACQUIRE);
 				const int32_t owner = id < 0 ? leader : __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE);
 				if (owner != leader)
 					clusters.conflict(leader, owner, round);
-			}
+			});
 		}
 	}
 
@@ -157,27 +157,39 @@ private:
 		forget(id);
 		offer(id, -1 - wall, at_wall, 0);
 		Sieve<T> sieve;
-		const auto meet = [&](int32_t, int32_t other) { look_at(id, way, other); };
-		for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].end; k++) {
-			const int32_t other = clusters.neighbours[k], other_id = own_number(other);
+		const bool is_sure = !(way.held > 0) && clusters.stays_inside(s, way, 1 + clusters.ahead);
+		clusters.wake_at(s, is_sure ? 1 + clusters.ahead : 1);
+		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach); };
+		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
+			const int32_t other_id = own_number(other);
 			if (other_id >= 0)
-				sieve.add(s, other, approach(disc, disc_of(other, work[other_id])));
+				sieve.add(s, other, approach(disc, disc_of(other, work[other_id]), clusters.ahead));
 			else
-				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], slots[other].place, 0, false, clusters.length).later(disc.time)));
+				sieve.add(s, other,
+					Approach<T>(disc, Disc<T>(slots[other], slots[other].place, 0, false, clusters.length).later(disc.time), clusters.ahead));
 			if (sieve.is_full())
 				sieve.sift(meet);
-		}
+		});
 		sieve.sift(meet);
 	}
 
 	Disc<T> disc_of(int32_t s, const Work<T> &at) const { return Disc<T>(slots[s], at.place, at.time, at.held > 0, clusters.length); }
 
-	/* The member's next event may be the one with this body. */
-	void look_at(int32_t id, const Trajectory<T> &way, int32_t other)
+	/* The member's next event may be the one with this body. Else one of both is to look whether they hit later: the one that was changed last does, or the
+	 * one for which the pair is, if that is changed in this step, too. */
+	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach)
 	{
-		const int32_t other_id = own_number(other);
+		const int32_t s = clusters.active[id], other_id = own_number(other), seen = other_id >= 0 ? members[other_id].events : 0;
 		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
-		offer(id, other, clusters.pair_time(clusters.active[id], way, other, other_way), other_id >= 0 ? members[other_id].events : 0);
+		const T earliest = std::max(way.time, other_way.time) + earliest_hit(approach, slots[s], slots[other]);
+		clusters.wake_before(s, earliest);
+		if (seen > 0)
+			clusters.wake_before(other, earliest);
+		if (earliest > 1)
+			return;
+		const Disc<T> other_disc(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length);
+		if (carom::cpu::approach(disc_of(s, work[id]), other_disc, T(0)).may_touch())
+			offer(id, other, clusters.pair_time(s, way, other, other_way), seen);
 	}
 
 	/* A hit with another slot, or with wall -1 - partner, which has had so many events. */

@@ -73,6 +73,30 @@ struct Grid {
 	int32_t column_of(int32_t x, int32_t level) const { return (x + 11 * level) & (columns - 1); }
 };
 
+/* The slots by their cells. */
+template <typename T> struct CellList {
+	const int32_t *cells;
+	const Grid grid;
+
+	/* All the slots in the cells of a level that a box of that level could touch, in a few runs. */
+	template <typename Visit> void each(const Box<T> &box, int32_t level, Visit visit) const
+	{
+		const T side = T(grid.side_of(level));
+		const Cell low = grid.cell_at(box.min_x - side, box.min_y - side, level), high = grid.cell_at(box.max_x + side, box.max_y + side, level);
+		const int32_t last_x = std::min(high.x, low.x + grid.columns - 1), last_y = std::min(high.y, low.y + grid.rows - 1); /* once round */
+		for (int32_t y = low.y; y <= last_y; y++) {
+			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x, level), last = row + grid.column_of(last_x, level);
+			if (last < first)
+				visit(start(row), finish(last));
+			visit(start(first), finish(last < first ? row + grid.columns - 1 : last));
+		}
+	}
+
+private:
+	int32_t start(int32_t cell) const { return cells[CELL_WIDTH * cell + CELL_START]; }
+	int32_t finish(int32_t cell) const { return cells[CELL_WIDTH * cell + CELL_END]; }
+};
+
 template <typename T> struct ReachRules {
 	T window, pace;
 };

@@ -25,24 +25,27 @@ public:
 		most[count++] = approach.most;
 	}
 
-	/* Calls `meet(a, b)` for those that do not stay apart, and forgets all. */
+	/* Calls `meet(a, b, approach)` for those that do not stay apart, and forgets all. */
 	template <typename Meet> void sift(const Meet &meet)
 	{
 		int32_t near[room], left = 0;
 		for (int32_t i = count; i % width != 0; i++)
 			x[i] = y[i] = vx[i] = vy[i] = rest[i] = size[i] = most[i] = 0;
 		for (int32_t i = 0; i < (count + width - 1) / width * width; i++)
-			touching[i] = Approach<T>(x[i], y[i], vx[i], vy[i], rest[i], size[i], most[i]).may_touch() ? 1 : 0;
+			touching[i] = at(i).may_touch() ? 1 : 0;
 		for (int32_t i = 0; i < count; i++) {
 			near[left] = i;
 			left += touching[i];
 		}
 		count = 0;
 		for (int32_t i = 0; i < left; i++)
-			meet(first[near[i]], second[near[i]]); /* NOLINT(clang-analyzer-core.CallAndMessage): the first `left` of them were written above */
+			meet(first[near[i]], second[near[i]],
+				at(near[i])); /* NOLINT(clang-analyzer-core.CallAndMessage): the first `left` of them were written above */
 	}
 
 private:
+	[[gnu::always_inline]] Approach<T> at(int32_t i) const { return Approach<T>(x[i], y[i], vx[i], vy[i], rest[i], size[i], most[i]); }
+
 	static constexpr int32_t room = 64, width = 4; /* vectors are whole, so that no part of a loop goes one by one */
 
 	int32_t count = 0, first[room], second[room], touching[room];

@@ -11,6 +11,8 @@ namespace carom::cpu {
 template <typename T> struct Slot {
 	T place[4], turn[4], mass[4], push[4];
 
+	bool is_circle() const { return !(mass[MASS_COUNT] > 1); }
+	bool falls_like(const Slot &other) const { return push[PUSH_X] == other.push[PUSH_X] && push[PUSH_Y] == other.push[PUSH_Y]; }
 	bool is_static() const { return !(mass[MASS_INVERSE] > 0); }
 	int32_t body() const { return static_cast<int32_t>(push[PUSH_BODY]); }
 	T radius() const { return turn[TURN_RADIUS]; }
@@ -66,6 +68,12 @@ struct Span {
 
 static_assert(sizeof(Span) == SPAN_WIDTH * sizeof(int32_t), "spans");
 
+struct Wake {
+	int32_t changed, next;
+};
+
+static_assert(sizeof(Wake) == WAKE_WIDTH * sizeof(int32_t), "wakes");
+
 /* A hit that the step begins with. */
 struct FoundHit {
 	int32_t partner, time, link;
@@ -102,30 +110,52 @@ template <typename T> struct Approach {
 	T size; /* what rounding depends on, but for what is above */
 	T most; /* at this distance they touch, whatever pushes them, but for rounding */
 
-	/* Both discs are of the same time. */
-	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other)
-		: x(other.x - own.x), y(other.y - own.y), vx(other.vx - own.vx), vy(other.vy - own.vy), rest(1 - own.time),
-		  size(2 * (std::abs(own.x) + std::abs(own.y)) + own.radius + other.radius),
-		  most(own.radius + other.radius + (std::abs(other.ax - own.ax) + std::abs(other.ay - own.ay)))
+	/* Both discs are of the same time: for the rest of the step and so many steps more, each of whose ends is rounded. */
+	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, T ahead)
+		: x(other.x - own.x), y(other.y - own.y), vx(other.vx - own.vx), vy(other.vy - own.vy), rest(1 - own.time + ahead),
+		  size((1 + ahead)
+			  * (2 * (std::abs(own.x) + std::abs(own.y)) + own.radius + other.radius
+				  + ahead * (std::abs(own.vx) + std::abs(own.vy) + std::abs(vx) + std::abs(vy)))),
+		  most(own.radius + other.radius + (1 + ahead) * (1 + ahead) * (std::abs(other.ax - own.ax) + std::abs(other.ay - own.ay)))
 	{
 	}
 	[[gnu::always_inline]] Approach(T dx, T dy, T ux, T uy, T time, T all, T reach) : x(dx), y(dy), vx(ux), vy(uy), rest(time), size(all), most(reach)
 	{
 	}
 
+	[[gnu::always_inline]] T reach() const { return most + (size + std::abs(x) + std::abs(y) + std::abs(vx) + std::abs(vy)) * T(4 * SLOP); }
+
 	[[gnu::always_inline]] bool may_touch() const
 	{
-		const T all = size + std::abs(x) + std::abs(y) + std::abs(vx) + std::abs(vy), reach = most + all * T(4 * SLOP);
+		const T reach = this->reach();
 		const T at = -(x * vx + y * vy) / (vx * vx + vy * vy + std::numeric_limits<T>::min()), late = at > 0 ? at : 0;
 		const T t = late < rest ? late : rest, dx = x + t * vx, dy = y + t * vy;
 		return !(dx * dx + dy * dy > reach * reach * T(1.00001));
 	}
+
+	/* They do not hit before; of circles that fall alike it is known that they part for good. */
+	T earliest(bool part_for_good) const
+	{
+		const T reach = this->reach() * T(1.00001), distance = std::sqrt(x * x + y * y), speeds = vx * vx + vy * vy, nearer = -(x * vx + y * vy);
+		const T side = x * vy - y * vx, under = reach * reach * speeds - side * side;
+		if (part_for_good && -nearer > (reach - most) * (std::abs(vx) + std::abs(vy)))
+			return rest;
+		if (!(distance > reach) || !(nearer > 0))
+			return 0;
+		return (distance - reach) * (distance + reach) / (std::sqrt(std::max(under, T(0))) + nearer) * T(0.9999);
+	}
 };
 
-/* From the later of their times on. */
-template <typename T> [[gnu::always_inline]] inline Approach<T> approach(const Disc<T> &own, const Disc<T> &other)
+/* They do not hit before, in steps from the approach's beginning. */
+template <typename T> T earliest_hit(const Approach<T> &approach, const Slot<T> &a, const Slot<T> &b)
 {
-	return other.time > own.time ? Approach<T>(own.later(other.time), other) : Approach<T>(own, other.later(own.time));
+	return approach.earliest(a.is_circle() && b.is_circle() && a.falls_like(b));
+}
+
+/* From the later of their times on. */
+template <typename T> [[gnu::always_inline]] inline Approach<T> approach(const Disc<T> &own, const Disc<T> &other, T ahead)
+{
+	return other.time > own.time ? Approach<T>(own.later(other.time), other, ahead) : Approach<T>(own, other.later(own.time), ahead);
 }
 
 /* Trajectories in a step of a length, s. */
@@ -183,6 +213,7 @@ public:
 	}
 
 	T rule(int32_t channel) const { return uniforms.fact(UNIFORMS_RULES, channel); }
+	T time_step() const { return uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP); }
 	T room(int32_t channel) const { return uniforms.fact(UNIFORMS_ROOM, channel); }
 
 	void fill(Convex<T> &convex, const Slot<T> &slot, const Trajectory<T> &way) const
@@ -218,7 +249,7 @@ public:
 	{
 		Found first{NO_HIT, false};
 		*which = 0;
-		if (!has_room || slots[s].is_static() || way.held > 0 || stays_inside(s, way))
+		if (way.held > 0 || stays_inside(s, way, T(1)))
 			return first;
 		Convex<T> convex;
 		fill(convex, slots[s], way);
@@ -231,6 +262,19 @@ public:
 		return first;
 	}
 
+	/* Is it sure to stay inside the room for so many steps? */
+	bool stays_inside(int32_t s, const Trajectory<T> &way, T steps) const
+	{
+		if (!has_room || slots[s].is_static())
+			return true;
+		const Disc<T> disc(slots[s], way.place, way.time, false, length);
+		const T push = steps * steps * (std::abs(disc.ax) + std::abs(disc.ay)), vx = steps * disc.vx, vy = steps * disc.vy;
+		const T size = disc.radius + push + std::abs(vx) + std::abs(vy) + std::abs(disc.x) + std::abs(disc.y);
+		const T pad = disc.radius + push + steps * (size * T(4 * SLOP));
+		return std::min(disc.x, disc.x + vx) - pad >= room(ROOM_MIN_X) && std::min(disc.y, disc.y + vy) - pad >= room(ROOM_MIN_Y)
+			&& std::max(disc.x, disc.x + vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y, disc.y + vy) + pad <= room(ROOM_MAX_Y);
+	}
+
 	Wall<T> wall(int32_t k) const { return room_wall(*this, k); }
 
 	Slot<T> *const slots;
@@ -239,15 +283,6 @@ public:
 	using Mover<T>::length;
 
 private:
-	bool stays_inside(int32_t s, const Trajectory<T> &way) const
-	{
-		const Disc<T> disc(slots[s], way.place, way.time, false, length);
-		const T push = std::abs(disc.ax) + std::abs(disc.ay), size = disc.radius + push + std::abs(disc.vx) + std::abs(disc.vy);
-		const T pad = disc.radius + push + (size + std::abs(disc.x) + std::abs(disc.y)) * T(4 * SLOP);
-		return std::min(disc.x, disc.x + disc.vx) - pad >= room(ROOM_MIN_X) && std::min(disc.y, disc.y + disc.vy) - pad >= room(ROOM_MIN_Y)
-			&& std::max(disc.x, disc.x + disc.vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y, disc.y + disc.vy) + pad <= room(ROOM_MAX_Y);
-	}
-
 	const Texels<T> uniforms;
 	const Corner<T> *const corners;
 	const SearchRules<T> rules;

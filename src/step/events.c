@@ -15,8 +15,21 @@
 #define MOST_ROUNDS 64
 #define LAST_ROUND (1 << 30)
 #define MOST_IDLE 256 /* batches that end no step: something is wrong */
-#define GOOD_LISTS 8  /* made in a row that were good to the end: the next may be used a step longer */
+#define GOOD_LISTS 4  /* made in a row that were good to the end: the next may be used a step longer */
+#define MENDERS 64    /* work-items that look for new neighbours */
 #define SHARE 16      /* slots for one work-item of those that share what is active */
+
+/* Slots that may get another reach while the lists last. */
+static uint32_t movers_of(uint32_t capacity)
+{
+	return capacity / 32 + 64;
+}
+
+/* Ints in Extra. */
+static uint64_t extra_of(uint64_t capacity)
+{
+	return capacity + NODE_WIDTH * (capacity / 2 + 64);
+}
 
 static int32_t share_of(int32_t count)
 {
@@ -44,6 +57,8 @@ static carom_status find_neighbours(carom_world *world, int32_t count, carom_err
 static carom_status resolve(carom_world *world, int32_t count, carom_error *error)
 {
 	const int32_t share = share_of(count);
+	if (world->events.since > 1)
+		TRY(carom_run(world, STAGE_MEND, MENDERS, 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
 	TRY(carom_run(world, STAGE_SEEK, count, 1, world->events.round + 1, 0, error));
 	for (uint32_t i = 0; i < world->events.rounds; i++) {
 		const int32_t round = ++world->events.round;
@@ -64,7 +79,7 @@ static carom_status run(carom_world *world, carom_error *error)
 	TRY(resolve(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, 0, error));
 	carom_swap(world, ROLE_CLOCK);
-	status = carom_run(world, STAGE_DRIFT, count, 1, 0, 0, error);
+	status = carom_run(world, STAGE_DRIFT, count, 1, (int32_t)movers_of(world->capacity), 0, error);
 	if (status)
 		carom_swap(world, ROLE_CLOCK); /* back: the step is not done */
 	return status;
@@ -114,6 +129,7 @@ static carom_status begin(carom_world *world, carom_error *error)
 		return CAROM_OK;
 	status[STATUS_ROOM] = (int32_t)world->events.room;
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
+	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
 	status[STATUS_NUMBERS] = (int32_t)numbers_of(world->capacity);
 	TRY(send_status(world, status, error));
 	TRY(carom_outlines_send(world, error));
@@ -204,21 +220,22 @@ static void choose_cells(carom_events *events, uint32_t capacity)
 /* Neighbours have the room that they begin with: what more they need depends on how crowded it is. */
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
-	const uint64_t n = carom_capacity(body_count), records = 2 * SLOT_WIDTH + 1, lists = 2 + 2 + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
+	const uint64_t n = carom_capacity(body_count), records = 2 * SLOT_WIDTH + 1,
+				   lists = 2 + 2 + WAKE_WIDTH + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
 	carom_events cells = {0};
 	(void)pipeline;
 	(void)def;
 	const uint64_t corners = vertex_count > body_count ? 2 * (uint64_t)carom_capacity((vertex_count + body_count) / 2) : 1;
 	choose_cells(&cells, (uint32_t)n);
 	return 16 * corners + n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
-		+ 4 * (CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
+		+ 4 * (extra_of(n) + movers_of((uint32_t)n) + CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
-	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 2, .rounds = 2};
+	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 6, .rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(create_list(world, ROLE_OUTLINES, false, world->polygon_capacity ? 2 * (uint64_t)world->polygon_capacity : 1, error));
 	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
@@ -232,6 +249,9 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(create_list(world, ROLE_SPANS, false, SPAN_WIDTH * n, error));
 	TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
 	TRY(create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
+	TRY(create_list(world, ROLE_EXTRA, false, extra_of(n), error));
+	TRY(create_list(world, ROLE_MOVERS, false, movers_of(world->capacity), error));
+	TRY(create_list(world, ROLE_WAKE, false, WAKE_WIDTH * n, error));
 	TRY(create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * events->rows, error));
 	return create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }

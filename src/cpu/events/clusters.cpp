@@ -2,50 +2,78 @@
 
 namespace carom::cpu {
 
-template <typename T> static void seek_pair(const Clusters<T> &clusters, int32_t s, int32_t other, int32_t round)
+/* The hits that a step begins with, of bodies that are awake: those of which it is not known that they go on without a hit. */
+template <typename T> class Seek
 {
-	const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
-	const auto hit = clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot));
-	if (!(hit.time <= 1))
-		return;
-	if (!slot.is_static())
-		clusters.activate(s, other, hit, round);
-	if (!other_slot.is_static())
-		clusters.activate(other, s, hit, round);
-	if (!slot.is_static() && !other_slot.is_static())
-		clusters.unite(s, other);
-}
+public:
+	explicit Seek(const Job<T> &job) : clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]) {}
 
-template <typename T> static void seek_wall(const Clusters<T> &clusters, int32_t s, int32_t round)
-{
-	int32_t wall;
-	const auto hit = clusters.wall_time(s, Trajectory<T>(clusters.slots[s]), &wall);
-	if (hit.time <= 1)
-		clusters.activate(s, -1 - wall, hit, round);
-}
+	void run(int32_t begin, int32_t end)
+	{
+		const auto meet = [&](int32_t s, int32_t other, const Approach<T> &approach) { pair(s, other, approach); };
+		for (int32_t s = begin; s < end; s++) {
+			if (age > 0 && clusters.wakes[s].next > age)
+				continue;
+			const Disc<T> disc = disc_of(s);
+			const int32_t changed = age > 0 ? clusters.wakes[s].changed : 0;
+			clusters.wakes[s].changed = changed;
+			clusters.wake_at(s, clusters.ahead + 1);
+			if (!clusters.stays_inside(s, Trajectory<T>(clusters.slots[s]), clusters.ahead + 1))
+				walls(s);
+			clusters.each_neighbour(s, changed > 0 ? clusters.spans[s].end : clusters.spans[s].half, [&](int32_t other, bool is_first) {
+				const int32_t other_changed = age > 0 ? clusters.wakes[other].changed : 0;
+				if (is_first ? changed < other_changed : changed <= other_changed)
+					return;
+				sieve.add(s, other, Approach<T>(disc, disc_of(other), clusters.ahead));
+				if (sieve.is_full())
+					sieve.sift(meet);
+			});
+		}
+		sieve.sift(meet);
+	}
+
+private:
+	Disc<T> disc_of(int32_t s) const { return Disc<T>(clusters.slots[s], clusters.slots[s].place, 0, false, clusters.length); }
+
+	void pair(int32_t s, int32_t other, const Approach<T> &approach)
+	{
+		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
+		const T earliest = earliest_hit(approach, slot, other_slot);
+		clusters.wake_before(s, earliest);
+		if (earliest > 1 || !Approach<T>(disc_of(s), disc_of(other), T(0)).may_touch())
+			return;
+		const auto hit = clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot));
+		if (!(hit.time <= 1))
+			return;
+		if (!slot.is_static())
+			clusters.activate(s, other, hit, round);
+		if (!other_slot.is_static())
+			clusters.activate(other, s, hit, round);
+		if (!slot.is_static() && !other_slot.is_static())
+			clusters.unite(s, other);
+	}
+
+	void walls(int32_t s)
+	{
+		int32_t wall;
+		const auto hit = clusters.wall_time(s, Trajectory<T>(clusters.slots[s]), &wall);
+		clusters.wake_before(s, T(1));
+		if (hit.time <= 1)
+			clusters.activate(s, -1 - wall, hit, round);
+	}
+
+	const Clusters<T> clusters;
+	const int32_t round, age;
+	Sieve<T> sieve;
+};
 
 template <typename T> static void seek(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 10);
-	const int32_t round = job.domain[2];
+	const Clusters<T> clusters(job, 12);
 	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
 		return;
-	clusters.status[STATUS_BEGUN] = round;
-	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
-		const auto meet = [&](int32_t s, int32_t other) { seek_pair(clusters, s, other, round); };
-		const auto disc_of = [&](int32_t s) { return Disc<T>(clusters.slots[s], clusters.slots[s].place, 0, false, clusters.length); };
-		Sieve<T> sieve;
-		for (int32_t s = begin; s < end; s++) {
-			const Disc<T> disc = disc_of(s);
-			seek_wall(clusters, s, round);
-			for (int32_t k = clusters.spans[s].start; k < clusters.spans[s].half; k++) {
-				sieve.add(s, clusters.neighbours[k], Approach<T>(disc, disc_of(clusters.neighbours[k])));
-				if (sieve.is_full())
-					sieve.sift(meet);
-			}
-		}
-		sieve.sift(meet);
-	});
+	clusters.status[STATUS_BEGUN] = job.domain[2];
+	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) { Seek<T>(job).run(begin, end); });
 }
 
 /* Clusters that are to be done in this round begin anew, those that are in conflict as one. */
@@ -81,18 +109,18 @@ template <typename T> static void muster(const Job<T> &job)
 
 template <typename T> static void resolve(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 13);
+	const Clusters<T> clusters(job, 15);
 	const int32_t round = job.domain[2];
 	if (clusters.status[STATUS_ROUND] < round)
 		return;
-	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(10));
-	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(11));
+	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(12));
+	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(13));
 	job.pool.run(clusters.status[STATUS_SEEDS], 16, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<int32_t> room;
 		for (int32_t id = begin; id < end; id++) {
 			const Member &member = clusters.members[id];
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
-				Queue<T>(clusters, work, boxes, job.list(12), id, round, room).run();
+				Queue<T>(clusters, work, boxes, job.list(14), id, round, room).run();
 		}
 	});
 }
@@ -108,7 +136,7 @@ template <typename T> static bool ways_meet(const Clusters<T> &clusters, const W
 	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1)
 		return true;
 	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
-	return approach(disc, other_disc).may_touch() && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
+	return approach(disc, other_disc, T(0)).may_touch() && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
 }
 
 template <typename T> static void check_one(const Clusters<T> &clusters, const Work<T> *work, int32_t id, int32_t round)
@@ -120,19 +148,20 @@ template <typename T> static void check_one(const Clusters<T> &clusters, const W
 	if (s < 0 || members[id].events == 0 || __atomic_load_n(&members[owner].round, __ATOMIC_RELAXED) != round)
 		return;
 	const Span &span = clusters.spans[s];
-	for (int32_t k = span.start, end = round == clusters.status[STATUS_BEGUN] ? span.half : span.end; k < end; k++) {
-		const int32_t other = clusters.neighbours[k], other_id = clusters.owners[other];
+	clusters.each_neighbour(s, round == clusters.status[STATUS_BEGUN] ? span.half : span.end, [&](int32_t other, bool) {
+		const int32_t other_id = clusters.owners[other];
 		if (other_id < 0 || members[other_id].events == 0 || members[other_id].owner == owner || done_again(members[other_id].owner))
-			continue;
+			return;
 		if (ways_meet(clusters, work, s, id, other, other_id))
 			clusters.conflict(owner, members[other_id].owner, round);
-	}
+		clusters.rouse(s), clusters.rouse(other); /* neither knew of the other's change */
+	});
 }
 
 template <typename T> static void check(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 11);
-	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(10));
+	const Clusters<T> clusters(job, 13);
+	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(12));
 	const int32_t round = job.domain[2];
 	if (clusters.status[STATUS_ROUND] < round)
 		return;

@@ -1,4 +1,4 @@
-#include "cpu/reach.hpp"
+#include "cpu/mender.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -34,8 +34,9 @@ template <typename T> static void pace(const Job<T> &job)
 	const float way = (std::sqrt(squares / many) + push / many * window) * window * speed_margin;
 	const float side = 1.01f * (radius + std::max(cell_part * way, 0.1f * radius));
 	for (int field : {STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS,
-			 STATUS_PLACED, STATUS_HITS, STATUS_HELD, STATUS_FOUND})
+			 STATUS_PLACED, STATUS_HITS, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS})
 		status[field] = 0;
+	status[STATUS_EXTRA] = count;
 	status[STATUS_BUILDS]++;
 	status[STATUS_PACE] = as_bits(std::max(pace_part * way, 0.1f * radius));
 	status[STATUS_CELL] = as_bits(side > 0 && side < 1e30f ? side : 1.0f);
@@ -152,9 +153,9 @@ template <typename T> class Search
 {
 public:
 	explicit Search(const Job<T> &job)
-		: slots(slots_of(job, 0)), boxes(reinterpret_cast<Box<T> *>(job.records(1))), status(job.list(2)), cells(job.list(3)),
-		  spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), nodes(job.list(6)),
-		  members(reinterpret_cast<Member *>(job.list(7))), grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]},
+		: slots(slots_of(job, 0)), boxes(reinterpret_cast<Box<T> *>(job.records(1))), status(job.list(2)),
+		  spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), nodes(job.list(6)), members(reinterpret_cast<Member *>(job.list(7))),
+		  extra(job.list(8)), grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]}, cells{job.list(3), grid},
 		  levels(status[STATUS_LEVELS])
 	{
 	}
@@ -173,6 +174,7 @@ public:
 		}
 		const int32_t many = found.size(), start = fetch_add(&status[STATUS_NEIGHBOURS], many);
 		const bool fits = start + many <= status[STATUS_ROOM];
+		std::fill(extra + begin, extra + end, -1);
 		if (fits)
 			std::copy(found.begin(), found.end(), neighbours + start);
 		else
@@ -210,10 +212,10 @@ private:
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
 				continue;
 			if (level == own && !stands) {
-				each(box, own, [&](int32_t first, int32_t end) { search_alike(s, box, first, end, sizes, ahead, behind); });
+				cells.each(box, own, [&](int32_t first, int32_t end) { search_alike(s, box, first, end, sizes, ahead, behind); });
 				continue;
 			}
-			each(box, level, [&](int32_t first, int32_t end) {
+			cells.each(box, level, [&](int32_t first, int32_t end) {
 				for (int32_t other = first; other < end; other++)
 					if (are_near(s, box, other, level))
 						meet(s, other, level == own, ahead, behind);
@@ -256,23 +258,6 @@ private:
 			tell(other, s);
 	}
 
-	/* All the slots in the cells of a level that a box of that level could touch, in a few runs. */
-	template <typename Visit> void each(const Box<T> &box, int32_t level, Visit visit)
-	{
-		const T side = T(grid.side_of(level));
-		const Cell low = grid.cell_at(box.min_x - side, box.min_y - side, level), high = grid.cell_at(box.max_x + side, box.max_y + side, level);
-		const int32_t last_x = std::min(high.x, low.x + grid.columns - 1), last_y = std::min(high.y, low.y + grid.rows - 1); /* once round */
-		for (int32_t y = low.y; y <= last_y; y++) {
-			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x, level), last = row + grid.column_of(last_x, level);
-			if (last < first)
-				visit(start(row), finish(last));
-			visit(start(first), finish(last < first ? row + grid.columns - 1 : last));
-		}
-	}
-
-	int32_t start(int32_t cell) const { return cells[CELL_WIDTH * cell + CELL_START]; }
-	int32_t finish(int32_t cell) const { return cells[CELL_WIDTH * cell + CELL_END]; }
-
 	/* Of two bodies of different levels one looks, and tells the other. */
 	void tell(int32_t other, int32_t s)
 	{
@@ -287,11 +272,13 @@ private:
 
 	const Slot<T> *const slots;
 	const Box<T> *const boxes;
-	int32_t *const status, *const cells;
+	int32_t *const status;
 	Span *const spans;
 	int32_t *const neighbours, *const nodes;
 	Member *const members;
+	int32_t *const extra;
 	const Grid grid;
+	const CellList<T> cells;
 	const int32_t levels;
 };
 
@@ -328,10 +315,23 @@ template <typename T> static void gather(const Job<T> &job)
 	});
 }
 
+template <typename T> static void mend(const Job<T> &job)
+{
+	const Mender<T> mender(job);
+	const int32_t *status = job.list(1), *movers = job.list(5), first = status[STATUS_MENDED];
+	if (status[STATUS_STALE] || status[STATUS_SMALL])
+		return;
+	job.pool.run(status[STATUS_MOVERS] - first, 16, [&](int32_t begin, int32_t end) {
+		for (int32_t k = first + begin; k < first + end; k++)
+			mender.mend(movers[k]);
+	});
+}
+
 extern const Stage neighbours_grid;
 const Stage neighbours_grid{"neighbours", "grid",
 	{{STAGE_PACE, pace<float>, pace<double>}, {STAGE_REACH, reach<float>, reach<double>}, {STAGE_CELLS, cells<float>, cells<double>},
-		{STAGE_SORT, sort<float>, sort<double>}, {STAGE_NEAR, near<float>, near<double>}, {STAGE_GATHER, gather<float>, gather<double>}},
+		{STAGE_SORT, sort<float>, sort<double>}, {STAGE_NEAR, near<float>, near<double>}, {STAGE_GATHER, gather<float>, gather<double>},
+		{STAGE_MEND, mend<float>, mend<double>}},
 	nullptr, nullptr};
 
 }

@@ -31,6 +31,8 @@ template <typename T> static void settle(const Job<T> &job)
 	status[STATUS_COMMIT] = done;
 	status[STATUS_UNDER_WAY] = again;
 	status[STATUS_STEPS] += done;
+	status[STATUS_AGE] += done;
+	status[STATUS_MENDED] = status[STATUS_MOVERS];
 	status[STATUS_AGAIN] += again;
 	status[STATUS_IDLE] += !good && length > 0;
 	if (left)
