@@ -172,9 +172,9 @@ INLINE int neighbour_of(LIST_IN(neighbours), LIST_IN(extra), int k)
 }
 
 /* How many steps after this one a look is good for: none if it is cut short, for those are longer. */
-float steps_ahead(TEX_IN(uniforms), float length)
+float steps_ahead(TEX_IN(uniforms), LIST_IN(status), float length)
 {
-	return length < CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP) ? 0.0f : (float)(HORIZON - 1);
+	return length < CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP) ? 0.0f : (float)status[STATUS_AHEAD];
 }
 
 /* The step of a time that is counted from this one's beginning, but not this one. */

@@ -209,9 +209,10 @@
 /* Wake: two ints a slot, steps as STATUS_AGE counts them. Of two neighbours the one that was changed later watches the other; of two that were changed
  * alike the one that has the other in its span's first part. */
 #define WAKE_WIDTH 2
-#define WAKE_CHANGED 0 /* the step before which the body last changed its way, 0: not since the lists were made */
+#define WAKE_CHANGED 0 /* the step before which the body last changed its way, 0: not since all was looked at */
 #define WAKE_NEXT 1    /* the step in which to look again: before, it has no hit with what it watches, nor with a wall */
-#define HORIZON 6      /* steps that one look is good for, at most */
+#define HORIZON 6      /* steps that one look is good for; 1 where a BUSY-th of the bodies or more are in clusters: it would not pay */
+#define BUSY 6
 
 /* Cells: three ints a cell, of CELL_ROW cells a row */
 #define CELL_WIDTH 3
@@ -252,9 +253,10 @@
 #define STATUS_STEPS 16      /* steps done, */
 #define STATUS_IDLE 17       /* not begun for want of lists, */
 #define STATUS_AGAIN 18      /* and not done since they needed more rounds */
-#define STATUS_AGE 19        /* steps done with these lists */
+#define STATUS_AGE 19        /* steps since all was looked at; 0: all is to be */
 #define STATUS_EXTRA_ROOM 20 /* ints there are in Extra */
 #define STATUS_MENDED 21     /* of Movers: those that are with their new neighbours */
+#define STATUS_AHEAD 22      /* steps after this one that a look is good for */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */

@@ -40,7 +40,7 @@ void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(
 	trajectory k = work_load(work, id);
 	disc disc_k = disc_of_trajectory(slots, s, k, length);
 	bool pause;
-	float ahead = steps_ahead(TEX(uniforms), length);
+	float ahead = steps_ahead(TEX(uniforms), status, length);
 	bool clear = !(k.held > 0.0f) && is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	float t = wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);

@@ -92,7 +92,7 @@ typedef enum carom_stage {
 	STAGE_MUSTER,  /* (share, 1, round) */
 	STAGE_RESOLVE, /* (share, 1, round) */
 	STAGE_CHECK,   /* (share, 1, round) */
-	STAGE_SETTLE,  /* (1, 1, round) */
+	STAGE_SETTLE,  /* (1, 1, round, slots) */
 	STAGE_DRIFT,   /* (slots, 1, room in Movers) */
 	STAGE_UNLOAD,  /* (slots): the slots into the state */
 	/* rendering [3] */

@@ -26,7 +26,7 @@ public:
 		: Bodies<T>(job), spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
 		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at)), parents(job.list(owners_at + 1)),
 		  found(reinterpret_cast<FoundHit *>(job.list(9))), extra(job.list(10)), wakes(reinterpret_cast<Wake *>(job.list(11))),
-		  ahead(this->length < this->time_step() ? 0 : HORIZON - 1)
+		  ahead(this->length < this->time_step() ? T(0) : T(status[STATUS_AHEAD]))
 	{
 	}
 

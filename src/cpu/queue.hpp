@@ -181,14 +181,12 @@ private:
 	{
 		const int32_t s = clusters.active[id], other_id = own_number(other), seen = other_id >= 0 ? members[other_id].events : 0;
 		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
-		const T earliest = std::max(way.time, other_way.time) + earliest_hit(approach, slots[s], slots[other]);
-		clusters.wake_before(s, earliest);
-		if (seen > 0)
-			clusters.wake_before(other, earliest);
-		if (earliest > 1)
-			return;
 		const Disc<T> other_disc(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length);
-		if (carom::cpu::approach(disc_of(s, work[id]), other_disc, T(0)).may_touch())
+		const Outlook<T> outlook(approach, slots[s], disc_of(s, work[id]), slots[other], other_disc);
+		clusters.wake_before(s, outlook.earliest);
+		if (seen > 0)
+			clusters.wake_before(other, outlook.earliest);
+		if (outlook.may_touch)
 			offer(id, other, clusters.pair_time(s, way, other, other_way), seen);
 	}
 

@@ -136,27 +136,35 @@ template <typename T> struct Approach {
 	/* They do not hit before; of circles that fall alike it is known that they part for good. */
 	T earliest(bool part_for_good) const
 	{
-		const T reach = this->reach() * T(1.00001), distance = std::sqrt(x * x + y * y), speeds = vx * vx + vy * vy, nearer = -(x * vx + y * vy);
-		const T side = x * vy - y * vx, under = reach * reach * speeds - side * side;
+		const T reach = this->reach() * T(1.00001), square = x * x + y * y, nearer = -(x * vx + y * vy);
 		if (part_for_good && -nearer > (reach - most) * (std::abs(vx) + std::abs(vy)))
 			return rest;
-		if (!(distance > reach) || !(nearer > 0))
+		if (!(square > reach * reach) || !(nearer > 0))
 			return 0;
+		const T distance = std::sqrt(square), side = x * vy - y * vx, under = reach * reach * (vx * vx + vy * vy) - side * side;
 		return (distance - reach) * (distance + reach) / (std::sqrt(std::max(under, T(0))) + nearer) * T(0.9999);
 	}
 };
-
-/* They do not hit before, in steps from the approach's beginning. */
-template <typename T> T earliest_hit(const Approach<T> &approach, const Slot<T> &a, const Slot<T> &b)
-{
-	return approach.earliest(a.is_circle() && b.is_circle() && a.falls_like(b));
-}
 
 /* From the later of their times on. */
 template <typename T> [[gnu::always_inline]] inline Approach<T> approach(const Disc<T> &own, const Disc<T> &other, T ahead)
 {
 	return other.time > own.time ? Approach<T>(own.later(other.time), other, ahead) : Approach<T>(own, other.later(own.time), ahead);
 }
+
+/* What two bodies that are not changed any more do first, from the approach's beginning: they do not hit before `earliest` steps, nor in this one unless
+ * they may touch. */
+template <typename T> struct Outlook {
+	T earliest;
+	bool may_touch;
+
+	Outlook(const Approach<T> &approach, const Slot<T> &slot, const Disc<T> &disc, const Slot<T> &other, const Disc<T> &other_disc)
+	{
+		const bool alike = slot.falls_like(other);
+		earliest = std::max(disc.time, other_disc.time) + approach.earliest(alike && slot.is_circle() && other.is_circle());
+		may_touch = !(earliest > 1) && (alike || carom::cpu::approach(disc, other_disc, T(0)).may_touch());
+	}
+};
 
 /* Trajectories in a step of a length, s. */
 template <typename T> struct Mover {
@@ -229,7 +237,7 @@ public:
 	};
 
 	/* When the two hit. */
-	Found pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way) const
+	[[gnu::always_inline]] Found pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way) const
 	{
 		const T t0 = larger(way.time, other_way.time), rest = 1 - t0;
 		this->move(slots[s], way, t0);

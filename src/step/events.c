@@ -77,7 +77,7 @@ static carom_status run(carom_world *world, carom_error *error)
 		TRY(find_neighbours(world, count, error));
 	world->events.since++;
 	TRY(resolve(world, count, error));
-	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, 0, error));
+	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, count, error));
 	carom_swap(world, ROLE_CLOCK);
 	status = carom_run(world, STAGE_DRIFT, count, 1, (int32_t)movers_of(world->capacity), 0, error);
 	if (status)

@@ -38,9 +38,9 @@ private:
 	void pair(int32_t s, int32_t other, const Approach<T> &approach)
 	{
 		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
-		const T earliest = earliest_hit(approach, slot, other_slot);
-		clusters.wake_before(s, earliest);
-		if (earliest > 1 || !Approach<T>(disc_of(s), disc_of(other), T(0)).may_touch())
+		const Outlook<T> outlook(approach, slot, disc_of(s), other_slot, disc_of(other));
+		clusters.wake_before(s, outlook.earliest);
+		if (!outlook.may_touch)
 			return;
 		const auto hit = clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot));
 		if (!(hit.time <= 1))

@@ -31,7 +31,11 @@ template <typename T> static void settle(const Job<T> &job)
 	status[STATUS_COMMIT] = done;
 	status[STATUS_UNDER_WAY] = again;
 	status[STATUS_STEPS] += done;
-	status[STATUS_AGE] += done;
+	if (done) { /* numbers given, by now, are of bodies in clusters */
+		const bool busy = status[STATUS_ACTIVE] > job.domain[3] / BUSY;
+		status[STATUS_AGE] = busy || status[STATUS_AHEAD] == 0 ? 0 : status[STATUS_AGE] + 1;
+		status[STATUS_AHEAD] = busy ? 0 : HORIZON - 1;
+	}
 	status[STATUS_MENDED] = status[STATUS_MOVERS];
 	status[STATUS_AGAIN] += again;
 	status[STATUS_IDLE] += !good && length > 0;
