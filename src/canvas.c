@@ -14,6 +14,8 @@
 
 /* Of a pass: indices of its vertices, edges and texels of shapes are floats. */
 #define MOST_TEXELS (1ull << 24)
+/* A million bodies are drawn in four passes: more at once would take memory and no less time. */
+#define PASS_TEXELS (3ull << 19)
 /* Room for all marks of a layer, and the smallest block. */
 #define LEAST_TEXELS 512u
 #define MARK_TEXELS (SHAPES_WIDTH * CAROM_MAX_MARKS)
@@ -207,20 +209,20 @@ static int32_t lesser(int32_t a, int32_t b)
 carom_status carom_canvas_draw(carom_world *world, const carom_picture *picture, uint8_t *pixels, carom_error *error)
 {
 	const int32_t width = (int32_t)picture->width, height = (int32_t)picture->height;
-	const uint64_t most = most_texels(world);
+	const uint64_t most = most_texels(world), of_pass = most < PASS_TEXELS ? most : PASS_TEXELS;
 	int32_t side = BLOCK;
 	bool at_once;
 	TRY(carom_textures_hold(world, error));
 	TRY(carom_canvas_send_transforms(world, error));
 	carom_canvas_count(world);
-	TRY(hold_shapes(world, picture, most, &at_once, error));
+	TRY(hold_shapes(world, picture, of_pass, &at_once, error));
 	while (!at_once && (uint64_t)side * (uint64_t)side > most)
 		side /= 2;
 	TRY(carom_canvas_hold(world, ROLE_LIGHT, at_once ? 1 : (uint64_t)lesser(side, width) * (uint64_t)lesser(side, height), error));
 	for (int32_t y = 0; y < height; y += side) {
 		for (int32_t x = 0; x < width; x += side) {
 			const carom_pixels block = {x, y, lesser(x + side, width), lesser(y + side, height)};
-			TRY(draw_part(world, picture, block, most, pixels, error));
+			TRY(draw_part(world, picture, block, of_pass, pixels, error));
 		}
 	}
 	return CAROM_OK;
