@@ -1,7 +1,8 @@
 /* The step events: every hit of a time step at its exact time, in parallel, with work that grows as the number of bodies.
  *
- * Bodies live in slots, sorted by place, with lists of the neighbours that they could reach for a while. A step looks at
- * the pairs of these lists for hits; bodies that hit form clusters, and each cluster is a queue of events that one
+ * Bodies live in slots, sorted by place, with lists of the neighbours that they could reach for a while; one that gets
+ * farther gets new neighbours alone. A step looks at the pairs of these lists for hits, but not at those of which it is
+ * known that they have none yet; bodies that hit form clusters, and each cluster is a queue of events that one
  * work-item runs to the end of the step. Clusters that get into each other's way are united and run again, in rounds.
  * A step that can't be done as it was handed over (lists too old or too small, more rounds needed) changes nothing, and
  * those behind it in the batch go on with it: nobody waits. */
@@ -16,13 +17,14 @@
 #define LAST_ROUND (1 << 30)
 #define MOST_IDLE 256 /* batches that end no step: something is wrong */
 #define GOOD_LISTS 4  /* made in a row that were good to the end: the next may be used a step longer */
-#define MENDERS 64    /* work-items that look for new neighbours */
-#define SHARE 16      /* slots for one work-item of those that share what is active */
+#define MOST_MOVERS 4096
+#define MENDERS 64 /* work-items that look for new neighbours */
+#define SHARE 16   /* slots for one work-item of those that share what is active */
 
-/* Slots that may get another reach while the lists last. */
+/* Slots that may get another reach while the lists last. Each is looked for among them all, so there are not too many. */
 static uint32_t movers_of(uint32_t capacity)
 {
-	return capacity / 32 + 64;
+	return (capacity < 64 * MOST_MOVERS ? capacity / 64 : MOST_MOVERS) + 64;
 }
 
 /* Ints in Extra. */
