@@ -115,6 +115,6 @@ __kernel void neighbours_mend(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells)
 {
 	if (PEEK(status, STATUS_STALE) || status[STATUS_SMALL])
 		return;
-	for (int i = status[STATUS_MENDED] + get_global_id(0); i < status[STATUS_MOVERS]; i += get_global_size(0))
-		mend_search(reach, status, cells, spans, neighbours, movers, extra, movers[i], domain.z, domain.w);
+	for (int i = get_global_id(0); status[STATUS_MENDED] + i < status[STATUS_MOVERS]; i += get_global_size(0))
+		mend_search(reach, status, cells, spans, neighbours, movers, extra, movers[status[STATUS_MENDED] + i], domain.z, domain.w);
 }
