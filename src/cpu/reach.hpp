@@ -115,15 +115,19 @@ template <typename T> Box<T> static_box(const Slot<T> &slot, const Corner<T> *co
 	return {box.min_x - grow, box.min_y - grow, box.max_x + grow, box.max_y + grow};
 }
 
-template <typename T> Box<T> reach_box(const Slot<T> &slot, T need, const ReachRules<T> &rules, const Corner<T> *corners)
+/* Of a body that moves. */
+template <typename T> Box<T> reach_about(const Slot<T> &slot, T need, const ReachRules<T> &rules)
 {
-	if (slot.is_static())
-		return static_box(slot, corners);
 	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
 	const T speed = std::hypot(slot.place[LINEAR_VX], slot.place[LINEAR_VY]) + std::hypot(slot.push[PUSH_X], slot.push[PUSH_Y]) * rules.window;
 	T way = std::max(std::max(rules.pace, speed_margin * speed * rules.window), speed_margin * need);
 	way += slot.radius() + (std::abs(x) + std::abs(y) + slot.radius()) * T(8 * SLOP);
 	return {x - way, y - way, x + way, y + way};
+}
+
+template <typename T> Box<T> reach_box(const Slot<T> &slot, T need, const ReachRules<T> &rules, const Corner<T> *corners)
+{
+	return slot.is_static() ? static_box(slot, corners) : reach_about(slot, need, rules);
 }
 
 }

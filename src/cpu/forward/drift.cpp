@@ -25,8 +25,7 @@ template <typename T> [[gnu::noinline]] static void move_reach(const Job<T> &job
 		return;
 	}
 	movers[k] = s;
-	boxes[s] = reach_box(slots[s], T(0), ReachRules<T>{T(as_float(status[STATUS_WINDOW])), T(as_float(status[STATUS_PACE]))},
-		static_cast<const Corner<T> *>(nullptr));
+	boxes[s] = reach_about(slots[s], T(0), ReachRules<T>{T(as_float(status[STATUS_WINDOW])), T(as_float(status[STATUS_PACE]))});
 	wakes[s].changed = wakes[s].next = status[STATUS_AGE];
 }
 
