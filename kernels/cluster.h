@@ -19,21 +19,18 @@ float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k
 	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;
 }
 
-/* Can the body reach the room's walls in so many steps? */
-bool near_walls(body k, float4 room, float steps)
-{
-	float push = (steps * steps) * span(k.a), way = steps * span(k.v);
-	float pad = (((push + k.radius) + way) + span(k.x)) * ((4.0f * steps) * SLOP) + (k.radius + push);
-	float2 end = (float2)(k.x.x + steps * k.v.x, k.x.y + steps * k.v.y);
-	return smaller(k.x.x, end.x) - pad < CHANNEL(room, ROOM_MIN_X) || smaller(k.x.y, end.y) - pad < CHANNEL(room, ROOM_MIN_Y)
-		|| larger(k.x.x, end.x) + pad > CHANNEL(room, ROOM_MAX_X) || larger(k.x.y, end.y) + pad > CHANNEL(room, ROOM_MAX_Y);
-}
-
 /* So many steps are sure to be without a hit at a wall. */
-bool is_clear_of_walls(TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory k, float length, float steps)
+bool is_clear_of_walls(TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory way, float length, float steps)
 {
-	return !(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || slot_is_static(slots, s)
-		|| !near_walls(body_of(slots, s, k, length), TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), steps);
+	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || slot_is_static(slots, s))
+		return true;
+	float4 room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
+	body k = body_of(slots, s, way, length);
+	float push = (steps * steps) * span(k.a), far = steps * span(k.v);
+	float pad = (((push + k.radius) + far) + span(k.x)) * ((4.0f * steps) * SLOP) + (k.radius + push);
+	float2 end = (float2)(k.x.x + steps * k.v.x, k.x.y + steps * k.v.y);
+	return smaller(k.x.x, end.x) - pad >= CHANNEL(room, ROOM_MIN_X) && smaller(k.x.y, end.y) - pad >= CHANNEL(room, ROOM_MIN_Y)
+		&& larger(k.x.x, end.x) + pad <= CHANNEL(room, ROOM_MAX_X) && larger(k.x.y, end.y) + pad <= CHANNEL(room, ROOM_MAX_Y);
 }
 
 /* When the trajectory hits which wall first. */
@@ -43,11 +40,9 @@ float wall_time(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), float4 rules, i
 	float rest = 1.0f - k.time, first = NO_HIT;
 	*which = 0;
 	*pause = false;
-	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f))
+	if (k.held > 0.0f || is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f))
 		return NO_HIT;
 	body b = body_of(slots, s, k, length);
-	if (!(b.inverse_mass > 0.0f) || !near_walls(b, room, 1.0f))
-		return NO_HIT;
 	for (int wall = 0; wall < 4; wall++) {
 		float offset, done = 1.0f;
 		float2 n = wall_normal(room, wall, &offset);

@@ -46,9 +46,7 @@ void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spa
 	for (int level = 0; level < CELL_LEVELS; level++) {
 		if (!(status[STATUS_LEVELS] & (1 << level)))
 			continue;
-		float side = level_side(status, level);
-		int2 low = cell_of((float2)(box.x - side, box.y - side), side), high = cell_of((float2)(box.z + side, box.w + side), side);
-		high = (int2)(min(high.x, low.x + columns - 1), min(high.y, low.y + rows - 1));
+		int2 low, high = cells_around(box, level_side(status, level), columns, rows, &low);
 		for (int y = low.y; y <= high.y; y++)
 			for (int x = low.x; x <= high.x; x++) {
 				int cell = CELL_WIDTH * cell_index((int2)(x, y), level, columns, rows);

@@ -23,14 +23,6 @@ float4 event_of(RECORD_IN(slots), int s, int partner, float time, bool pause)
 	return (float4)(time, (float)max(k, other), (float)min(k, other), (float)partner + (pause ? (partner < 0 ? -0.5f : 0.5f) : 0.0f));
 }
 
-/* Of circles that fall alike it is known when they have no hit any more. */
-bool are_plain(RECORD_IN(slots), int s, int other)
-{
-	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), other_push = SLOT_LOAD(slots, other, SLOT_PUSH);
-	return CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_COUNT) == 1.0f && CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_COUNT) == 1.0f
-		&& CHANNEL(push, PUSH_X) == CHANNEL(other_push, PUSH_X) && CHANNEL(push, PUSH_Y) == CHANNEL(other_push, PUSH_Y);
-}
-
 /* The first event of a member, by what is known now. For later steps the pair is the member's, or if both were changed the one's for which it is: so
  * both keep when to look again. */
 void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
@@ -43,19 +35,20 @@ void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(
 	float ahead = steps_ahead(TEX(uniforms), status, length);
 	bool clear = !(k.held > 0.0f) && is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
-	float t = wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
+	float t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		first = event_of(slots, s, -1 - wall, t, pause);
 	wakes[WAKE(s, WAKE_NEXT)] = step_of(status, clear ? 1.0f + ahead : 1.0f);
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
 		int other = neighbour_of(neighbours, extra, i), other_id;
 		trajectory o = trajectory_seen(slots, members, owners, work, other, leader, &other_id);
-		float meeting = first_meeting(disc_k, disc_of_trajectory(slots, other, o, length), ahead, are_plain(slots, s, other));
+		disc disc_o = disc_of_trajectory(slots, other, o, length);
+		float meeting = first_meeting(disc_k, disc_o, ahead, are_plain(slots, s, other));
 		int events = other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
 		wake_before(status, wakes, s, meeting);
 		if (events > 0)
 			wake_before(status, wakes, other, meeting);
-		if (meeting > 1.0f || stay_apart(disc_k, disc_of_trajectory(slots, other, o, length)))
+		if (meeting > 1.0f || stay_apart(disc_k, disc_o))
 			continue;
 		t = pair_time(VERTICES, slots, rules, s, k, other, o, length, &pause);
 		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
@@ -211,33 +204,4 @@ bool ways_meet(VERTICES_IN, RECORD_IN(slots), LIST_OUT(members), __global const 
 	bool pause;
 	return !stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length))
 		&& pair_time(VERTICES, slots, rules, s, k, other, o, length, &pause) <= 1.0f;
-}
-
-/* The hits that the step begins with, of the pairs that this slot watches. */
-void seek_neighbours(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), float4 rules, int s, trajectory k, float length,
-	float ahead, int round)
-{
-	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
-	int changed = wakes[WAKE(s, WAKE_CHANGED)], half_end = spans[SPAN(s, SPAN_HALF)], end = changed > 0 ? spans[SPAN(s, SPAN_END)] : half_end;
-	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
-		int other = neighbour_of(neighbours, extra, i), other_changed = status[STATUS_AGE] > 0 ? wakes[WAKE(other, WAKE_CHANGED)] : 0;
-		bool watches = changed > other_changed || (changed == other_changed && (i < 0 ? s < other : i < half_end)), pause;
-		if (!watches || boxes_apart(disc_k, slots, other, length, 1.0f + ahead))
-			continue;
-		disc disc_o = disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length);
-		float meeting = first_meeting(disc_k, disc_o, ahead, are_plain(slots, s, other));
-		wake_before(status, wakes, s, meeting);
-		if (meeting > 1.0f || stay_apart(disc_k, disc_o))
-			continue;
-		float t = pair_time(VERTICES, slots, rules, s, k, other, trajectory_start(slots, other), length, &pause);
-		if (!(t <= 1.0f))
-			continue;
-		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
-		if (changes)
-			activate(LISTS, owners, s, other, t, pause, round);
-		if (other_changes)
-			activate(LISTS, owners, other, s, t, pause, round);
-		if (changes && other_changes)
-			unite(parents, s, other);
-	}
 }

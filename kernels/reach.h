@@ -108,6 +108,14 @@ int2 cell_of(float2 x, float side)
 	return (int2)(cell_floor(x.x / side), cell_floor(x.y / side));
 }
 
+/* The last and the first of the cells of a level in which bodies could be whose boxes touch this one; once round is enough. */
+int2 cells_around(float4 box, float side, int columns, int rows, int2 *low)
+{
+	*low = cell_of((float2)(box.x - side, box.y - side), side);
+	int2 high = cell_of((float2)(box.z + side, box.w + side), side);
+	return (int2)(min(high.x, low->x + columns - 1), min(high.y, low->y + rows - 1));
+}
+
 /* The grid is a torus, and its levels lie upon one another, shifted. */
 int cell_index(int2 cell, int level, int columns, int rows)
 {
@@ -189,9 +197,7 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 			continue;
 		float side = level_side(status, level);
 		float2 sizes = level_sizes(status, level);
-		int2 low = cell_of((float2)(box.x - side, box.y - side), side);
-		int2 high = cell_of((float2)(box.z + side, box.w + side), side);
-		high = (int2)(min(high.x, low.x + columns - 1), min(high.y, low.y + rows - 1)); /* once round is enough */
+		int2 low, high = cells_around(box, side, columns, rows, &low);
 		for (int y = low.y; y <= high.y; y++) {
 			int first = cell_index((int2)(low.x, y), level, columns, rows), last = cell_index((int2)(high.x, y), level, columns, rows);
 			int row = first - (first & (columns - 1));

@@ -155,3 +155,11 @@ INLINE bool stay_apart(disc a, disc b)
 {
 	return first_meeting(a, b, 0.0f, false) > 1.0f;
 }
+
+/* Of circles that fall alike it is known when they have no hit any more. */
+bool are_plain(RECORD_IN(slots), int s, int other)
+{
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), other_push = SLOT_LOAD(slots, other, SLOT_PUSH);
+	return CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_COUNT) == 1.0f && CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_COUNT) == 1.0f
+		&& CHANNEL(push, PUSH_X) == CHANNEL(other_push, PUSH_X) && CHANNEL(push, PUSH_Y) == CHANNEL(other_push, PUSH_Y);
+}

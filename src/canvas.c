@@ -14,7 +14,7 @@
 
 /* Of a pass: indices of its vertices, edges and texels of shapes are floats. */
 #define MOST_TEXELS (1ull << 24)
-/* A million bodies are drawn in four passes: more at once would take memory and no less time. */
+/* What a pass takes: some 200,000 circles. More at once would take memory, and no less time. */
 #define PASS_TEXELS (3ull << 19)
 /* Room for all marks of a layer, and the smallest block. */
 #define LEAST_TEXELS 512u

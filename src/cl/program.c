@@ -13,7 +13,7 @@
 /* Each header stands after those it needs. */
 static const char *const headers[2][20] = {
 	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "mend",
-		"answer", "heap", "queue"},
+		"answer", "heap", "queue", "seek"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
 };
 
@@ -52,8 +52,10 @@ char *carom_cl_read_file(const char *path, size_t *size)
 	char *bytes = NULL;
 	if (!file)
 		return NULL;
-	if (!fstat(fileno(file), &info) && S_ISREG(info.st_mode) && (bytes = malloc((size_t)info.st_size + 1)))
-		bytes[ *size = fread(bytes, 1, (size_t)info.st_size, file)] = 0;
+	if (!fstat(fileno(file), &info) && S_ISREG(info.st_mode) && (bytes = malloc((size_t)info.st_size + 1))) {
+		*size = fread(bytes, 1, (size_t)info.st_size, file);
+		bytes[*size] = 0;
+	}
 	fclose(file);
 	return bytes;
 }

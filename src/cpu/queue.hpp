@@ -152,13 +152,15 @@ private:
 		const int32_t s = clusters.active[id];
 		const Trajectory<T> way = work[id].trajectory(slots[s]);
 		const Disc<T> disc = disc_of(s, work[id]);
+		const bool is_clear = !(way.held > 0) && clusters.stays_inside(s, way, 1 + clusters.ahead);
 		int32_t wall;
-		const auto at_wall = clusters.wall_time(s, way, &wall);
 		forget(id);
-		offer(id, -1 - wall, at_wall, 0);
+		if (!is_clear) {
+			const auto at_wall = clusters.wall_time(s, way, &wall);
+			offer(id, -1 - wall, at_wall, 0);
+		}
+		clusters.wake_at(s, is_clear ? 1 + clusters.ahead : 1);
 		Sieve<T> sieve;
-		const bool is_sure = !(way.held > 0) && clusters.stays_inside(s, way, 1 + clusters.ahead);
-		clusters.wake_at(s, is_sure ? 1 + clusters.ahead : 1);
 		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach); };
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
 			const int32_t other_id = own_number(other);

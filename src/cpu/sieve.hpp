@@ -39,8 +39,8 @@ public:
 		}
 		count = 0;
 		for (int32_t i = 0; i < left; i++)
-			meet(first[near[i]], second[near[i]],
-				at(near[i])); /* NOLINT(clang-analyzer-core.CallAndMessage): the first `left` of them were written above */
+			/* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): the first `left` of them were written above */
+			meet(first[near[i]], second[near[i]], at(near[i]));
 	}
 
 private:
