@@ -4,16 +4,17 @@
 	LIST_OUT(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(found), LIST_IN(extra), LIST_OUT(wakes)
 #define LISTS spans, neighbours, status, members, active, found, extra, wakes
 
-/* When two trajectories hit; NO_HIT if they don't. Bodies are in the order of their indices. Those whose discs stay apart
- * need not be asked. */
-float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length, bool *pause)
+/* When two trajectories hit; NO_HIT if they don't, and also if it is later than `until`, perhaps. Bodies are in the order of their indices. Those whose
+ * discs stay apart need not be asked. */
+float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length, float until, bool *pause)
 {
 	float t0 = larger(k.time, o.time), rest = 1.0f - t0;
 	k = moved(slots, s, k, t0, length);
 	o = moved(slots, other, o, t0, length);
 	body a = body_of(slots, s, k, length), b = body_of(slots, other, o, length);
 	bool in_order = slot_body(slots, s) > slot_body(slots, other);
-	float4 found = in_order ? pair_first(VERTICES, a, b, rules) : pair_first(VERTICES, b, a, rules);
+	float end = smaller((until - t0) + 1e-6f, rest); /* not before, however that is rounded */
+	float4 found = in_order ? pair_first(VERTICES, a, b, end, rules) : pair_first(VERTICES, b, a, end, rules);
 	float hit = CHANNEL(found, HITTIMES_HIT);
 	*pause = !(CHANNEL(found, HITTIMES_DONE) > 0.0f);
 	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;

@@ -48,9 +48,10 @@ void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(
 		wake_before(status, wakes, s, meeting);
 		if (events > 0)
 			wake_before(status, wakes, other, meeting);
-		if (meeting > 1.0f || stay_apart(disc_k, disc_o))
+		float until = smaller(CHANNEL(first, NEXT_TIME), 1.0f);
+		if (meeting > until || stay_apart(disc_k, disc_o))
 			continue;
-		t = pair_time(VERTICES, slots, rules, s, k, other, o, length, &pause);
+		t = pair_time(VERTICES, slots, rules, s, k, other, o, length, until, &pause);
 		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
 			continue;
 		float4 next = event_of(slots, s, other, t, pause);
@@ -203,5 +204,5 @@ bool ways_meet(VERTICES_IN, RECORD_IN(slots), LIST_OUT(members), __global const 
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
 	bool pause;
 	return !stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length))
-		&& pair_time(VERTICES, slots, rules, s, k, other, o, length, &pause) <= 1.0f;
+		&& pair_time(VERTICES, slots, rules, s, k, other, o, length, 1.0f, &pause) <= 1.0f;
 }

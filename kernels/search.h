@@ -62,13 +62,13 @@ float circles_touch(body a, body b, float slop)
 	return (way * (norm(d) + reach)) / (sqrt(under) - approach);
 }
 
-/* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch. */
-float4 search_separating(VERTICES_IN, body a, body b)
+/* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch, or that is not asked for any more. */
+float4 search_separating(VERTICES_IN, body a, body b, float until)
 {
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
 	float t = circles_touch(a, b, slop);
 	for (int i = 0; i < SEARCH_LIMIT; i++) {
-		if (!(t <= 1.0f))
+		if (!(t <= until))
 			return hit_none();
 		pose p = pose_at(a, b, t);
 		axis k = best_axis(VERTICES, a, b, p);

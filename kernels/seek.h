@@ -14,7 +14,7 @@ void seek_neighbours(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), 
 		wake_before(status, wakes, s, meeting);
 		if (meeting > 1.0f || stay_apart(disc_k, disc_o))
 			continue;
-		float t = pair_time(VERTICES, slots, rules, s, k, other, trajectory_start(slots, other), length, &pause);
+		float t = pair_time(VERTICES, slots, rules, s, k, other, trajectory_start(slots, other), length, 1.0f, &pause);
 		if (!(t <= 1.0f))
 			continue;
 		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);

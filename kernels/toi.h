@@ -1,8 +1,8 @@
 /* What all alternatives of the toi slot share: the walk over the pairs whose AABBs overlap, a tile a work-item. The tile's
  * first hit comes along, for the reduction. */
 
-/* The alternative's own: a texel of HitTimes for two bodies [2.1, Bisection1]. */
-float4 pair_first(VERTICES_IN, body a, body b, float4 rules);
+/* The alternative's own: a texel of HitTimes for two bodies [2.1, Bisection1]. Hits later than `until`, at most 1, need not be found. */
+float4 pair_first(VERTICES_IN, body a, body b, float until, float4 rules);
 
 /* One byte of four. */
 uint byte_of(uint4 texel, int k)
@@ -41,7 +41,7 @@ __kernel void toi_first(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), B
 				if (!byte_of(old, k))
 					continue;
 				if (byte_of(now, k))
-					hit = pair_first(VERTICES, a, body_load(STATE, j, length), rules);
+					hit = pair_first(VERTICES, a, body_load(STATE, j, length), 1.0f, rules);
 				TEX_STORE(hits, j, i, hit);
 				first = earlier(first, candidate(hit, j, i));
 			}

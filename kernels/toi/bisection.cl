@@ -45,8 +45,9 @@ float4 bisect(VERTICES_IN, body a, body b, float min_time, float max_time, float
 	return pair_approaches(VERTICES, a, b, min_time) ? (float4)(min_time, max_time, 1.0f, min_time) : hit_none();
 }
 
-float4 pair_first(VERTICES_IN, body a, body b, float4 rules)
+float4 pair_first(VERTICES_IN, body a, body b, float until, float4 rules)
 {
+	(void)until;
 	if (!(a.inverse_mass > 0.0f) && !(b.inverse_mass > 0.0f))
 		return hit_none();
 	if (pair_overlaps(VERTICES, a, b, 0.0f))

@@ -188,8 +188,9 @@ private:
 		clusters.wake_before(s, outlook.earliest);
 		if (seen > 0)
 			clusters.wake_before(other, outlook.earliest);
-		if (outlook.may_touch)
-			offer(id, other, clusters.pair_time(s, way, other, other_way), seen);
+		const T first = work[id].next[NEXT_TIME];
+		if (outlook.may_touch && !(outlook.earliest > first))
+			offer(id, other, clusters.pair_time(s, way, other, other_way, smaller(first, T(1))), seen);
 	}
 
 	/* A hit with another slot, or with wall -1 - partner, which has had so many events. */

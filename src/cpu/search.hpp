@@ -62,7 +62,7 @@ template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 {
 	T t = circles_touch(pair.a, pair.b, pair.slop);
 	for (int k = 0; k < SEARCH_LIMIT; k++) {
-		if (!(t <= 1))
+		if (!(t <= pair.until))
 			return no_hit<T>();
 		Pose<T> pose_at_t = pose(pair.a, pair.b, t);
 		Axis<T> axis = best_axis(pair.a, pair.b, pose_at_t);

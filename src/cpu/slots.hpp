@@ -236,19 +236,20 @@ public:
 		bool is_pause;
 	};
 
-	/* When the two hit. */
-	[[gnu::always_inline]] Found pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way) const
+	/* When the two hit; what is later than `until` need not be found. */
+	[[gnu::always_inline]] Found pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way, T until = 1) const
 	{
 		const T t0 = larger(way.time, other_way.time), rest = 1 - t0;
 		this->move(slots[s], way, t0);
 		this->move(slots[other], other_way, t0);
+		const T end = smaller(until - t0 + T(1e-6), rest); /* not before, however that is rounded */
 		Convex<T> a, b;
 		const bool in_order = slots[s].body() > slots[other].body();
 		fill(in_order ? a : b, slots[s], way);
 		fill(in_order ? b : a, slots[other], other_way);
 		if (a.is_static() && b.is_static())
 			return {NO_HIT, false};
-		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside), rules);
+		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside, end), rules);
 		return {found.hit <= rest ? smaller(t0 + found.hit, T(1)) : T(NO_HIT), !(found.done > 0)};
 	}
 

@@ -34,9 +34,10 @@ template <typename T> struct Pair {
 	const Convex<T> &a, &b; /* the row's body and the column's */
 	InsideTest<T> inside;
 	T slop, stillness;
+	T until; /* of the step: hits after it need not be found */
 
-	Pair(const Convex<T> &row, const Convex<T> &column, InsideTest<T> inside_test)
-		: a(row), b(column), inside(inside_test), slop(pair_slop(row, column)), stillness(pair_stillness(row, column))
+	Pair(const Convex<T> &row, const Convex<T> &column, InsideTest<T> inside_test, T end = 1)
+		: a(row), b(column), inside(inside_test), slop(pair_slop(row, column)), stillness(pair_stillness(row, column)), until(end)
 	{
 	}
 
