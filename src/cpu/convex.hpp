@@ -3,7 +3,7 @@
 #ifndef CAROM_CPU_CONVEX_HPP
 #define CAROM_CPU_CONVEX_HPP
 
-#include "cpu/body.hpp"
+#include "cpu/lanes.hpp"
 
 namespace carom::cpu {
 
@@ -77,14 +77,25 @@ template <typename T> Axis<T> axis_along(const Convex<T> &b, const Pose<T> &pose
 /* The face of A that B is farthest in front of, or least behind. */
 template <typename T> Axis<T> face_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
 {
-	Axis<T> best{};
-	for (int32_t e = 0; e < a.count; e++) {
-		const Vec<T> n = a.normal(e);
-		Axis<T> axis = axis_along(b, pose, n, inner(n, a.vertex(e)), e);
-		if (e == 0 || axis.gap > best.gap)
-			best = axis;
+	const Vec<T> d = turn_back(pose.ra, pose.d);
+	T most = 0;
+	int32_t face = 0;
+	for (int32_t first = 0; first < a.count; first += lane_count) {
+		const FourCorners<T> c(a, first);
+		const Lanes<T> mx = pose.relative.x() * c.nx + pose.relative.y() * c.ny, my = pose.relative.x() * c.ny - pose.relative.y() * c.nx;
+		Lanes<T> low = b.is_circle() ? Lanes<T>{} - b.radius : mx * b.vertex(0).x() + my * b.vertex(0).y();
+		for (int32_t k = 1; k < b.count; k++) {
+			const Lanes<T> height = mx * b.vertex(k).x() + my * b.vertex(k).y();
+			low = height < low ? height : low;
+		}
+		const Lanes<T> gap = ((c.nx * d.x() + c.ny * d.y()) - (c.nx * c.x + c.ny * c.y)) + low;
+		for (int32_t i = 0; i < lane_count; i++) {
+			const bool is_more = first + i == 0 || gap[i] > most;
+			face = is_more ? first + i : face;
+			most = is_more ? gap[i] : most;
+		}
 	}
-	return best;
+	return axis_along(b, pose, a.normal(face), inner(a.normal(face), a.vertex(face)), face);
 }
 
 /* From a corner of A to a point of B, both in A's frame. */

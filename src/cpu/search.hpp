@@ -50,10 +50,13 @@ template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a,
 	if (incident.is_circle())
 		return first_root(larger((to.base - incident.radius) - margin, T(0)), to.rate, to.bend);
 	T least = infinite<T>;
-	for (int32_t k = 0; k < incident.count; k++) {
-		Vec<T> vertex = incident.vertex(k);
-		T gap = larger((to.base + inner(to.m, vertex)) - margin, T(0));
-		least = smaller(least, first_root(gap, to.rate + to.turning_rate * cross(to.m, vertex), to.bend));
+	for (int32_t first = 0; first < incident.count; first += lane_count) {
+		const FourCorners<T> c(incident, first);
+		Lanes<T> gap = (to.base + (to.m.x() * c.x + to.m.y() * c.y)) - margin, roots;
+		gap = gap < 0 ? Lanes<T>{} : gap;
+		first_roots<T>(gap, to.rate + to.turning_rate * (to.m.x() * c.y - to.m.y() * c.x), to.bend, roots);
+		for (int32_t i = 0; i < lane_count; i++)
+			least = smaller(least, roots[i]);
 	}
 	return least;
 }

@@ -1,0 +1,51 @@
+/* Four numbers side by side, each rounded as if it were alone. Which corner is the nearest, say, no branch can foretell, so
+ * that it is cheaper to compute it of all. */
+#ifndef CAROM_CPU_LANES_HPP
+#define CAROM_CPU_LANES_HPP
+
+#include "cpu/body.hpp"
+
+namespace carom::cpu {
+
+constexpr int32_t lane_count = 4;
+
+template <typename T> struct LaneType;
+template <> struct LaneType<float> {
+	typedef float Lanes __attribute__((vector_size(lane_count * sizeof(float))));
+};
+template <> struct LaneType<double> {
+	typedef double Lanes __attribute__((vector_size(lane_count * sizeof(double))));
+};
+template <typename T> using Lanes = typename LaneType<T>::Lanes;
+
+/* Corners of a polygon from one on; where there are no more, the last one again. */
+template <typename T> struct FourCorners {
+	Lanes<T> x, y, nx, ny;
+
+	[[gnu::always_inline]] FourCorners(const Convex<T> &polygon, int32_t first)
+	{
+		const Corner<T> *c = polygon.corners;
+		const int32_t last = polygon.count - 1, i0 = first, i1 = std::min(first + 1, last), i2 = std::min(first + 2, last),
+					  i3 = std::min(first + 3, last);
+		x = Lanes<T>{c[i0].vertex.x(), c[i1].vertex.x(), c[i2].vertex.x(), c[i3].vertex.x()};
+		y = Lanes<T>{c[i0].vertex.y(), c[i1].vertex.y(), c[i2].vertex.y(), c[i3].vertex.y()};
+		nx = Lanes<T>{c[i0].normal.x(), c[i1].normal.x(), c[i2].normal.x(), c[i3].normal.x()};
+		ny = Lanes<T>{c[i0].normal.y(), c[i1].normal.y(), c[i2].normal.y(), c[i3].normal.y()};
+	}
+};
+
+/* first_root of each. */
+template <typename T> [[gnu::always_inline]] inline void first_roots(const Lanes<T> &gap, const Lanes<T> &rate, T bend, Lanes<T> &roots)
+{
+	const Lanes<T> square = rate * rate + (2 * bend) * gap;
+	Lanes<T> root;
+	for (int32_t i = 0; i < lane_count; i++)
+		root[i] = std::sqrt(square[i]);
+	const Lanes<T> none = Lanes<T>{} + infinite<T>, flat = Lanes<T>{} + bend;
+	const Lanes<T> falling = square < 0 ? none : (2 * gap) / (root - rate), rising = bend > 0 ? (rate + root) / flat : none;
+	roots = rate < 0 ? falling : rising;
+}
+
+}
+
+#endif
