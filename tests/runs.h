@@ -33,4 +33,11 @@ void runs_enough(bool enough);
 /* Seconds that the process has computed, on all its threads: on a busy machine these are no more. */
 double runs_seconds(void);
 
+/* What takes longer hangs; without optimization all takes ten times as long. */
+#ifdef __OPTIMIZE__
+#define RUNS_SECONDS_MOST 20.0
+#else
+#define RUNS_SECONDS_MOST 200.0
+#endif
+
 #endif

@@ -40,7 +40,7 @@ static carom_report run_down(carom_world *world, uint64_t steps, double mass)
 		sum.hits += report.hits;
 		sum.held += report.held;
 	}
-	assert_true(runs_seconds() - begun < 20.0);
+	assert_true(runs_seconds() - begun < RUNS_SECONDS_MOST);
 	return sum;
 }
 
