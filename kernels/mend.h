@@ -29,18 +29,20 @@ void mend_add(LIST_OUT(status), LIST_OUT(extra), int s, int other)
 	} while (next != seen);
 }
 
-void mend_meet(RECORD_IN(reach), LIST_OUT(status), LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), int s, int other)
+void mend_meet(RECORD_IN(reach), LIST_OUT(status), LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), LIST_OUT(wakes), int s, int other)
 {
 	float4 a = reach[s], b = reach[other];
 	if (other == s || b.x > a.z || b.z < a.x || b.y > a.w || b.w < a.y || mend_knows(spans, neighbours, extra, s, other))
 		return;
 	mend_add(status, extra, s, other);
 	mend_add(status, extra, other, s);
+	/* where both were changed in the last step, the other may be the one that watches */
+	atomic_xchg(&wakes[WAKE(other, WAKE_NEXT)], status[STATUS_AGE]);
 }
 
 /* Among the slots in the cells of all levels, and those that are not in the cells any more in which they would be looked for. */
-void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers), LIST_OUT(extra), int s,
-	int columns, int rows)
+void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers), LIST_OUT(extra),
+	LIST_OUT(wakes), int s, int columns, int rows)
 {
 	float4 box = reach[s];
 	for (int level = 0; level < CELL_LEVELS; level++) {
@@ -51,9 +53,9 @@ void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spa
 			for (int x = low.x; x <= high.x; x++) {
 				int cell = CELL_WIDTH * cell_index((int2)(x, y), level, columns, rows);
 				for (int other = cells[cell + CELL_START]; other < cells[cell + CELL_END]; other++)
-					mend_meet(reach, status, spans, neighbours, extra, s, other);
+					mend_meet(reach, status, spans, neighbours, extra, wakes, s, other);
 			}
 	}
 	for (int i = 0; i < status[STATUS_MOVERS]; i++)
-		mend_meet(reach, status, spans, neighbours, extra, s, movers[i]);
+		mend_meet(reach, status, spans, neighbours, extra, wakes, s, movers[i]);
 }

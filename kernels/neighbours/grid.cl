@@ -111,10 +111,10 @@ __kernel void neighbours_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neig
 
 /* The neighbours of bodies that have got another reach. */
 __kernel void neighbours_mend(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers),
-	LIST_OUT(extra), int4 domain)
+	LIST_OUT(extra), LIST_OUT(wakes), int4 domain)
 {
 	if (PEEK(status, STATUS_STALE) || status[STATUS_SMALL])
 		return;
 	for (int i = get_global_id(0); status[STATUS_MENDED] + i < status[STATUS_MOVERS]; i += get_global_size(0))
-		mend_search(reach, status, cells, spans, neighbours, movers, extra, movers[status[STATUS_MENDED] + i], domain.z, domain.w);
+		mend_search(reach, status, cells, spans, neighbours, movers, extra, wakes, movers[status[STATUS_MENDED] + i], domain.z, domain.w);
 }

@@ -15,7 +15,8 @@ public:
 	explicit Mender(const Job<T> &job)
 		: boxes(reinterpret_cast<const Box<T> *>(job.records(0))),
 		  status(job.list(1)), cells{job.list(2), {as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]}},
-		  spans(reinterpret_cast<const Span *>(job.list(3))), neighbours(job.list(4)), movers(job.list(5)), extra(job.list(6))
+		  spans(reinterpret_cast<const Span *>(job.list(3))), neighbours(job.list(4)), movers(job.list(5)), extra(job.list(6)),
+		  wakes(reinterpret_cast<Wake *>(job.list(7)))
 	{
 	}
 
@@ -40,6 +41,8 @@ private:
 			return;
 		add(s, other);
 		add(other, s);
+		/* Where both were changed in the last step, the pair may be for the other to look at. */
+		__atomic_store_n(&wakes[other].next, status[STATUS_AGE], __ATOMIC_RELAXED);
 	}
 
 	bool knows(int32_t s, int32_t other) const
@@ -72,6 +75,7 @@ private:
 	const Span *const spans;
 	const int32_t *const neighbours, *const movers;
 	int32_t *const extra;
+	Wake *const wakes;
 };
 
 }
