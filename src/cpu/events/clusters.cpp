@@ -73,7 +73,7 @@ template <typename T> static void seek(const Job<T> &job)
 	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
 		return;
 	clusters.status[STATUS_BEGUN] = job.domain[2];
-	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) { Seek<T>(job).run(begin, end); });
+	job.pool.run(job.domain[0], 512, [&](int32_t begin, int32_t end) { Seek<T>(job).run(begin, end); });
 }
 
 /* Clusters that are to be done in this round begin anew, those that are in conflict as one. */
@@ -115,7 +115,7 @@ template <typename T> static void resolve(const Job<T> &job)
 		return;
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(12));
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(13));
-	job.pool.run(clusters.status[STATUS_SEEDS], 16, [&](int32_t begin, int32_t end) {
+	job.pool.run(clusters.status[STATUS_SEEDS], 8, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<int32_t> room;
 		for (int32_t id = begin; id < end; id++) {
 			const Member &member = clusters.members[id];
