@@ -1,5 +1,5 @@
-/* Four numbers side by side, each rounded as if it were alone. Which corner is the nearest, say, no branch can foretell, so
- * that it is cheaper to compute it of all. */
+/* Four numbers side by side, each rounded as if it were alone. Which corner is the nearest, say, processors can't foretell:
+ * to compute all of them costs less than branches that go wrong. */
 #ifndef CAROM_CPU_LANES_HPP
 #define CAROM_CPU_LANES_HPP
 
