@@ -7,8 +7,33 @@
 namespace carom::cpu {
 
 constexpr uint32_t most_threads = 256; /* a mistyped number should not take the machine down */
-constexpr int32_t chunks_a_thread = 2; /* at least, so that all end at about the same time */
-constexpr int most_yields = 100;       /* some 50 us */
+constexpr int32_t chunks_a_thread = 2; /* that what is left should make */
+constexpr int most_yields = 50, polls = 500; /* some 50 us */
+
+/* Of Pool::state: a job's number times `numbers`, `is_open`, and the workers at it. */
+constexpr uint64_t is_open = uint64_t(1) << 31, numbers = uint64_t(1) << 32;
+
+static uint32_t number_of(uint64_t state)
+{
+	return static_cast<uint32_t>(state / numbers);
+}
+
+static bool are_at_it(uint64_t state)
+{
+	return state % is_open != 0;
+}
+
+/* What is awaited often comes at once, as stage follows stage: sooner than a thread that sleeps can be woken. */
+template <typename Condition> static void wait_awake(const Condition &condition)
+{
+	for (int i = 0; i < most_yields; i++) {
+		for (int k = 0; k < polls; k++) {
+			if (condition())
+				return;
+		}
+		std::this_thread::yield();
+	}
+}
 
 Pool::Pool(uint32_t threads)
 {
@@ -35,70 +60,105 @@ Pool::~Pool()
 		worker.join();
 }
 
-/* What is awaited often comes at once, as stage follows stage: sooner than a thread that sleeps can be woken. */
-template <typename Condition> void Pool::wait_awake(Condition condition)
-{
-	for (int i = 0; i < most_yields && !condition(); i++)
-		std::this_thread::yield();
-}
-
 void Pool::run(int32_t rows, int32_t chunk, const Work &work)
 {
-	const int32_t least = std::max(chunk / 8, 1), shares = chunks_a_thread * static_cast<int32_t>(workers.size() + 1);
-	if (rows <= least || workers.empty()) {
+	if (rows <= std::max(chunk / 8, 1) || workers.empty()) {
 		if (rows > 0)
 			work(0, rows);
 		return;
 	}
-	{
-		std::lock_guard<std::mutex> lock(mutex);
-		job = &work;
-		chunk_size = std::clamp(rows / shares, least, chunk);
-		left = rows;
-		failed = false;
-		jobs++;
-	}
-	wake.notify_all();
-	take_chunks(work);
-	wait_awake([this] { return busy == 0; });
-	std::unique_lock<std::mutex> lock(mutex);
-	job = nullptr; /* who wakes only now is not waited for */
-	idle.wait(lock, [this] { return busy == 0; });
+	open(work, rows, chunk);
+	take_chunks();
+	close();
 	if (failed)
 		throw std::bad_alloc();
 }
 
-void Pool::take_chunks(const Work &work)
+void Pool::open(const Work &work, int32_t rows, int32_t chunk)
 {
-	for (;;) {
-		int32_t end = left.fetch_sub(chunk_size);
-		if (end <= 0)
-			return;
+	job = &work;
+	most = chunk;
+	least = std::max(chunk / 32, 1);
+	shares = chunks_a_thread * static_cast<int32_t>(workers.size() + 1);
+	left = rows;
+	failed = false;
+	state = number_of(state + numbers) * numbers + is_open;
+	if (sleepers > 0) {
+		std::lock_guard<std::mutex> lock(mutex); /* who has looked in vain does sleep by now */
+		wake.notify_all();
+	}
+}
+
+/* Nobody may join in any more; those who did are waited for. */
+void Pool::close()
+{
+	const auto are_done = [this] { return !are_at_it(state); };
+	state &= ~is_open;
+	wait_awake(are_done);
+	if (are_done())
+		return;
+	std::unique_lock<std::mutex> lock(mutex);
+	caller_sleeps = true;
+	idle.wait(lock, are_done);
+	caller_sleeps = false;
+}
+
+/* True for each job once, if it is still open. */
+bool Pool::join(uint32_t &seen)
+{
+	uint64_t now = state;
+	while ((now & is_open) && number_of(now) != seen) {
+		if (!state.compare_exchange_weak(now, now + 1))
+			continue;
+		seen = number_of(now);
+		return true;
+	}
+	return false;
+}
+
+void Pool::leave()
+{
+	const uint64_t now = --state;
+	if (!are_at_it(now) && caller_sleeps) {
+		std::lock_guard<std::mutex> lock(mutex);
+		idle.notify_one();
+	}
+}
+
+void Pool::take_chunks()
+{
+	int32_t rest = left;
+	while (rest > 0) {
+		const int32_t size = std::min(std::clamp(rest / shares, least, most), rest);
+		if (!left.compare_exchange_weak(rest, rest - size))
+			continue;
 		try {
-			work(std::max(end - chunk_size, 0), end);
+			(*job)(rest - size, rest);
 		} catch (const std::exception &) {
 			failed = true;
 		}
+		rest = left;
 	}
 }
 
 void Pool::serve()
 {
-	uint64_t seen = 0;
+	uint32_t seen = 0;
+	bool has_joined = false;
+	const auto is_needed = [&] { return closing || (has_joined = join(seen)); };
 	for (;;) {
-		wait_awake([&] { return closing || jobs != seen; });
-		std::unique_lock<std::mutex> lock(mutex);
-		wake.wait(lock, [&] { return closing || (job && jobs != seen); });
-		if (closing)
+		wait_awake(is_needed);
+		if (!has_joined && !closing) {
+			std::unique_lock<std::mutex> lock(mutex);
+			sleepers++;
+			wake.wait(lock, is_needed);
+			sleepers--;
+		}
+		if (!has_joined)
 			return;
-		seen = jobs;
-		busy++;
-		const Work &work = *job;
-		lock.unlock();
-		take_chunks(work);
-		lock.lock();
-		if (--busy == 0)
-			idle.notify_one();
+		take_chunks();
+		leave();
+		has_joined = false;
 	}
 }
 

@@ -24,26 +24,31 @@ public:
 	Pool(const Pool &) = delete;
 	Pool &operator=(const Pool &) = delete;
 
-	/* Does all `rows`, at most `chunk` at a time, and returns when they are done. Where there are few rows the chunks are smaller, but an
-	 * eighth at least: that should be worth handing to another thread, some 2 us. The last rows come first, for those of a triangle are the
-	 * longest, and what is left at the end should be short. */
+	/* Does all `rows`, at most `chunk` at a time, and returns when they are done. The fewer are left the smaller the chunks, so that all threads end
+	 * at about the same time. An eighth of a chunk should be worth waking another thread, some 2 us. The last rows come first, for those of a triangle
+	 * are the longest, and what is left at the end should be short. */
 	void run(int32_t rows, int32_t chunk, const Work &work);
 
 private:
 	void serve();
-	void take_chunks(const Work &work);
-	template <typename Condition> static void wait_awake(Condition condition);
+	void open(const Work &work, int32_t rows, int32_t chunk);
+	void close();
+	bool join(uint32_t &seen);
+	void leave();
+	void take_chunks();
 
 	std::vector<std::thread> workers;
+	/* Of a job; written before it is open. */
+	const Work *job = nullptr;
+	int32_t most = 0, least = 0, shares = 0; /* rows of a chunk; how many chunks what is left should make */
+	std::atomic<bool> failed{false};
+	alignas(64) std::atomic<int32_t> left{0}; /* rows that nobody has taken */
+	alignas(64) std::atomic<uint64_t> state{0}; /* number of the job, whether it is open, and how many workers are at it */
+	/* Who has waited for long sleeps. */
+	alignas(64) std::atomic<int32_t> sleepers{0};
+	std::atomic<bool> caller_sleeps{false}, closing{false};
 	std::mutex mutex;
 	std::condition_variable wake, idle;
-	const Work *job = nullptr; /* none: nobody may join in */
-	std::atomic<uint64_t> jobs{0};
-	std::atomic<size_t> busy{0};
-	std::atomic<bool> closing{false};
-	int32_t chunk_size = 0;
-	std::atomic<int32_t> left{0}; /* rows that nobody has taken */
-	std::atomic<bool> failed{false};
 };
 
 }
