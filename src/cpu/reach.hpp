@@ -67,7 +67,12 @@ struct Grid {
 			level++;
 		return level;
 	}
-	template <typename T> static int32_t step(T x, T side) { return static_cast<int32_t>(std::floor(std::min(std::max(x / side, T(-1e9)), T(1e9)))); }
+	template <typename T> static int32_t step(T x, T side)
+	{
+		const T cells = std::min(std::max(x / side, T(-1e9)), T(1e9));
+		const int32_t whole = static_cast<int32_t>(cells); /* std::floor is a call, where processors may lack it */
+		return whole - (static_cast<T>(whole) > cells);
+	}
 	template <typename T> Cell cell_at(T x, T y, int32_t level) const { return {step(x, T(side_of(level))), step(y, T(side_of(level)))}; }
 	int32_t row_of(int32_t y, int32_t level) const { return ((y + 7 * level) & (rows - 1)) * columns; }
 	int32_t column_of(int32_t x, int32_t level) const { return (x + 11 * level) & (columns - 1); }
@@ -119,7 +124,8 @@ template <typename T> Box<T> static_box(const Slot<T> &slot, const Corner<T> *co
 template <typename T> Box<T> reach_about(const Slot<T> &slot, T need, const ReachRules<T> &rules)
 {
 	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
-	const T speed = std::hypot(slot.place[LINEAR_VX], slot.place[LINEAR_VY]) + std::hypot(slot.push[PUSH_X], slot.push[PUSH_Y]) * rules.window;
+	const Vec<T> v(slot.place[LINEAR_VX], slot.place[LINEAR_VY]), push(slot.push[PUSH_X], slot.push[PUSH_Y]);
+	const T speed = norm(v) + norm(push) * rules.window;
 	T way = std::max(std::max(rules.pace, speed_margin * speed * rules.window), speed_margin * need);
 	way += slot.radius() + (std::abs(x) + std::abs(y) + slot.radius()) * T(8 * SLOP);
 	return {x - way, y - way, x + way, y + way};
