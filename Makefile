@@ -4,6 +4,7 @@ BUILD ?= build
 PREFIX ?= /usr/local
 LIBDIR ?= $(PREFIX)/lib
 PKG_CONFIG ?= pkg-config
+CC_FOR_BUILD ?= $(CC)
 CAIRO ?= yes
 BOX2D ?= $(call yes_if,$(PKG_CONFIG) --exists 'box2d >= 2.4' 'box2d < 3')
 CHIPMUNK ?= $(call yes_if,printf '%s\n' '$(hash)include <chipmunk/chipmunk.h>' '$(hash)if CP_VERSION_MAJOR != 7' '$(hash)error' \
@@ -137,6 +138,7 @@ help:
 	@echo 'BOX2D=no CHIPMUNK=no build it without these two, which `carom bench` measures beside Carom if they are installed'
 	@echo 'SANITIZE=1           build into build/sanitize/ with the address and undefined behaviour sanitizers'
 	@echo 'SANITIZE=thread      build into build/sanitize-thread/ with the thread sanitizer'
+	@echo 'CC_FOR_BUILD=        compiles what runs while it is built, where CC= and CXX= compile for another machine'
 	@echo 'V=1                  show the commands'
 	@echo 'CC= CXX= CFLAGS= CXXFLAGS= CPPFLAGS= LDFLAGS= OPTIMIZE= WERROR=   as usual'
 
@@ -181,7 +183,7 @@ $(BUILD)/tests/%.o: private INCLUDES += -Itests
 # ---- Generated sources
 
 $(BUILD)/embed: tools/embed.c $(BUILD)/flags | $(BUILD)/needs
-	$(call say,CC) $(CC) -std=c11 $(WARNINGS) -o $@ $<
+	$(call say,CC) $(CC_FOR_BUILD) -std=c11 $(WARNINGS) -o $@ $<
 
 $(BUILD)/kernels.c: $(BUILD)/embed $(KERNELS) $(BUILD)/kernels.list
 	$(call say,EMBED) $(BUILD)/embed $@ $(KERNELS)

@@ -15,7 +15,8 @@ static double reach(const carom_body_info *body, const carom_body_state *state, 
 	double most = -HUGE_VAL;
 	for (uint32_t k = 0; k < body->vertex_count; k++) {
 		double vx = (double)body->vertices[k].x, vy = (double)body->vertices[k].y;
-		most = fmax(most, x * (c * vx - s * vy) + y * (s * vx + c * vy));
+		double along = x * (c * vx - s * vy) + y * (s * vx + c * vy);
+		most = along > most ? along : most; /* GCC 12 for ARM fails at fmax here */
 	}
 	return most;
 }
