@@ -12,7 +12,8 @@
 #ifndef __FLT_EVAL_METHOD__
 #define __FLT_EVAL_METHOD__ 0
 #endif
-_Static_assert(__FLT_EVAL_METHOD__ == 0, "floats must be computed as floats, or the bits differ from other devices: build with SSE2, or with -fexcess-precision=fast");
+_Static_assert(__FLT_EVAL_METHOD__ == 0,
+	"floats must be computed as floats, or the bits differ from other devices: build with SSE2, or with -fexcess-precision=fast");
 
 static bool contains(const char *text, const char *part)
 {
