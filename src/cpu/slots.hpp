@@ -24,7 +24,7 @@ template <typename T> struct Trajectory {
 
 	explicit Trajectory(const Slot<T> &slot) : angle(slot.turn[TURN_ANGLE]), velocity(slot.turn[TURN_VELOCITY]), time(0), held(0)
 	{
-		std::copy(slot.place, slot.place + 4, place);
+		std::memcpy(place, slot.place, sizeof place);
 	}
 };
 
@@ -34,14 +34,14 @@ template <typename T> struct Work {
 
 	void keep(const Trajectory<T> &way)
 	{
-		std::copy(way.place, way.place + 4, place);
+		std::memcpy(place, way.place, sizeof place);
 		angle = way.angle, velocity = way.velocity, time = way.time, held = way.held;
 	}
 
 	Trajectory<T> trajectory(const Slot<T> &slot) const
 	{
 		Trajectory<T> way(slot);
-		std::copy(place, place + 4, way.place);
+		std::memcpy(way.place, place, sizeof place);
 		way.angle = angle, way.velocity = velocity, way.time = time, way.held = held;
 		return way;
 	}
@@ -83,21 +83,31 @@ static_assert(sizeof(FoundHit) == FOUND_WIDTH * sizeof(int32_t), "found");
 
 /* The centre's motion in step units, with the radius about it. */
 template <typename T> struct Disc {
-	T x, y, vx, vy, ax, ay, radius, time;
+	Lanes<T> way;  /* x, y, vx, vy */
+	Lanes<T> push; /* ax, ay; what follows is of no use */
+	T radius, time;
 
-	[[gnu::always_inline]] Disc(const Slot<T> &slot, const T *place, T at, bool stands, T length)
-		: x(place[LINEAR_X]), y(place[LINEAR_Y]), vx(stands ? 0 : place[LINEAR_VX] * length), vy(stands ? 0 : place[LINEAR_VY] * length),
-		  ax(stands ? 0 : (slot.push[PUSH_X] * length) * length), ay(stands ? 0 : (slot.push[PUSH_Y] * length) * length), radius(slot.radius()),
-		  time(at)
+	[[gnu::always_inline]] Disc(const Slot<T> &slot, const T *place, T at, bool stands, T length) : radius(slot.radius()), time(at)
 	{
+		std::memcpy(&way, place, sizeof way);
+		std::memcpy(&push, slot.push, sizeof push);
+		const T moves = stands ? T(0) : length;
+		way = way * Lanes<T>{1, 1, moves, moves};
+		push = (push * moves) * moves;
 	}
+
+	T x() const { return way[0]; }
+	T y() const { return way[1]; }
+	T vx() const { return way[2]; }
+	T vy() const { return way[3]; }
+	T ax() const { return push[0]; }
+	T ay() const { return push[1]; }
 
 	[[gnu::always_inline]] Disc later(T t) const
 	{
 		Disc disc = *this;
 		const T dt = t - time;
-		disc.x += dt * (vx + T(0.5) * dt * ax), disc.y += dt * (vy + T(0.5) * dt * ay);
-		disc.vx += dt * ax, disc.vy += dt * ay;
+		disc.way += dt * (Lanes<T>{way[2], way[3], push[0], push[1]} + (T(0.5) * dt) * Lanes<T>{push[0], push[1], 0, 0});
 		disc.time = t;
 		return disc;
 	}
@@ -111,13 +121,14 @@ template <typename T> struct Approach {
 	T most; /* at this distance they touch, whatever pushes them, but for rounding */
 
 	/* Both discs are of the same time: for the rest of the step and so many steps more, each of whose ends is rounded. */
-	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, T ahead)
-		: x(other.x - own.x), y(other.y - own.y), vx(other.vx - own.vx), vy(other.vy - own.vy), rest(1 - own.time + ahead),
-		  size((1 + ahead)
-			  * (2 * (std::abs(own.x) + std::abs(own.y)) + own.radius + other.radius
-				  + ahead * (std::abs(own.vx) + std::abs(own.vy) + std::abs(vx) + std::abs(vy)))),
-		  most(own.radius + other.radius + (1 + ahead) * (1 + ahead) * (std::abs(other.ax - own.ax) + std::abs(other.ay - own.ay)))
+	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, T ahead) : rest(1 - own.time + ahead)
 	{
+		const Lanes<T> between = other.way - own.way, shove = other.push - own.push;
+		x = between[0], y = between[1], vx = between[2], vy = between[3];
+		size = (1 + ahead)
+			* (2 * (std::abs(own.x()) + std::abs(own.y())) + own.radius + other.radius
+				+ ahead * (std::abs(own.vx()) + std::abs(own.vy()) + std::abs(vx) + std::abs(vy)));
+		most = own.radius + other.radius + (1 + ahead) * (1 + ahead) * (std::abs(shove[0]) + std::abs(shove[1]));
 	}
 	[[gnu::always_inline]] Approach(T dx, T dy, T ux, T uy, T time, T all, T reach) : x(dx), y(dy), vx(ux), vy(uy), rest(time), size(all), most(reach)
 	{
@@ -277,11 +288,11 @@ public:
 		if (!has_room || slots[s].is_static())
 			return true;
 		const Disc<T> disc(slots[s], way.place, way.time, false, length);
-		const T push = steps * steps * (std::abs(disc.ax) + std::abs(disc.ay)), vx = steps * disc.vx, vy = steps * disc.vy;
-		const T size = disc.radius + push + std::abs(vx) + std::abs(vy) + std::abs(disc.x) + std::abs(disc.y);
+		const T push = steps * steps * (std::abs(disc.ax()) + std::abs(disc.ay())), vx = steps * disc.vx(), vy = steps * disc.vy();
+		const T size = disc.radius + push + std::abs(vx) + std::abs(vy) + std::abs(disc.x()) + std::abs(disc.y());
 		const T pad = disc.radius + push + steps * (size * T(4 * SLOP));
-		return std::min(disc.x, disc.x + vx) - pad >= room(ROOM_MIN_X) && std::min(disc.y, disc.y + vy) - pad >= room(ROOM_MIN_Y)
-			&& std::max(disc.x, disc.x + vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y, disc.y + vy) + pad <= room(ROOM_MAX_Y);
+		return std::min(disc.x(), disc.x() + vx) - pad >= room(ROOM_MIN_X) && std::min(disc.y(), disc.y() + vy) - pad >= room(ROOM_MIN_Y)
+			&& std::max(disc.x(), disc.x() + vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y(), disc.y() + vy) + pad <= room(ROOM_MAX_Y);
 	}
 
 	Wall<T> wall(int32_t k) const { return room_wall(*this, k); }

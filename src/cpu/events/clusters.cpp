@@ -11,10 +11,12 @@ public:
 	void run(int32_t begin, int32_t end)
 	{
 		const auto meet = [&](int32_t s, int32_t other, const Approach<T> &approach) { pair(s, other, approach); };
+		const Slot<T> *const slots = clusters.slots; /* not known to stay as they are, else, where the sieve is written to */
+		const T length = clusters.length, ahead = clusters.ahead;
 		for (int32_t s = begin; s < end; s++) {
 			if (age > 0 && clusters.wakes[s].next > age)
 				continue;
-			const Disc<T> disc = disc_of(s);
+			const Disc<T> disc(slots[s], slots[s].place, 0, false, length);
 			const int32_t changed = age > 0 ? clusters.wakes[s].changed : 0;
 			clusters.wakes[s].changed = changed;
 			clusters.wake_at(s, clusters.ahead + 1);
@@ -24,7 +26,7 @@ public:
 				const int32_t other_changed = age > 0 ? clusters.wakes[other].changed : 0;
 				if (is_first ? changed < other_changed : changed <= other_changed)
 					return;
-				sieve.add(s, other, Approach<T>(disc, disc_of(other), clusters.ahead));
+				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], slots[other].place, 0, false, length), ahead));
 				if (sieve.is_full())
 					sieve.sift(meet);
 			});
