@@ -45,7 +45,7 @@ template <typename T> static void drift(const Job<T> &job)
 	if (!commits && !status[STATUS_LEFT])
 		return;
 	const Mover<T> mover{length};
-	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
+	job.pool.run(job.domain[0], 1024, [=, &job](int32_t begin, int32_t end) {
 		for (int32_t s = begin; s < end; s++) {
 			const int32_t id = owners[s];
 			Slot<T> &slot = slots[s];
