@@ -6,8 +6,8 @@
 
 namespace carom::cpu {
 
-constexpr uint32_t most_threads = 256; /* a mistyped number should not take the machine down */
-constexpr int32_t chunks_a_thread = 2; /* that what is left should make */
+constexpr uint32_t most_threads = 256;       /* a mistyped number should not take the machine down */
+constexpr int32_t chunks_a_thread = 2;       /* that what is left should make */
 constexpr int most_yields = 50, polls = 500; /* some 50 us */
 
 /* Of Pool::state: a job's number times `numbers`, `is_open`, and the workers at it. */

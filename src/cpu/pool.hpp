@@ -42,7 +42,7 @@ private:
 	const Work *job = nullptr;
 	int32_t most = 0, least = 0, shares = 0; /* rows of a chunk; how many chunks what is left should make */
 	std::atomic<bool> failed{false};
-	alignas(64) std::atomic<int32_t> left{0}; /* rows that nobody has taken */
+	alignas(64) std::atomic<int32_t> left{0};   /* rows that nobody has taken */
 	alignas(64) std::atomic<uint64_t> state{0}; /* number of the job, whether it is open, and how many workers are at it */
 	/* Who has waited for long sleeps. */
 	alignas(64) std::atomic<int32_t> sleepers{0};

@@ -121,14 +121,9 @@ template <typename T> struct Approach {
 	T most; /* at this distance they touch, whatever pushes them, but for rounding */
 
 	/* Both discs are of the same time: for the rest of the step and so many steps more, each of whose ends is rounded. */
-	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, T ahead) : rest(1 - own.time + ahead)
+	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, T ahead)
+		: Approach(own, other, other.way - own.way, other.push - own.push, ahead)
 	{
-		const Lanes<T> between = other.way - own.way, shove = other.push - own.push;
-		x = between[0], y = between[1], vx = between[2], vy = between[3];
-		size = (1 + ahead)
-			* (2 * (std::abs(own.x()) + std::abs(own.y())) + own.radius + other.radius
-				+ ahead * (std::abs(own.vx()) + std::abs(own.vy()) + std::abs(vx) + std::abs(vy)));
-		most = own.radius + other.radius + (1 + ahead) * (1 + ahead) * (std::abs(shove[0]) + std::abs(shove[1]));
 	}
 	[[gnu::always_inline]] Approach(T dx, T dy, T ux, T uy, T time, T all, T reach) : x(dx), y(dy), vx(ux), vy(uy), rest(time), size(all), most(reach)
 	{
@@ -154,6 +149,16 @@ template <typename T> struct Approach {
 			return 0;
 		const T distance = std::sqrt(square), side = x * vy - y * vx, under = reach * reach * (vx * vx + vy * vy) - side * side;
 		return (distance - reach) * (distance + reach) / (std::sqrt(std::max(under, T(0))) + nearer) * T(0.9999);
+	}
+
+private:
+	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, const Lanes<T> &between, const Lanes<T> &shove, T ahead)
+		: x(between[0]), y(between[1]), vx(between[2]), vy(between[3]), rest(1 - own.time + ahead),
+		  size((1 + ahead)
+			  * (2 * (std::abs(own.x()) + std::abs(own.y())) + own.radius + other.radius
+				  + ahead * (std::abs(own.vx()) + std::abs(own.vy()) + std::abs(vx) + std::abs(vy)))),
+		  most(own.radius + other.radius + (1 + ahead) * (1 + ahead) * (std::abs(shove[0]) + std::abs(shove[1])))
+	{
 	}
 };
 
