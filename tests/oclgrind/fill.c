@@ -15,20 +15,20 @@ static char *repeat(const void *bytes, size_t size, size_t count)
 	return all;
 }
 
-cl_int CL_API_CALL clEnqueueFillBuffer(cl_command_queue queue, cl_mem buffer, const void *pattern, size_t pattern_size, size_t offset, size_t size,
-	cl_uint event_count, const cl_event *events, cl_event *event)
+cl_int CL_API_CALL clEnqueueFillBuffer(cl_command_queue command_queue, cl_mem buffer, const void *pattern, size_t pattern_size, size_t offset,
+	size_t size, cl_uint num_events_in_wait_list, const cl_event *event_wait_list, cl_event *event)
 {
 	char *all = repeat(pattern, pattern_size, size / pattern_size);
 	if (!all)
 		return CL_OUT_OF_HOST_MEMORY;
-	const cl_int code = clEnqueueWriteBuffer(queue, buffer, CL_TRUE, offset, size, all, event_count, events, event);
+	const cl_int code = clEnqueueWriteBuffer(command_queue, buffer, CL_TRUE, offset, size, all, num_events_in_wait_list, event_wait_list, event);
 	free(all);
 	return code;
 }
 
 /* Of texels of four floats, or of four bytes that the colour has as ints: Carom has no others. */
-cl_int CL_API_CALL clEnqueueFillImage(cl_command_queue queue, cl_mem image, const void *color, const size_t *origin, const size_t *region,
-	cl_uint event_count, const cl_event *events, cl_event *event)
+cl_int CL_API_CALL clEnqueueFillImage(cl_command_queue command_queue, cl_mem image, const void *fill_color, const size_t *origin,
+	const size_t *region, cl_uint num_events_in_wait_list, const cl_event *event_wait_list, cl_event *event)
 {
 	cl_uchar bytes[4];
 	size_t texel = 0;
@@ -36,11 +36,11 @@ cl_int CL_API_CALL clEnqueueFillImage(cl_command_queue queue, cl_mem image, cons
 	if (code)
 		return code;
 	for (int i = 0; i < 4; i++)
-		bytes[i] = (cl_uchar)((const cl_uint *)color)[i];
-	char *all = repeat(texel == sizeof bytes ? bytes : color, texel, region[0] * region[1] * region[2]);
+		bytes[i] = (cl_uchar)((const cl_uint *)fill_color)[i];
+	char *all = repeat(texel == sizeof bytes ? bytes : fill_color, texel, region[0] * region[1] * region[2]);
 	if (!all)
 		return CL_OUT_OF_HOST_MEMORY;
-	code = clEnqueueWriteImage(queue, image, CL_TRUE, origin, region, 0, 0, all, event_count, events, event);
+	code = clEnqueueWriteImage(command_queue, image, CL_TRUE, origin, region, 0, 0, all, num_events_in_wait_list, event_wait_list, event);
 	free(all);
 	return code;
 }
