@@ -1,10 +1,10 @@
 /* A libOpenCL that writes where Carom fills, and is Oclgrind in all else: Oclgrind 21.10 takes what was filled for uninitialized.
  * tools/conformance builds it.
  * SPDX-License-Identifier: MIT */
-#define CL_TARGET_OPENCL_VERSION 120
-#include <CL/cl.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "cl/functions.h"
 
 /* `count` times the same bytes; NULL without the memory. */
 static char *repeat(const void *bytes, size_t size, size_t count)
