@@ -167,8 +167,7 @@ private:
 			if (other_id >= 0)
 				sieve.add(s, other, approach(disc, disc_of(other, work[other_id]), clusters.ahead));
 			else
-				sieve.add(s, other,
-					Approach<T>(disc, Disc<T>(slots[other], slots[other].place, 0, false, clusters.length).later(disc.time), clusters.ahead));
+				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], clusters.length).later(disc.time), clusters.ahead));
 			if (sieve.is_full())
 				sieve.sift(meet);
 		});

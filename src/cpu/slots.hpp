@@ -96,6 +96,9 @@ template <typename T> struct Disc {
 		push = (push * moves) * moves;
 	}
 
+	/* Of a body that no event has changed, as the step begins. */
+	[[gnu::always_inline]] Disc(const Slot<T> &slot, T length) : Disc(slot, slot.place, 0, false, length) {}
+
 	T x() const { return way[0]; }
 	T y() const { return way[1]; }
 	T vx() const { return way[2]; }

@@ -16,7 +16,7 @@ public:
 		for (int32_t s = begin; s < end; s++) {
 			if (age > 0 && clusters.wakes[s].next > age)
 				continue;
-			const Disc<T> disc(slots[s], slots[s].place, 0, false, length);
+			const Disc<T> disc(slots[s], length);
 			const int32_t changed = age > 0 ? clusters.wakes[s].changed : 0;
 			clusters.wakes[s].changed = changed;
 			clusters.wake_at(s, clusters.ahead + 1);
@@ -26,7 +26,7 @@ public:
 				const int32_t other_changed = age > 0 ? clusters.wakes[other].changed : 0;
 				if (is_first ? changed < other_changed : changed <= other_changed)
 					return;
-				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], slots[other].place, 0, false, length), ahead));
+				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], length), ahead));
 				if (sieve.is_full())
 					sieve.sift(meet);
 			});
@@ -35,12 +35,10 @@ public:
 	}
 
 private:
-	Disc<T> disc_of(int32_t s) const { return Disc<T>(clusters.slots[s], clusters.slots[s].place, 0, false, clusters.length); }
-
 	void pair(int32_t s, int32_t other, const Approach<T> &approach)
 	{
 		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
-		const Outlook<T> outlook(approach, slot, disc_of(s), other_slot, disc_of(other));
+		const Outlook<T> outlook(approach, slot, {slot, clusters.length}, other_slot, {other_slot, clusters.length});
 		clusters.wake_before(s, outlook.earliest);
 		if (!outlook.may_touch)
 			return;
