@@ -1,4 +1,7 @@
-/* Colours of sixteen pixels at once, two rows of a tile: as squares, whole until the picture is written. */
+/* Colours of a patch, sixteen pixels in two rows: as squares, whole until the picture is written. */
+
+#define PATCH_WIDTH 8
+#define PATCHES (PIXEL_TILE / PATCH_WIDTH) /* side by side in a tile */
 
 typedef struct lights {
 	float16 red, green, blue;
@@ -15,10 +18,16 @@ uint16 bytes_of(lights all)
 	return levels(all.red) | levels(all.green) << 8 | levels(all.blue) << 16 | 255u << 24;
 }
 
-/* Of 16 pixels number k is this one, if the frame has it. */
+/* The first pixel of patch p of a tile. */
+int2 patch_of(int2 first, int p)
+{
+	return first + (int2)(p % PATCHES * PATCH_WIDTH, p / PATCHES * 2);
+}
+
+/* Of a patch's pixels number k is this one, if the frame has it. */
 int2 pixel_of(int2 first, int k)
 {
-	return (int2)(first.x + k % PIXEL_TILE, first.y + k / PIXEL_TILE);
+	return (int2)(first.x + k % PATCH_WIDTH, first.y + k / PATCH_WIDTH);
 }
 
 lights light_below(RECORD_IN(light), int2 first, int2 size)

@@ -1,5 +1,5 @@
-/* The picture: of a tile's pixels two rows at once, each blended with the tile's shapes in turn. Colours are held as
- * squares: light adds up nearly as the squares of sRGB values do, so an edge blended in squares is as bright as it
+/* The picture: of a tile's pixels a patch of sixteen at once, each blended with the tile's shapes in turn. Colours are held
+ * as squares: light adds up nearly as the squares of sRGB values do, so an edge blended in squares is as bright as it
  * should be, for the price of a root. */
 
 #define NEAR_AHEAD 10 /* shapes */
@@ -35,38 +35,40 @@ float16 blended(float16 ground, float outline, float fill, float16 cover, float1
 	return ground + opacity * ((outline * (cover - inside) + fill * inside) - cover * ground);
 }
 
-/* Draws a shape on a tile, whose first pixel is (left, top), two rows at once. False: the tile is plain then, all of the shape's fill. */
+/* Draws a shape on a tile, whose first pixel is (left, top). False: the tile is plain then, all of the shape's fill. */
 bool draw(lights *light, RECORD_IN(its), RECORD_IN(edges), float left, float top)
 {
 	float4 box = its[SHAPE_BOX], ink = its[SHAPE_INK], sides = its[SHAPE_EDGES], edge = its[SHAPE_EDGE];
 	float4 fill = squared_color(CHANNEL(ink, INK_FILL)), outline = squared_color(CHANNEL(ink, INK_OUTLINE));
 	int rest = (int)CHANNEL(sides, EDGES_REST), count = (int)CHANNEL(sides, EDGES_COUNT);
-	float16 x = (left - CHANNEL(box, BOX_X0))
-		+ (float16)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
-	float width = CHANNEL(box, BOX_X1) - CHANNEL(box, BOX_X0), height = CHANNEL(box, BOX_Y1) - CHANNEL(box, BOX_Y0),
-		  above = top - CHANNEL(box, BOX_Y0);
-	int16 in_columns = x >= 0.0f && x < width;
-	int last = (int)smaller(height - above, (float)PIXEL_TILE);
-	for (int row = (int)larger(-above, 0.0f) & ~1; row < last; row += 2) {
-		lights *two = light + row / 2;
+	float beside = left - CHANNEL(box, BOX_X0), above = top - CHANNEL(box, BOX_Y0), width = CHANNEL(box, BOX_X1) - CHANNEL(box, BOX_X0);
+	int4 part = {(int)larger(-beside, 0.0f), (int)larger(-above, 0.0f), (int)smaller(width - beside, (float)PIXEL_TILE),
+		(int)smaller(CHANNEL(box, BOX_Y1) - top, (float)PIXEL_TILE)};
+	float16 across = beside + (float16)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
+	for (int row = part.y & ~1; row < part.w; row += 2) {
 		float16 y = (above + (float)row) + (float16)((float8)(0.0f), (float8)(1.0f));
-		int16 in_box = in_columns && y >= 0.0f && y < height;
-		if (count == 0) {
-			two->red = in_box ? (float16)(fill.x) : two->red;
-			two->green = in_box ? (float16)(fill.y) : two->green;
-			two->blue = in_box ? (float16)(fill.z) : two->blue;
-			continue;
+		int16 in_rows = y >= 0.0f && y < CHANNEL(box, BOX_Y1) - CHANNEL(box, BOX_Y0);
+		for (int column = part.x & -PATCH_WIDTH; column < part.z; column += PATCH_WIDTH) {
+			lights *patch = light + (row / 2 * PATCHES + column / PATCH_WIDTH);
+			float16 x = across + (float)column;
+			int16 in_box = in_rows && x >= 0.0f && x < width;
+			if (count == 0) {
+				patch->red = in_box ? (float16)(fill.x) : patch->red;
+				patch->green = in_box ? (float16)(fill.y) : patch->green;
+				patch->blue = in_box ? (float16)(fill.z) : patch->blue;
+				continue;
+			}
+			float16 far = beyond((float16)(-INFINITY), edge, x, y);
+			for (int k = rest; k < rest + count - 1; k++)
+				far = beyond(far, edges[k], x, y);
+			float16 near = 0.5f - (in_box ? far : (float16)(1.0f));
+			float16 cover = share16(near), inside = share16(near - CHANNEL(ink, INK_WIDTH));
+			patch->red = blended(patch->red, outline.x, fill.x, cover, inside, CHANNEL(ink, INK_OPACITY));
+			patch->green = blended(patch->green, outline.y, fill.y, cover, inside, CHANNEL(ink, INK_OPACITY));
+			patch->blue = blended(patch->blue, outline.z, fill.z, cover, inside, CHANNEL(ink, INK_OPACITY));
 		}
-		float16 far = beyond((float16)(-INFINITY), edge, x, y);
-		for (int k = rest; k < rest + count - 1; k++)
-			far = beyond(far, edges[k], x, y);
-		float16 near = 0.5f - (in_box ? far : (float16)(1.0f));
-		float16 cover = share16(near), inside = share16(near - CHANNEL(ink, INK_WIDTH));
-		two->red = blended(two->red, outline.x, fill.x, cover, inside, CHANNEL(ink, INK_OPACITY));
-		two->green = blended(two->green, outline.y, fill.y, cover, inside, CHANNEL(ink, INK_OPACITY));
-		two->blue = blended(two->blue, outline.z, fill.z, cover, inside, CHANNEL(ink, INK_OPACITY));
 	}
-	return count > 0 || above < 0.0f || last < PIXEL_TILE || left < CHANNEL(box, BOX_X0) || left + (float)PIXEL_TILE > CHANNEL(box, BOX_X1);
+	return count > 0 || part.x > 0 || part.y > 0 || part.z < PIXEL_TILE || part.w < PIXEL_TILE;
 }
 
 /* A tile. */
@@ -80,12 +82,12 @@ __kernel void pixels(RECORD_IN(shapes), RECORD_IN(edges), TEX_IN(frame), LIST_IN
 	int pass = (int)CHANNEL(tiles, TILES_PASS), tile = row * ((int)CHANNEL(tiles, TILES_COLUMNS) + 1) + column;
 	if (column >= domain.x)
 		return;
-	lights all[PIXEL_TILE / 2];
+	lights all[PATCHES * PIXEL_TILE / 2];
 	float4 ground = squared_color(CHANNEL(tiles, TILES_GROUND));
 	bool plain = !(pass & PASS_OVER);
-	for (int p = 0; p < PIXEL_TILE / 2; p++) {
+	for (int p = 0; p < PATCHES * PIXEL_TILE / 2; p++) {
 		lights below = {(float16)(ground.x), (float16)(ground.y), (float16)(ground.z)};
-		all[p] = plain ? below : light_below(light, first + (int2)(0, 2 * p), size);
+		all[p] = plain ? below : light_below(light, patch_of(first, p), size);
 	}
 	uint end = min((uint)ends[tile + 1], (uint)domain.z),
 		 last = min((uint)ends[tile - column + (int)CHANNEL(tiles, TILES_COLUMNS)], (uint)domain.z) - 1;
@@ -95,11 +97,11 @@ __kernel void pixels(RECORD_IN(shapes), RECORD_IN(edges), TEX_IN(frame), LIST_IN
 		plain = !draw(all, shapes + SHAPES_WIDTH * list[k], edges, CHANNEL(box, BOX_X0) + (float)first.x, CHANNEL(box, BOX_Y0) + (float)first.y);
 	}
 	uint16 words;
-	for (int p = 0; p < PIXEL_TILE / 2; p++) {
+	for (int p = 0; p < PATCHES * PIXEL_TILE / 2; p++) {
 		words = p == 0 || !plain ? bytes_of(all[p]) : words;
 		if (pass & PASS_UNDER)
-			keep(all[p], light, first + (int2)(0, 2 * p), size);
+			keep(all[p], light, patch_of(first, p), size);
 		else
-			show(words, TEX(picture), first + (int2)(0, 2 * p), size);
+			show(words, TEX(picture), patch_of(first, p), size);
 	}
 }

@@ -8,7 +8,7 @@
 
 namespace carom::cpu {
 
-constexpr int32_t side = PIXEL_TILE, area = side * side;
+constexpr int32_t side = PIXEL_TILE, half = side / 2, area = side * side;
 
 /* Colours as squares: light adds up nearly as the squares of sRGB values do. */
 template <typename T> struct Light {

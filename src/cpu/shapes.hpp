@@ -33,27 +33,47 @@ template <typename T> T growth(T breadth)
 	return clamped(T(0.5) * (1 - breadth), T(0), T(0.5));
 }
 
-template <typename T> bool in_sight(const Vec<T> &v)
-{
-	return std::abs(v.x()) < SEEN && std::abs(v.y()) < SEEN;
-}
+/* An interval of pixels; empty where the end is not above the beginning. */
+template <typename T> struct Pixels {
+	T begin, end;
+
+	/* Those that may be touched, within limits; not finite or too far out: none. (Without branches: compilers make vectors of it.) */
+	[[gnu::always_inline]] Pixels(T low, T high, T margin, T least, T most)
+		: begin(larger(floor_pixel(low - margin), least)), end(smaller(-floor_pixel(-(high + margin)), most))
+	{
+		end = (std::abs(low) < SEEN) & (std::abs(high) < SEEN) ? end : begin;
+	}
+
+	bool any() const { return begin < end; }
+};
 
 /* The pixels that may be touched; an empty box for none. */
 template <typename T> PixelBox<T> touched(const Vec<T> &low, const Vec<T> &high, T margin, const PixelBox<T> &clip)
 {
-	if (!in_sight(low) || !in_sight(high))
-		return {};
-	const PixelBox<T> box{larger(floor_pixel(low.x() - margin), clip.x0), larger(floor_pixel(low.y() - margin), clip.y0),
-		smaller(-floor_pixel(-(high.x() + margin)), clip.x1), smaller(-floor_pixel(-(high.y() + margin)), clip.y1)};
-	return box.x0 < box.x1 && box.y0 < box.y1 ? box : PixelBox<T>{};
+	const Pixels<T> x(low.x(), high.x(), margin, clip.x0, clip.x1), y(low.y(), high.y(), margin, clip.y0, clip.y1);
+	return x.any() && y.any() ? PixelBox<T>{x.begin, y.begin, x.end, y.end} : PixelBox<T>{};
 }
 
-/* What of the ink is seen of a shape of that mean breadth and length. */
-template <typename T> Ink<T> seen(const Ink<T> &ink, T breadth, T length)
+/* Of a shape of that mean breadth and length: its fill, which is the outline's where that hides it; how broad its outline is; and how opaque it is. */
+template <typename T> T fill_of(T fill, T outline, T breadth, T length)
+{
+	return (breadth < 1) & (T(LEAST_OPACITY) * length >= T(LINE_OPACITY)) ? outline : fill;
+}
+
+template <typename T> T outline_of(T line, T breadth)
+{
+	return clamped(T(0.125) * breadth, T(0), line);
+}
+
+template <typename T> T opacity_of(T opacity, T breadth, T length)
 {
 	const T least = clamped(T(LEAST_OPACITY) * length, T(LEAST_OPACITY), T(LINE_OPACITY));
-	return {breadth < 1 && least >= T(LINE_OPACITY) ? ink.outline : ink.fill, ink.outline, clamped(T(0.125) * breadth, T(0), ink.width),
-		clamped(ink.opacity, T(0), T(1)) * clamped(breadth, least, T(1))};
+	return clamped(opacity, T(0), T(1)) * clamped(breadth, least, T(1));
+}
+
+template <typename T> Ink<T> seen(const Ink<T> &ink, T breadth, T length)
+{
+	return {fill_of(ink.fill, ink.outline, breadth, length), ink.outline, outline_of(ink.width, breadth), opacity_of(ink.opacity, breadth, length)};
 }
 
 /* Where shapes and edges go. */

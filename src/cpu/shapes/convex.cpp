@@ -1,5 +1,7 @@
 #include "cpu/shapes.hpp"
 
+#include <algorithm>
+
 namespace carom::cpu {
 
 /* Where the slot's textures are in the list. */
@@ -38,30 +40,55 @@ template <typename T> static void draw_mark(const Scene<T> &scene, int32_t i, in
 	line.write(scene.to, shape, rest, scene.picture);
 }
 
-template <typename T> static void draw_circle(const Scene<T> &scene, int32_t vertex, int32_t shape, int32_t rest, const Ink<T> &ink)
-{
-	const Vec<T> to_rim = scene.offset(vertex), c = scene.center(vertex);
-	const T radius = norm(to_rim), breadth = ((T(DISC_AREA) * radius) * radius) / larger(2 * radius, T(1)), r = radius + growth(breadth);
-	const PixelBox<T> box = touched<T>({c.x() - r, c.y() - r}, {c.x() + r, c.y() + r}, 0, scene.clip);
-	if (!scene.to.shape(shape, box, seen(ink, breadth, 2 * radius), rest, 1)) {
-		scene.to.hide(shape + 1);
-		return;
+/* What is seen of some circles. No circle waits for another, so compilers make vectors of them. */
+template <typename T> struct Circles {
+	static constexpr int32_t many = 8;
+
+	/* To be set: the centres, and from there to the rim; pixels. */
+	T x[many], y[many], rim_x[many], rim_y[many];
+	T middle[many], outline[many]; /* of the ink */
+
+	T radius[many], x0[many], y0[many], x1[many], y1[many], fill[many], width[many], opacity[many];
+	T slope_x[many], slope_y[many], at[many], bend[many];
+
+	/* (Single numbers, for of vectors of two compilers don't make vectors of many.) */
+	void find(const PixelBox<T> &clip, T line)
+	{
+#pragma omp simd
+		for (int32_t i = 0; i < many; i++) {
+			radius[i] = std::sqrt(rim_x[i] * rim_x[i] + rim_y[i] * rim_y[i]);
+			const T breadth = ((T(DISC_AREA) * radius[i]) * radius[i]) / larger(2 * radius[i], T(1)), r = radius[i] + growth(breadth);
+			const Pixels<T> columns(x[i] - r, x[i] + r, T(0), clip.x0, clip.x1), rows(y[i] - r, y[i] + r, T(0), clip.y0, clip.y1);
+			const bool any = columns.any() & rows.any();
+			x0[i] = any ? columns.begin : 0, x1[i] = any ? columns.end : 0;
+			y0[i] = any ? rows.begin : 0, y1[i] = any ? rows.end : 0;
+			fill[i] = fill_of(middle[i], outline[i], breadth, 2 * radius[i]);
+			width[i] = outline_of(line, breadth);
+			opacity[i] = opacity_of(T(1), breadth, 2 * radius[i]);
+			const T fx = x0[i] + T(0.5), fy = y0[i] + T(0.5), dx = fx - x[i], dy = fy - y[i];
+			const bool is_beside = std::abs(dx) > std::abs(dy);
+			const T center = is_beside ? x[i] : y[i], first = is_beside ? fx : fy, other = is_beside ? dy : dx;
+			const T square = ((center - r) - first) * ((center + r) - first) + other * other;
+			slope_x[i] = dx / r, slope_y[i] = dy / r, at[i] = square / (2 * r), bend[i] = 1 / (2 * r);
+		}
 	}
-	const Vec<T> f = box.first_pixel(), d = f - c;
-	/* By indices, not by a branch: which way is as likely as the other. */
-	const T centers[2] = {c.y(), c.x()}, firsts[2] = {f.y(), f.x()}, ways[2] = {d.y(), d.x()};
-	const int main = std::abs(d.x()) > std::abs(d.y());
-	const T square = ((centers[main] - r) - firsts[main]) * ((centers[main] + r) - firsts[main]) + ways[!main] * ways[!main];
-	scene.to.edge(shape, rest, 0, {d.x() / r, d.y() / r}, square / (2 * r), 1 / (2 * r));
-	if (!(radius >= SHOW_ANGLE)) {
-		scene.to.hide(shape + 1);
-		return;
+
+	/* Circle i as that shape, and its radius line as the next. */
+	void write(int32_t i, const Scene<T> &scene, int32_t shape, int32_t rest) const
+	{
+		const PixelBox<T> box{x0[i], y0[i], x1[i], y1[i]};
+		const bool is_seen = scene.to.shape(shape, box, {fill[i], outline[i], width[i], opacity[i]}, rest, 1);
+		if (is_seen)
+			scene.to.edge(shape, rest, 0, {slope_x[i], slope_y[i]}, at[i], bend[i]);
+		if (!is_seen || !(radius[i] >= SHOW_ANGLE)) {
+			scene.to.hide(shape + 1);
+			return;
+		}
+		const Vec<T> along(rim_x[i] / radius[i], rim_y[i] / radius[i]);
+		const Line<T> line{{x[i], y[i]}, along, radius[i] - T(0.5) * scene.line, scene.line, outline[i], (radius[i] - SHOW_ANGLE) * (1 / SHOW_ANGLE)};
+		line.write(scene.to, shape + 1, rest, scene.clip);
 	}
-	const Vec<T> along(to_rim.x() / radius, to_rim.y() / radius);
-	const T opacity = (radius - SHOW_ANGLE) * (1 / SHOW_ANGLE);
-	const Line<T> line{c, along, radius - T(0.5) * scene.line, scene.line, ink.outline, opacity};
-	line.write(scene.to, shape + 1, rest, scene.clip);
-}
+};
 
 /* (Single numbers: where compilers copy vectors as words that were written by halves, processors wait.) */
 template <typename T> struct Extent {
@@ -110,18 +137,43 @@ template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t ve
 	}
 }
 
-template <typename T> static void draw_body(const Scene<T> &scene, int32_t k, int32_t shape, int32_t rest)
+/* What the host knows of a body. */
+template <typename T> struct Drawn {
+	int32_t vertex, count, shape, rest;
+	Ink<T> ink;
+
+	Drawn(const Scene<T> &scene, int32_t k)
+		: vertex(part(scene, k, PARTS_VERTEX)), count(part(scene, k, PARTS_COUNT)), shape(part(scene, k, PARTS_SHAPE)),
+		  rest(part(scene, k, PARTS_EDGE)), ink{scene.draws.of(DRAWS_WIDTH * k + DRAW_INK, INK_FILL),
+												scene.draws.of(DRAWS_WIDTH * k + DRAW_INK, INK_OUTLINE), scene.line, 1}
+	{
+	}
+
+private:
+	static int32_t part(const Scene<T> &scene, int32_t k, int32_t channel)
+	{
+		return static_cast<int32_t>(scene.draws.of(DRAWS_WIDTH * k + DRAW_PARTS, channel));
+	}
+};
+
+/* Bodies from k on, as many as Circles has room for or fewer. */
+template <typename T> static void draw_bodies(const Scene<T> &scene, int32_t k, int32_t count, int32_t shape, int32_t rest)
 {
-	const int32_t parts = DRAWS_WIDTH * k + DRAW_PARTS, with = DRAWS_WIDTH * k + DRAW_INK;
-	const int32_t vertex = static_cast<int32_t>(scene.draws.of(parts, PARTS_VERTEX));
-	const int32_t count = static_cast<int32_t>(scene.draws.of(parts, PARTS_COUNT));
-	const Ink<T> ink{scene.draws.of(with, INK_FILL), scene.draws.of(with, INK_OUTLINE), scene.line, 1};
-	shape += static_cast<int32_t>(scene.draws.of(parts, PARTS_SHAPE));
-	rest += static_cast<int32_t>(scene.draws.of(parts, PARTS_EDGE));
-	if (count == 1)
-		draw_circle(scene, vertex, shape, rest, ink);
-	else
-		draw_polygon(scene, vertex, count, shape, rest, ink);
+	Circles<T> circles;
+	for (int32_t i = 0; i < Circles<T>::many; i++) {
+		const Drawn<T> body(scene, k + std::min(i, count - 1));
+		const Vec<T> c = scene.center(body.vertex), to_rim = scene.offset(body.vertex);
+		circles.x[i] = c.x(), circles.y[i] = c.y(), circles.rim_x[i] = to_rim.x(), circles.rim_y[i] = to_rim.y();
+		circles.middle[i] = body.ink.fill, circles.outline[i] = body.ink.outline;
+	}
+	circles.find(scene.clip, scene.line);
+	for (int32_t i = 0; i < count; i++) {
+		const Drawn<T> body(scene, k + i);
+		if (body.count == 1)
+			circles.write(i, scene, shape + body.shape, rest + body.rest);
+		else
+			draw_polygon(scene, body.vertex, body.count, shape + body.shape, rest + body.rest, body.ink);
+	}
 }
 
 template <typename T> static void convex(const Job<T> &job)
@@ -132,12 +184,10 @@ template <typename T> static void convex(const Job<T> &job)
 	const int32_t shape = static_cast<int32_t>(view.fact(VIEW_FIRST, FIRST_SHAPE));
 	const int32_t rest = static_cast<int32_t>(view.fact(VIEW_FIRST, FIRST_EDGE));
 	job.pool.run(job.domain[0], 512, [&](int32_t begin, int32_t end) {
-		for (int32_t i = begin; i < end; i++) {
-			if (i < marks)
-				draw_mark(scene, i, shape + i, rest + LINE_REST * i);
-			else
-				draw_body(scene, i - marks, shape + marks, rest + LINE_REST * marks);
-		}
+		for (int32_t i = begin; i < std::min(end, marks); i++)
+			draw_mark(scene, i, shape + i, rest + LINE_REST * i);
+		for (int32_t i = std::max(begin, marks); i < end; i += Circles<T>::many)
+			draw_bodies(scene, i - marks, std::min(end - i, Circles<T>::many), shape + marks, rest + LINE_REST * marks);
 	});
 }
 
