@@ -160,14 +160,14 @@ private:
 			offer(id, -1 - wall, at_wall, 0);
 		}
 		clusters.wake_at(s, is_clear ? 1 + clusters.ahead : 1);
-		Sieve<T> sieve;
+		Sieve<T> sieve(clusters.ahead);
 		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach); };
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
 			const int32_t other_id = own_number(other);
 			if (other_id >= 0)
-				sieve.add(s, other, approach(disc, disc_of(other, work[other_id]), clusters.ahead));
+				sieve.add(s, other, between(disc, disc_of(other, work[other_id]), clusters.ahead));
 			else
-				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], clusters.length).later(disc.time), clusters.ahead));
+				sieve.add(s, other, Between<T>(disc, Disc<T>(slots[other], clusters.length).later(disc.time), clusters.ahead));
 			if (sieve.is_full())
 				sieve.sift(meet);
 		});

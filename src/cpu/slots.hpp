@@ -116,6 +116,22 @@ template <typename T> struct Disc {
 	}
 };
 
+/* One disc seen from another of the same time. */
+template <typename T> struct Between {
+	T way[4], push[4]; /* as those of discs */
+	T radii, size, rest; /* what rounding depends on, but for the way; of the step */
+
+	/* Also for so many steps after this one. */
+	[[gnu::always_inline]] Between(const Disc<T> &own, const Disc<T> &other, T ahead)
+		: radii(own.radius + other.radius),
+		  size((2 * (std::abs(own.x()) + std::abs(own.y())) + ahead * (std::abs(own.vx()) + std::abs(own.vy()))) + radii), rest(1 - own.time)
+	{
+		const Lanes<T> moves = other.way - own.way, pushes = other.push - own.push;
+		std::memcpy(way, &moves, sizeof way);
+		std::memcpy(push, &pushes, sizeof push);
+	}
+};
+
 /* How one disc moves seen from another, for the rest of the step. Looked at far more often than anything else, so nothing of it has branches,
  * and compilers make vectors of many. */
 template <typename T> struct Approach {
@@ -123,12 +139,11 @@ template <typename T> struct Approach {
 	T size; /* what rounding depends on, but for what is above */
 	T most; /* at this distance they touch, whatever pushes them, but for rounding */
 
-	/* Both discs are of the same time: for the rest of the step and so many steps more, each of whose ends is rounded. */
-	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, T ahead)
-		: Approach(own, other, other.way - own.way, other.push - own.push, ahead)
-	{
-	}
-	[[gnu::always_inline]] Approach(T dx, T dy, T ux, T uy, T time, T all, T reach) : x(dx), y(dy), vx(ux), vy(uy), rest(time), size(all), most(reach)
+	/* For the rest of the step and so many steps more, each of whose ends is rounded. */
+	[[gnu::always_inline]] Approach(const Between<T> &two, T ahead) : Approach(two.way, two.push, two.radii, two.size, two.rest, ahead) {}
+	[[gnu::always_inline]] Approach(const T *way, const T *push, T radii, T all, T time, T ahead)
+		: x(way[0]), y(way[1]), vx(way[2]), vy(way[3]), rest(time + ahead), size((1 + ahead) * (all + ahead * (std::abs(vx) + std::abs(vy)))),
+		  most(radii + (1 + ahead) * (1 + ahead) * (std::abs(push[0]) + std::abs(push[1])))
 	{
 	}
 
@@ -153,22 +168,12 @@ template <typename T> struct Approach {
 		const T distance = std::sqrt(square), side = x * vy - y * vx, under = reach * reach * (vx * vx + vy * vy) - side * side;
 		return (distance - reach) * (distance + reach) / (std::sqrt(std::max(under, T(0))) + nearer) * T(0.9999);
 	}
-
-private:
-	[[gnu::always_inline]] Approach(const Disc<T> &own, const Disc<T> &other, const Lanes<T> &between, const Lanes<T> &shove, T ahead)
-		: x(between[0]), y(between[1]), vx(between[2]), vy(between[3]), rest(1 - own.time + ahead),
-		  size((1 + ahead)
-			  * (2 * (std::abs(own.x()) + std::abs(own.y())) + own.radius + other.radius
-				  + ahead * (std::abs(own.vx()) + std::abs(own.vy()) + std::abs(vx) + std::abs(vy)))),
-		  most(own.radius + other.radius + (1 + ahead) * (1 + ahead) * (std::abs(shove[0]) + std::abs(shove[1])))
-	{
-	}
 };
 
 /* From the later of their times on. */
-template <typename T> [[gnu::always_inline]] inline Approach<T> approach(const Disc<T> &own, const Disc<T> &other, T ahead)
+template <typename T> [[gnu::always_inline]] inline Between<T> between(const Disc<T> &own, const Disc<T> &other, T ahead)
 {
-	return other.time > own.time ? Approach<T>(own.later(other.time), other, ahead) : Approach<T>(own, other.later(own.time), ahead);
+	return other.time > own.time ? Between<T>(own.later(other.time), other, ahead) : Between<T>(own, other.later(own.time), ahead);
 }
 
 /* What two bodies that are not changed any more do first, from the approach's beginning: they do not hit before `earliest` steps, nor in this one unless
@@ -181,7 +186,7 @@ template <typename T> struct Outlook {
 	{
 		const bool alike = slot.falls_like(other);
 		earliest = std::max(disc.time, other_disc.time) + approach.earliest(alike && slot.is_circle() && other.is_circle());
-		may_touch = !(earliest > 1) && (alike || carom::cpu::approach(disc, other_disc, T(0)).may_touch());
+		may_touch = !(earliest > 1) && (alike || Approach<T>(between(disc, other_disc, T(0)), T(0)).may_touch());
 	}
 };
 

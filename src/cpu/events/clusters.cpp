@@ -6,7 +6,7 @@ namespace carom::cpu {
 template <typename T> class Seek
 {
 public:
-	explicit Seek(const Job<T> &job) : clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]) {}
+	explicit Seek(const Job<T> &job) : clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), sieve(clusters.ahead) {}
 
 	void run(int32_t begin, int32_t end)
 	{
@@ -26,7 +26,7 @@ public:
 				const int32_t other_changed = age > 0 ? clusters.wakes[other].changed : 0;
 				if (is_first ? changed < other_changed : changed <= other_changed)
 					return;
-				sieve.add(s, other, Approach<T>(disc, Disc<T>(slots[other], length), ahead));
+				sieve.add(s, other, Between<T>(disc, Disc<T>(slots[other], length), ahead));
 				if (sieve.is_full())
 					sieve.sift(meet);
 			});
@@ -136,7 +136,7 @@ template <typename T> static bool ways_meet(const Clusters<T> &clusters, const W
 	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1)
 		return true;
 	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
-	return approach(disc, other_disc, T(0)).may_touch() && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
+	return Approach<T>(between(disc, other_disc, T(0)), T(0)).may_touch() && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
 }
 
 template <typename T> static void check_one(const Clusters<T> &clusters, const Work<T> *work, int32_t id, int32_t round)
