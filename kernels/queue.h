@@ -24,9 +24,10 @@ float4 event_of(RECORD_IN(slots), int s, int partner, float time, bool pause)
 }
 
 /* The first event of a member, by what is known now. For later steps the pair is the member's, or if both were changed the one's for which it is: so
- * both keep when to look again. */
+ * both keep when to look again. With the partner in its last event, -1 for none, the next one is found once for both: *found_with is (its time, 1 for a
+ * pause), and (0, -1) before. */
 void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
-	float length)
+	float length, int partner, float2 *found_with)
 {
 	int s = active[id], wall, seen = 0, end = spans[SPAN(s, SPAN_END)];
 	trajectory k = work_load(work, id);
@@ -51,7 +52,11 @@ void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(
 		float until = smaller(CHANNEL(first, NEXT_TIME), 1.0f);
 		if (meeting > until || stay_apart(disc_k, disc_o))
 			continue;
-		t = pair_time(VERTICES, slots, rules, s, k, other, o, length, until, &pause);
+		bool is_partner = other_id >= 0 && other_id == partner, is_known = is_partner && found_with->y >= 0.0f;
+		pause = is_known && found_with->y > 0.0f;
+		t = is_known ? found_with->x : pair_time(VERTICES, slots, rules, s, k, other, o, length, is_partner ? 1.0f : until, &pause);
+		if (is_partner)
+			*found_with = (float2)(t, pause ? 1.0f : 0.0f);
 		if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
 			continue;
 		float4 next = event_of(slots, s, other, t, pause);
@@ -78,8 +83,9 @@ void recall(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OU
 	}
 	work[WORK_WIDTH * id + WORK_NEXT] = first;
 	members[MEMBER(id, MEMBER_SEEN)] = 0;
+	float2 none;
 	if (k == FOUND_NO_ROOM)
-		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length, -1, &none);
 }
 
 /* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
@@ -142,6 +148,7 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 	int head = int_load(members, MEMBER(leader, MEMBER_HEAD));
 	int first = -1;
 	bool finished = false;
+	float2 found_with;
 	if (head < 0)
 		return; /* another cluster got into the way just now */
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
@@ -172,7 +179,7 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 				break;
 			}
 			if (members[MEMBER(other_id, MEMBER_EVENTS)] != members[MEMBER(id, MEMBER_SEEN)]) {
-				look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+				look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length, -1, &found_with);
 				first = heap_update(members, work, first, id);
 				continue;
 			}
@@ -181,10 +188,11 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 			atomic_or(&status[STATUS_LEFT], 1);
 			break;
 		}
-		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length);
+		found_with = (float2)(0.0f, -1.0f);
+		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length, other_id, &found_with);
 		first = heap_update(members, work, first, id);
 		if (other_id >= 0) {
-			look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, other_id, leader, length);
+			look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, other_id, leader, length, id, &found_with);
 			first = heap_update(members, work, first, other_id);
 		}
 	}

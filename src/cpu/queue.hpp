@@ -6,6 +6,8 @@
 #include "cpu/heap.hpp"
 #include "cpu/sieve.hpp"
 
+#include <optional>
+
 namespace carom::cpu {
 
 /* One cluster, by its leader's number. */
@@ -32,6 +34,8 @@ public:
 	}
 
 private:
+	using Found = typename Bodies<T>::Found;
+
 	/* Answers the first event; false when there is none left, or the cluster has to be given up. */
 	bool answer_first()
 	{
@@ -55,15 +59,16 @@ private:
 			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
 			return false;
 		}
-		look_again(id);
+		with_partner.reset();
+		look_again(id, other_id);
 		if (other_id >= 0)
-			look_again(other_id);
+			look_again(other_id, id);
 		return true;
 	}
 
-	void look_again(int32_t id)
+	void look_again(int32_t id, int32_t partner = -1)
 	{
-		look(id);
+		look(id, partner);
 		heap.update(id);
 	}
 
@@ -146,8 +151,8 @@ private:
 		members[id].seen = 0;
 	}
 
-	/* Finds the member's first event. */
-	void look(int32_t id)
+	/* Finds the member's first event. What it does with its partner in the last one, if it had one, is found once for both. */
+	void look(int32_t id, int32_t partner = -1)
 	{
 		const int32_t s = clusters.active[id];
 		const Trajectory<T> way = work[id].trajectory(slots[s]);
@@ -161,7 +166,7 @@ private:
 		}
 		clusters.wake_at(s, is_clear ? 1 + clusters.ahead : 1);
 		Sieve<T> sieve(clusters.ahead);
-		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach); };
+		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach, partner); };
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
 			const int32_t other_id = own_number(other);
 			if (other_id >= 0)
@@ -178,7 +183,7 @@ private:
 
 	/* The member's next event may be the one with this body. Else one of both is to look whether they hit later: the one that was changed last does, or the
 	 * one for which the pair is, if that is changed in this step, too. */
-	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach)
+	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach, int32_t partner)
 	{
 		const int32_t s = clusters.active[id], other_id = own_number(other), seen = other_id >= 0 ? members[other_id].events : 0;
 		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
@@ -188,12 +193,18 @@ private:
 		if (seen > 0)
 			clusters.wake_before(other, outlook.earliest);
 		const T first = work[id].next[NEXT_TIME];
-		if (outlook.may_touch && !(outlook.earliest > first))
-			offer(id, other, clusters.pair_time(s, way, other, other_way, smaller(first, T(1))), seen);
+		const bool is_partner = other_id >= 0 && other_id == partner;
+		if (!outlook.may_touch || outlook.earliest > first)
+			return;
+		const Found hit = is_partner && with_partner ? *with_partner
+													 : clusters.pair_time(s, way, other, other_way, is_partner ? T(1) : smaller(first, T(1)));
+		if (is_partner)
+			with_partner = hit;
+		offer(id, other, hit, seen);
 	}
 
 	/* A hit with another slot, or with wall -1 - partner, which has had so many events. */
-	void offer(int32_t id, int32_t partner, const typename Bodies<T>::Found &hit, int32_t seen)
+	void offer(int32_t id, int32_t partner, const Found &hit, int32_t seen)
 	{
 		const int32_t index = slots[clusters.active[id]].body(), other = partner < 0 ? partner : slots[partner].body();
 		const T pause = hit.is_pause ? T(partner < 0 ? -0.5 : 0.5) : T(0);
@@ -358,6 +369,7 @@ private:
 	Heap<T> heap;
 	const int32_t leader, round, head;
 	bool finished = false;
+	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };
 
 }
