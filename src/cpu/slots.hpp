@@ -118,10 +118,12 @@ template <typename T> struct Disc {
 
 /* One disc seen from another of the same time. */
 template <typename T> struct Between {
-	T way[4], push[4]; /* as those of discs */
-	T radii, size, rest; /* what rounding depends on, but for the way; of the step */
+	T way[4], push[4]; /* like a disc's */
+	T radii;
+	T size; /* what rounding depends on, but for the way */
+	T rest; /* of the step */
 
-	/* Also for so many steps after this one. */
+	/* To be used for so many steps after this one. */
 	[[gnu::always_inline]] Between(const Disc<T> &own, const Disc<T> &other, T ahead)
 		: radii(own.radius + other.radius),
 		  size((2 * (std::abs(own.x()) + std::abs(own.y())) + ahead * (std::abs(own.vx()) + std::abs(own.vy()))) + radii), rest(1 - own.time)

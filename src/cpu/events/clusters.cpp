@@ -136,7 +136,8 @@ template <typename T> static bool ways_meet(const Clusters<T> &clusters, const W
 	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1)
 		return true;
 	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
-	return Approach<T>(between(disc, other_disc, T(0)), T(0)).may_touch() && clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
+	return Approach<T>(between(disc, other_disc, T(0)), T(0)).may_touch()
+		&& clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
 }
 
 template <typename T> static void check_one(const Clusters<T> &clusters, const Work<T> *work, int32_t id, int32_t round)
