@@ -124,7 +124,7 @@ help:
 	@echo 'make check           build and run the tests and the checks of the source'
 	@echo 'make static          ask Clang, clang-format, clang-tidy, cppcheck and doxygen what they find in the source'
 	@echo 'make doc             render include/carom.h, the manual of the library, into build/doc/html/'
-	@echo 'make check-threads   build and run the test of threads with the thread sanitizer'
+	@echo 'make check-threads   build and run what has threads with the thread sanitizer'
 	@echo 'make conformance     run the tests on every OpenCL implementation that is installed, and from several compilers'
 	@echo 'make fuzz            feed made-up scenes and calls to the library, with clang and libFuzzer, FUZZ_SECONDS=600 each'
 	@echo 'make bench           measure the tables of the paper, scale and tunnel, and write them into build/bench/'
@@ -281,12 +281,14 @@ doc:
 	@CAROM_VERSION='$(VERSION)' CAROM_BUILD='$(BUILD)' doxygen tools/Doxyfile
 	@echo '$(BUILD)/doc/html/index.html'
 
-# Races that hide from a run show here. All else is one thread's alone.
+# Races that hide from a run show here, of the library and of the command, where other threads write the frames.
 check-threads:
 	@$(MAKE) SANITIZE=thread run-threads
 
-run-threads: $(BUILD)/tests/test_threads
+run-threads: $(BUILD)/tests/test_threads $(BUILD)/carom
 	$<
+	$(BUILD)/carom run scenes/mixed.json --device cpu --time 0.5 --frames $(BUILD)/film --fps 100 --size 320x180
+	@rm -r $(BUILD)/film
 
 # On every OpenCL implementation that is installed, and from several compilers; ROWS are those of tools/conformance, all by default.
 conformance: all $(TEST_PROGRAMS)

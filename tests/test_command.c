@@ -196,6 +196,10 @@ static void frames_are_at_equal_times(void **state)
 	assert_string_equal(call.out, "frame_000000.png\nframe_000001.png\nframe_000002.png\nframe_000003.png\nframe_000004.png\nframe_000005.png\n");
 	check("$C run scenes/billiard_break.json --time 0.05 --frames $D/frames --fps 50 --size 64x32 --device cpu", 0,
 		"frame_000003.png and what follows it were there before");
+	check("rm -r $D/frames; mkdir -p $D/frames/frame_000003.png", 0, "");
+	check("$C run scenes/mixed.json --time 0.2 --frames $D/frames --fps 50 --size 640x360 --device cpu", 1,
+		"frame_000003.png: can't be written: Is a directory");
+	assert_non_null(strstr(call.err, "wrote 3 frames"));
 	check("rm -r $D/frames", 0, "");
 }
 

@@ -21,12 +21,6 @@ static carom_status try_path(const char *path, carom_error *error)
 	return status;
 }
 
-static carom_status frame_path(const struct run *run, char *path, size_t size, carom_error *error)
-{
-	int length = snprintf(path, size, "%s/frame_%06llu.png", run->options->frames, (unsigned long long)run->frames_done);
-	return length < (int)size ? CAROM_OK : wrong(error, "--frames: the path is too long");
-}
-
 static carom_status make_folder(const char *path, carom_error *error)
 {
 	struct stat there;
@@ -37,16 +31,18 @@ static carom_status make_folder(const char *path, carom_error *error)
 	return CAROM_IO;
 }
 
-static carom_status prepare_frames(const struct run *run, carom_error *error)
+static carom_status prepare_frames(struct run *run, carom_error *error)
 {
 	char path[4096];
 	carom_status status = make_folder(run->options->frames, error);
 	if (status == CAROM_OK)
-		status = frame_path(run, path, sizeof path, error);
+		status = film_create(run->options->frames, run->render.width, run->render.height, &run->film, error);
+	if (status == CAROM_OK)
+		status = film_path(run->film, 0, path, sizeof path, error);
 	return status == CAROM_OK ? try_path(path, error) : status;
 }
 
-static carom_status prepare_pictures(struct run *run, carom_error *error)
+static void prepare_render(struct run *run)
 {
 	const struct run_options *options = run->options;
 	run->render = carom_default_render_def();
@@ -56,6 +52,10 @@ static carom_status prepare_pictures(struct run *run, carom_error *error)
 	run->render.camera = run->camera;
 	run->render.has_inset = options->has_inset;
 	run->render.inset = options->inset;
+}
+
+static carom_status prepare_picture(struct run *run, carom_error *error)
+{
 	run->pixels = malloc((size_t)run->render.width * run->render.height * 4);
 	if (run->pixels)
 		return CAROM_OK;
@@ -70,10 +70,11 @@ carom_status prepare_outputs(struct run *run, carom_error *error)
 	carom_status status = try_path(options->out, error);
 	if (status == CAROM_OK)
 		status = try_path(options->png, error);
+	prepare_render(run);
 	if (status == CAROM_OK && options->frames)
 		status = prepare_frames(run, error);
-	if (status == CAROM_OK && (options->png || options->frames))
-		status = prepare_pictures(run, error);
+	if (status == CAROM_OK && options->png)
+		status = prepare_picture(run, error);
 	if (status == CAROM_OK && options->stats)
 		status = carom_file_create(options->stats, &run->stats_file, &run->stats, error);
 	if (run->stats)
@@ -97,10 +98,7 @@ double next_frame(const struct run *run)
 
 carom_status write_frame(struct run *run, carom_error *error)
 {
-	char path[4096];
-	carom_status status = frame_path(run, path, sizeof path, error);
-	if (status == CAROM_OK)
-		status = write_picture(run, path, error);
+	carom_status status = film_add(run->film, run->world, &run->render, error);
 	if (status == CAROM_OK)
 		run->frames_done++;
 	return status;
@@ -140,7 +138,7 @@ static void tell_frames(const struct run *run)
 	char next[4096];
 	carom_error error;
 	say(&options->common, "wrote %llu frames into %s", (unsigned long long)run->frames_done, options->frames);
-	if (frame_path(run, next, sizeof next, &error) == CAROM_OK && access(next, F_OK) == 0)
+	if (film_path(run->film, run->frames_done, next, sizeof next, &error) == CAROM_OK && access(next, F_OK) == 0)
 		say(&options->common, "%s and what follows it were there before: remove them, or they become part of the film", next);
 }
 
@@ -167,5 +165,6 @@ int write_outputs(struct run *run)
 void destroy_outputs(struct run *run)
 {
 	carom_file_destroy(run->stats_file);
+	film_destroy(run->film);
 	free(run->pixels);
 }

@@ -32,10 +32,11 @@ struct run {
 	carom_camera camera;
 	carom_world *world;
 	carom_render_def render;
-	uint8_t *pixels;        /* NULL if no picture is asked for */
+	struct film *film;      /* NULL if no frames are asked for */
+	uint8_t *pixels;        /* NULL if no picture of the end is asked for */
 	carom_file *stats_file; /* NULL if no table is asked for */
 	FILE *stats;
-	uint64_t frames_done;
+	uint64_t frames_done; /* drawn, and when the simulation has ended, written */
 	carom_report total;
 	bool interrupted;
 	double seconds; /* of wall time spent in steps and what belongs to them */
@@ -59,6 +60,18 @@ carom_status write_row(struct run *run, const carom_report *step, carom_error *e
 /* The last state, the picture, the table. Tries each even if one fails; the exit code. */
 int write_outputs(struct run *run);
 void destroy_outputs(struct run *run);
+
+/* ---- carom_film.c */
+
+/* `folder` stays the caller's. */
+carom_status film_create(const char *folder, uint32_t width, uint32_t height, struct film **film, carom_error *error);
+/* Where a frame goes. */
+carom_status film_path(const struct film *film, uint64_t number, char *path, size_t size, carom_error *error);
+/* Draws the next frame, which is then written while the caller goes on; fails as the first one did that could not be written. */
+carom_status film_add(struct film *film, carom_world *world, const carom_render_def *render, carom_error *error);
+/* Waits until all are written; *length: so many are, from the first on. Fails as film_add. */
+carom_status film_finish(struct film *film, uint64_t *length, carom_error *error);
+void film_destroy(struct film *film);
 
 /* ---- carom_progress.c */
 

@@ -107,6 +107,19 @@ static carom_status run_steps(struct run *run, uint64_t steps, carom_error *erro
 	}
 }
 
+/* The frames that are drawn are written, however the simulation ended. */
+static carom_status finish_frames(struct run *run, carom_status status, carom_error *error)
+{
+	carom_error of_film;
+	if (!run->film)
+		return status;
+	carom_status finished = film_finish(run->film, &run->frames_done, &of_film);
+	if (status != CAROM_OK || finished == CAROM_OK)
+		return status;
+	*error = of_film;
+	return finished;
+}
+
 carom_status simulate(struct run *run, carom_error *error)
 {
 	double begun = wall_seconds();
@@ -115,6 +128,7 @@ carom_status simulate(struct run *run, carom_error *error)
 	carom_world_set_progress(run->world, go_on, run);
 	begin_progress(&run->progress, run->options->common.quiet);
 	status = run->options->steps != NO_STEPS ? run_steps(run, run->options->steps, error) : run_time(run, run->options->time, error);
+	status = finish_frames(run, status, error);
 	end_progress(&run->progress);
 	carom_world_set_progress(run->world, NULL, NULL);
 	run->seconds = wall_seconds() - begun;

@@ -17,8 +17,9 @@ public:
 			if (age > 0 && clusters.wakes[s].next > age)
 				continue;
 			const Disc<T> disc(slots[s], length);
-			const int32_t changed = age > 0 ? clusters.wakes[s].changed : 0;
-			clusters.wakes[s].changed = changed;
+			if (age == 0)
+				clusters.wakes[s].changed = 0; /* which nobody reads in this step */
+			const int32_t changed = clusters.wakes[s].changed;
 			clusters.wake_at(s, clusters.ahead + 1);
 			if (!clusters.stays_inside(s, Trajectory<T>(clusters.slots[s]), clusters.ahead + 1))
 				walls(s);
