@@ -41,7 +41,8 @@ template <typename T> struct Pixels {
 	[[gnu::always_inline]] Pixels(T low, T high, T margin, T least, T most)
 		: begin(larger(floor_pixel(low - margin), least)), end(smaller(-floor_pixel(-(high + margin)), most))
 	{
-		end = (std::abs(low) < SEEN) & (std::abs(high) < SEEN) ? end : begin;
+		const bool is_near = (std::abs(low) < SEEN) & (std::abs(high) < SEEN);
+		end = is_near ? end : begin;
 	}
 
 	bool any() const { return begin < end; }
@@ -57,7 +58,8 @@ template <typename T> PixelBox<T> touched(const Vec<T> &low, const Vec<T> &high,
 /* Of a shape of that mean breadth and length: its fill, which is the outline's where that hides it; how broad its outline is; and how opaque it is. */
 template <typename T> T fill_of(T fill, T outline, T breadth, T length)
 {
-	return (breadth < 1) & (T(LEAST_OPACITY) * length >= T(LINE_OPACITY)) ? outline : fill;
+	const bool is_line = (breadth < 1) & (T(LEAST_OPACITY) * length >= T(LINE_OPACITY)); /* two outlines and nothing between them */
+	return is_line ? outline : fill;
 }
 
 template <typename T> T outline_of(T line, T breadth)
