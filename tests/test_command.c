@@ -190,10 +190,12 @@ static void outputs_are_written_on_opencl(void **state)
 static void frames_are_at_equal_times(void **state)
 {
 	(void)state;
-	check("$C run scenes/billiard_break.json --time 0.1 --frames $D/frames --fps 50 --size 64x32 --device cpu", 0, "wrote 6 frames");
+	check("$C run scenes/billiard_break.json --time 0.1 --frames $D/frames --fps 50 --size 64x32 --png $D/last.png --device cpu", 0,
+		"wrote 6 frames");
 	assert_null(strstr(call.err, "before"));
 	check("ls $D/frames", 0, "");
 	assert_string_equal(call.out, "frame_000000.png\nframe_000001.png\nframe_000002.png\nframe_000003.png\nframe_000004.png\nframe_000005.png\n");
+	check("cmp $D/last.png $D/frames/frame_000005.png && ! cmp -s $D/last.png $D/frames/frame_000004.png && rm $D/last.png", 0, "");
 	check("$C run scenes/billiard_break.json --time 0.05 --frames $D/frames --fps 50 --size 64x32 --device cpu", 0,
 		"frame_000003.png and what follows it were there before");
 	check("rm -r $D/frames; mkdir -p $D/frames/frame_000003.png", 0, "");
