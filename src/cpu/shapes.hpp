@@ -41,8 +41,8 @@ template <typename T> struct Pixels {
 	[[gnu::always_inline]] Pixels(T low, T high, T margin, T least, T most)
 		: begin(larger(floor_pixel(low - margin), least)), end(smaller(-floor_pixel(-(high + margin)), most))
 	{
-		const bool is_near = (std::abs(low) < SEEN) & (std::abs(high) < SEEN);
-		end = is_near ? end : begin;
+		const bool low_is_near = std::abs(low) < SEEN, high_is_near = std::abs(high) < SEEN, are_near = low_is_near & high_is_near;
+		end = are_near ? end : begin;
 	}
 
 	bool any() const { return begin < end; }

@@ -59,7 +59,7 @@ template <typename T> struct Circles {
 			radius[i] = std::sqrt(rim_x[i] * rim_x[i] + rim_y[i] * rim_y[i]);
 			const T breadth = ((T(DISC_AREA) * radius[i]) * radius[i]) / larger(2 * radius[i], T(1)), r = radius[i] + growth(breadth);
 			const Pixels<T> columns(x[i] - r, x[i] + r, T(0), clip.x0, clip.x1), rows(y[i] - r, y[i] + r, T(0), clip.y0, clip.y1);
-			const bool any = columns.any() & rows.any();
+			const bool any_column = columns.any(), any_row = rows.any(), any = any_column & any_row;
 			x0[i] = any ? columns.begin : 0, x1[i] = any ? columns.end : 0;
 			y0[i] = any ? rows.begin : 0, y1[i] = any ? rows.end : 0;
 			fill[i] = fill_of(middle[i], outline[i], breadth, 2 * radius[i]);
