@@ -21,7 +21,7 @@ struct picture {
 
 struct film {
 	const char *folder;
-	uint32_t width, height;
+	const carom_render_def *render;
 	pthread_t writers[MOST_WRITERS];
 	struct picture pictures[MOST_WRITERS + 1];
 	int writer_count, picture_count;
@@ -48,7 +48,7 @@ static void write_picture(struct film *film, const struct picture *picture)
 	carom_error error;
 	carom_status status = film_path(film, picture->number, path, sizeof path, &error);
 	if (status == CAROM_OK)
-		status = carom_png_write(path, picture->pixels, film->width, film->height, &error);
+		status = carom_png_write(path, picture->pixels, film->render->width, film->render->height, &error);
 	pthread_mutex_lock(&film->mutex);
 	if (status != CAROM_OK && picture->number < film->failed) {
 		film->failed = picture->number;
@@ -96,8 +96,9 @@ static void *writer(void *context)
 
 /* ---- The film ---- */
 
-static void begin_writers(struct film *film, size_t size)
+static void begin_writers(struct film *film)
 {
+	const size_t size = (size_t)film->render->width * film->render->height * 4;
 	const long cores = sysconf(_SC_NPROCESSORS_ONLN), room = (long)(MOST_MEMORY / size) - 1;
 	const long most = cores < room ? cores : room;
 	pthread_mutex_lock(&film->mutex);
@@ -113,20 +114,21 @@ static void begin_writers(struct film *film, size_t size)
 	pthread_mutex_unlock(&film->mutex);
 }
 
-carom_status film_create(const char *folder, uint32_t width, uint32_t height, struct film **film, carom_error *error)
+carom_status film_create(const char *folder, const carom_render_def *render, struct film **film, carom_error *error)
 {
-	const size_t size = (size_t)width * height * 4;
+	uint8_t *pixels;
+	carom_status status = allocate_pixels(render, &pixels, error);
+	if (status != CAROM_OK)
+		return status;
 	struct film *made = calloc(1, sizeof *made);
-	uint8_t *pixels = made ? malloc(size) : NULL;
-	if (!pixels) {
-		free(made);
-		wrong(error, "there is not enough memory for a picture of %u x %u pixels", width, height);
+	if (!made) {
+		free(pixels);
+		wrong(error, "there is not enough memory for a film");
 		error->status = CAROM_OUT_OF_MEMORY;
 		return error->status;
 	}
 	made->folder = folder;
-	made->width = width;
-	made->height = height;
+	made->render = render;
 	made->pictures[made->picture_count++].pixels = pixels;
 	made->failed = NO_FRAME;
 	pthread_mutex_init(&made->mutex, NULL);
@@ -160,16 +162,16 @@ static struct picture *free_picture(struct film *film)
 	return picture;
 }
 
-carom_status film_add(struct film *film, carom_world *world, const carom_render_def *render, carom_error *error)
+carom_status film_add(struct film *film, carom_world *world, carom_error *error)
 {
 	if (film->handed_over == 1) /* there are to be several */
-		begin_writers(film, (size_t)film->width * film->height * 4);
+		begin_writers(film);
 	pthread_mutex_lock(&film->mutex);
 	struct picture *picture = free_picture(film);
 	carom_status status = failure(film, error);
 	pthread_mutex_unlock(&film->mutex);
 	if (status == CAROM_OK)
-		status = carom_world_render(world, render, picture->pixels, error);
+		status = carom_world_render(world, film->render, picture->pixels, error);
 	if (status != CAROM_OK)
 		return status;
 	picture->number = film->handed_over++;

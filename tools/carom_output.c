@@ -11,6 +11,16 @@
 
 /* ---- Before the run ---- */
 
+carom_status allocate_pixels(const carom_render_def *render, uint8_t **pixels, carom_error *error)
+{
+	*pixels = malloc((size_t)render->width * render->height * 4);
+	if (*pixels)
+		return CAROM_OK;
+	wrong(error, "there is not enough memory for a picture of %u x %u pixels", render->width, render->height);
+	error->status = CAROM_OUT_OF_MEMORY;
+	return error->status;
+}
+
 /* Begins the file and gives it up: what could go wrong at the end goes wrong now. */
 static carom_status try_path(const char *path, carom_error *error)
 {
@@ -36,7 +46,7 @@ static carom_status prepare_frames(struct run *run, carom_error *error)
 	char path[4096];
 	carom_status status = make_folder(run->options->frames, error);
 	if (status == CAROM_OK)
-		status = film_create(run->options->frames, run->render.width, run->render.height, &run->film, error);
+		status = film_create(run->options->frames, &run->render, &run->film, error);
 	if (status == CAROM_OK)
 		status = film_path(run->film, 0, path, sizeof path, error);
 	return status == CAROM_OK ? try_path(path, error) : status;
@@ -54,16 +64,6 @@ static void prepare_render(struct run *run)
 	run->render.inset = options->inset;
 }
 
-static carom_status prepare_picture(struct run *run, carom_error *error)
-{
-	run->pixels = malloc((size_t)run->render.width * run->render.height * 4);
-	if (run->pixels)
-		return CAROM_OK;
-	wrong(error, "there is not enough memory for a picture of %u x %u pixels", run->render.width, run->render.height);
-	error->status = CAROM_OUT_OF_MEMORY;
-	return error->status;
-}
-
 carom_status prepare_outputs(struct run *run, carom_error *error)
 {
 	const struct run_options *options = run->options;
@@ -74,7 +74,7 @@ carom_status prepare_outputs(struct run *run, carom_error *error)
 	if (status == CAROM_OK && options->frames)
 		status = prepare_frames(run, error);
 	if (status == CAROM_OK && options->png)
-		status = prepare_picture(run, error);
+		status = allocate_pixels(&run->render, &run->pixels, error);
 	if (status == CAROM_OK && options->stats)
 		status = carom_file_create(options->stats, &run->stats_file, &run->stats, error);
 	if (run->stats)
@@ -98,7 +98,7 @@ double next_frame(const struct run *run)
 
 carom_status write_frame(struct run *run, carom_error *error)
 {
-	carom_status status = film_add(run->film, run->world, &run->render, error);
+	carom_status status = film_add(run->film, run->world, error);
 	if (status == CAROM_OK)
 		run->frames_done++;
 	return status;

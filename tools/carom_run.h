@@ -50,6 +50,8 @@ carom_status simulate(struct run *run, carom_error *error);
 
 /* ---- carom_output.c */
 
+/* Memory for a picture, to be given to free. */
+carom_status allocate_pixels(const carom_render_def *render, uint8_t **pixels, carom_error *error);
 /* Fails where an output could not be written in the end, before hours are spent on it, and opens the table. */
 carom_status prepare_outputs(struct run *run, carom_error *error);
 /* Simulated seconds at which the next frame is due; infinite if no frames are asked for. */
@@ -63,12 +65,12 @@ void destroy_outputs(struct run *run);
 
 /* ---- carom_film.c */
 
-/* `folder` stays the caller's. */
-carom_status film_create(const char *folder, uint32_t width, uint32_t height, struct film **film, carom_error *error);
+/* `folder` and `render` stay the caller's. */
+carom_status film_create(const char *folder, const carom_render_def *render, struct film **film, carom_error *error);
 /* Where a frame goes. */
 carom_status film_path(const struct film *film, uint64_t number, char *path, size_t size, carom_error *error);
 /* Draws the next frame, which is then written while the caller goes on; fails as the first one did that could not be written. */
-carom_status film_add(struct film *film, carom_world *world, const carom_render_def *render, carom_error *error);
+carom_status film_add(struct film *film, carom_world *world, carom_error *error);
 /* Waits until all are written; *length: so many are, from the first on. Fails as film_add. */
 carom_status film_finish(struct film *film, uint64_t *length, carom_error *error);
 void film_destroy(struct film *film);
