@@ -233,7 +233,7 @@ $(call object,$(TESTS) $(HELPERS) $(FAULTS)): | $(BUILD)/tests/needs
 $(filter $(BUILD)/tests/test_faults_%,$(TEST_PROGRAMS)): $(call object,$(FAULTS)) tests/faults/wrap
 $(filter $(BUILD)/tests/test_faults_%,$(TEST_PROGRAMS)): private LDFLAGS += @tests/faults/wrap
 # `carom devices`, as it is where devices are made up
-$(BUILD)/tests/test_faults_inexact: $(call object,$(addprefix tools/carom_,devices check check_numbers film options output report))
+$(BUILD)/tests/test_faults_inexact: $(call object,$(addprefix tools/carom_,devices check check_numbers options report))
 
 $(TEST_PROGRAMS): %: %.o $(HELPER_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/helpers.list
 	$(call say,LINK) $(LINK) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CMOCKA_LIBRARIES) $(LIBRARIES)

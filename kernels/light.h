@@ -1,7 +1,9 @@
 /* Colours of a patch, sixteen pixels in two rows: as squares, whole until the picture is written. */
 
 #define PATCH_WIDTH 8
-#define PATCHES (PIXEL_TILE / PATCH_WIDTH) /* side by side in a tile */
+#define PATCH_HEIGHT 2
+#define PATCH_COLUMNS (PIXEL_TILE / PATCH_WIDTH) /* of a tile */
+#define PATCHES (PATCH_COLUMNS * PIXEL_TILE / PATCH_HEIGHT)
 
 typedef struct lights {
 	float16 red, green, blue;
@@ -21,7 +23,7 @@ uint16 bytes_of(lights all)
 /* The first pixel of patch p of a tile. */
 int2 patch_of(int2 first, int p)
 {
-	return first + (int2)(p % PATCHES * PATCH_WIDTH, p / PATCHES * 2);
+	return first + (int2)(p % PATCH_COLUMNS * PATCH_WIDTH, p / PATCH_COLUMNS * PATCH_HEIGHT);
 }
 
 /* Of a patch's pixels number k is this one, if the frame has it. */

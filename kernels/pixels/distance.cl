@@ -45,11 +45,11 @@ bool draw(lights *light, RECORD_IN(its), RECORD_IN(edges), float left, float top
 	int4 part = {(int)larger(-beside, 0.0f), (int)larger(-above, 0.0f), (int)smaller(width - beside, (float)PIXEL_TILE),
 		(int)smaller(CHANNEL(box, BOX_Y1) - top, (float)PIXEL_TILE)};
 	float16 across = beside + (float16)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
-	for (int row = part.y & ~1; row < part.w; row += 2) {
+	for (int row = part.y & -PATCH_HEIGHT; row < part.w; row += PATCH_HEIGHT) {
 		float16 y = (above + (float)row) + (float16)((float8)(0.0f), (float8)(1.0f));
 		int16 in_rows = y >= 0.0f && y < CHANNEL(box, BOX_Y1) - CHANNEL(box, BOX_Y0);
 		for (int column = part.x & -PATCH_WIDTH; column < part.z; column += PATCH_WIDTH) {
-			lights *patch = light + (row / 2 * PATCHES + column / PATCH_WIDTH);
+			lights *patch = light + (row / PATCH_HEIGHT * PATCH_COLUMNS + column / PATCH_WIDTH);
 			float16 x = across + (float)column;
 			int16 in_box = in_rows && x >= 0.0f && x < width;
 			if (count == 0) {
@@ -82,10 +82,10 @@ __kernel void pixels(RECORD_IN(shapes), RECORD_IN(edges), TEX_IN(frame), LIST_IN
 	int pass = (int)CHANNEL(tiles, TILES_PASS), tile = row * ((int)CHANNEL(tiles, TILES_COLUMNS) + 1) + column;
 	if (column >= domain.x)
 		return;
-	lights all[PATCHES * PIXEL_TILE / 2];
+	lights all[PATCHES];
 	float4 ground = squared_color(CHANNEL(tiles, TILES_GROUND));
 	bool plain = !(pass & PASS_OVER);
-	for (int p = 0; p < PATCHES * PIXEL_TILE / 2; p++) {
+	for (int p = 0; p < PATCHES; p++) {
 		lights below = {(float16)(ground.x), (float16)(ground.y), (float16)(ground.z)};
 		all[p] = plain ? below : light_below(light, patch_of(first, p), size);
 	}
@@ -97,7 +97,7 @@ __kernel void pixels(RECORD_IN(shapes), RECORD_IN(edges), TEX_IN(frame), LIST_IN
 		plain = !draw(all, shapes + SHAPES_WIDTH * list[k], edges, CHANNEL(box, BOX_X0) + (float)first.x, CHANNEL(box, BOX_Y0) + (float)first.y);
 	}
 	uint16 words;
-	for (int p = 0; p < PATCHES * PIXEL_TILE / 2; p++) {
+	for (int p = 0; p < PATCHES; p++) {
 		words = p == 0 || !plain ? bytes_of(all[p]) : words;
 		if (pass & PASS_UNDER)
 			keep(all[p], light, patch_of(first, p), size);
