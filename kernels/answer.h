@@ -60,7 +60,7 @@ rules_of_hit event_rules(float restitution, bool rapid)
 	rules_of_hit rules;
 	rules.restitution = restitution;
 	rules.micro = restitution < 1.0f ? MICRO : 0.0f;
-	rules.stillness = 0.5f;
+	rules.part = 0.5f;
 	rules.rapid = rapid;
 	return rules;
 }

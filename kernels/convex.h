@@ -293,7 +293,25 @@ float creep_time(float slop, float stillness)
 	return smaller(CREEP_MOST, larger((slop * APPROACH) / stillness, CREEP_LEAST));
 }
 
-bool contact_approaches(contact c, float stillness)
+/* Has rounding sunk them into each other? What was found so is so, whatever rounding did since: `part` is 1 to find it, less to answer it. */
+bool is_sunk(float gap, float slop, float part)
 {
-	return c.rate[0] < -stillness || (c.count > 1 && c.rate[1] < -stillness);
+	return gap < -(part * slop) && gap > -((2.0f - part) * (SUNK_MOST * slop));
+}
+
+/* A contact at a rate below this one is a hit. */
+float hit_rate(bool sunk, float slop, float stillness, float part)
+{
+	return sunk ? (2.0f - part) * (SUNK_RATE * slop) : -(part * stillness);
+}
+
+/* The least speed at which what is sunk parts: a slop a step, eight units in the last place, where rounding spoils one or two. */
+float mending_speed(bool sunk, float slop, float stillness)
+{
+	return sunk ? larger(slop, 4.0f * stillness) : 0.0f;
+}
+
+bool contact_is_hit(contact c, float most)
+{
+	return c.rate[0] < most || (c.count > 1 && c.rate[1] < most);
 }

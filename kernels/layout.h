@@ -387,7 +387,9 @@
 #define DISC_AREA 3.14159265f
 
 /* Numerical rules */
-#define SLOP 9.5367431640625e-7f         /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
+#define SLOP 9.5367431640625e-7f /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
+#define SUNK_MOST 16.0f          /* slops: what overlaps by more than one and less than so many, rounding has sunk; that is a hit unless it parts */
+#define SUNK_RATE 0.125f         /* slops a step, a unit in the last place, or faster */
 #define APPROACH 9.5367431640625e-7f     /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
 #define SEARCH_LIMIT 64                  /* steps of one search for a hit; what is not found by then pauses */
 #define CREEP_MOST 0.000244140625f       /* 2^-12 and 2^-20 of a step: from a contact that does not approach a search goes on for */

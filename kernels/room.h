@@ -21,6 +21,13 @@ float wall_stillness(body k)
 	return ((span(k.v) + span(k.a)) + (magnitude(k.w) + magnitude(k.b)) * k.radius) * APPROACH;
 }
 
+/* How far the body is from a wall at time t. */
+float wall_gap(VERTICES_IN, body k, float2 n, float offset, float t)
+{
+	int deepest;
+	return (inner(n, place(k.x, k.v, k.a, t)) - offset) + lowest(VERTICES, k, turn_back(body_rotation(k, t), n), &deepest);
+}
+
 /* Where polygon k touches a wall at time t: the outermost of the vertices that are hardly farther in than the deepest. */
 contact wall_contact(VERTICES_IN, body k, float2 n, float t, float slop)
 {

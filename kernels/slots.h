@@ -131,7 +131,7 @@ INLINE bool boxes_apart(disc a, RECORD_IN(slots), int other, float length, float
 
 /* Before which time, counted from the step's beginning, two discs surely have no hit, while nothing changes their ways: in this step and `ahead` steps more.
  * The way of one seen from the other is a line but for what their pushes differ, which the distance allows for. Circles that fall alike have none
- * once they part. */
+ * once they part, and fast enough for what is sunk. */
 INLINE float first_meeting(disc a, disc b, float ahead, bool circles)
 {
 	float t0 = larger(a.time, b.time), da = t0 - a.time, db = t0 - b.time, last = 1.0f + ahead, never = last + 1.0f;
@@ -140,7 +140,7 @@ INLINE float first_meeting(disc a, disc b, float ahead, bool circles)
 	float differ = (last * last) * span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), reach = a.radius + b.radius;
 	float slack = ((span(from) + span(to)) + (reach + last * ((span(v) + span(a.v)) + span(b.v)))) * (8.0f * SLOP);
 	float most = ((reach + differ) + slack) * 1.00001f, square = most * most, distance = inner(d, d), approach = inner(d, v), speed = inner(v, v);
-	if (approach >= 0.0f && (distance > square || (circles && differ == 0.0f && approach > slack * span(v))))
+	if (approach >= 0.0f && (distance > square || (circles && differ == 0.0f && approach > slack * (span(v) + (0.5f * SUNK_RATE) * span(d)))))
 		return never;
 	if (!(distance > square))
 		return t0;

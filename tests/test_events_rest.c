@@ -157,11 +157,48 @@ static void row_collapses(void **unused)
 			runs_near(runs_measure(world).momentum_x / before.momentum_x, 1.0, 1e-5);
 			for (uint32_t k = 1; k < COUNT; k++)
 				assert_true(runs_state(world, k).position.x > runs_state(world, k - 1).position.x + 0.99f);
-			/* Bodies with the same speed don't hit, but each step rounds their places by half a unit, the same way again and again; nothing
-			 * parts what does not approach. So they sink in by a unit a step, 2^-23 of the place (70 m at most), beside the slop. */
-			runs_near(runs_measure(world).max_penetration, 0.0, 70.0 * (2.0 * (double)SLOP + (double)runs_affordable(120) * 0x1p-23));
+			runs_near(runs_measure(world).max_penetration, 0.0, 70.0 * 2.0 * (double)SLOP);
 			runs_same_hash(&first, runs_hash(world), device);
 			carom_world_destroy(world);
+		}
+	}
+}
+
+/* What stays together after a hit moves alike. It does not hit any more, but each step rounds places by half a unit, often the same way again and again: without a rule
+ * for what is sunk, squares are a centimetre deep in each other after two thousand steps. */
+static void what_moves_alike_does_not_sink(void **unused)
+{
+	(void)unused;
+	static const char *const steps[] = {"events", "first_impact"};
+	for (int kind = 0; kind < 10; kind++) {
+		const bool at_wall = kind >= 8;
+		carom_world_def def = at_wall ? runs_room(45.0f, 45.0f) : runs_def();
+		const float vy = kind & 4 ? 1.234f : 0.0f;
+		const carom_body_def first = kind & 1 ? scenery_box(-40.0f, -20.0f, 3.3f, vy, 0.7f, 0.7f) : scenery_circle(-40.0f, -20.0f, 3.3f, vy, 0.5f);
+		const carom_body_def second = kind & 2 ? scenery_box(-38.9f, -19.9f, 0.0f, vy, 0.7f, 0.7f) : scenery_circle(-38.9f, -19.9f, 0.0f, vy, 0.5f);
+		carom_body_def bodies[2] = {first, second};
+		def.restitution = 0.0f;
+		if (at_wall) { /* each runs into it, and then along it */
+			bodies[0].velocity = (carom_vec2){-7.7f, 1.1f};
+			bodies[1].velocity = (carom_vec2){-7.7f, 2.2f};
+		}
+		bodies[0].mass = 5.0f;
+		for (int i = 0; i < 2; i++) {
+			uint64_t hash = 0;
+			def.pipeline.step = steps[i];
+			SCENERY_EACH_DEVICE(device) {
+				carom_world *world = runs_world(&def, device, bodies, 2);
+				uint64_t hits = 0;
+				if (!world)
+					continue;
+				for (int k = 0; k < 10; k++) {
+					hits += runs_step(world, runs_affordable(100)).hits;
+					nothing_overlaps(world, 2.0 * 48.0);
+				}
+				runs_enough(hits > 0);
+				runs_same_hash(&hash, runs_hash(world), device);
+				carom_world_destroy(world);
+			}
 		}
 	}
 }
@@ -208,6 +245,7 @@ static void small_heap(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_come_to_rest), cmocka_unit_test(what_falls_on_a_resting_ball_stays),
-		cmocka_unit_test(squeezed_ball), cmocka_unit_test(row_collapses), cmocka_unit_test(small_heap)};
+		cmocka_unit_test(squeezed_ball), cmocka_unit_test(row_collapses), cmocka_unit_test(what_moves_alike_does_not_sink),
+		cmocka_unit_test(small_heap)};
 	return cmocka_run_group_tests_name("events_rest", tests, NULL, NULL);
 }

@@ -268,12 +268,12 @@ static void add_tunnelling(cases *c)
 	add(c, "a bullet at the wall's end", wall, scenery_circle(-3.0f, 1.0499f, 1000.0f, 0.0f, 0.05f), 2.9963393 / way, 8e-6);
 }
 
-/* What touches or overlaps at the start is hit then if it approaches, and else not. */
+/* What touches or overlaps at the start is hit then if it approaches, or if rounding has sunk it and it does not part, and else not. */
 static void add_touching(cases *c)
 {
 	for (int i = 0; i < 3; i++) {
 		const float v = i == 0 ? -6.0f : i == 1 ? 6.0f : 0.0f;
-		const double time = i == 0 ? 0.0 : NONE;
+		const double time = i == 0 ? 0.0 : NONE, sunk = i == 1 ? NONE : 0.0;
 		const carom_body_def square = scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f);
 		add(c, "touching circles", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(1.0f, 0.0f, v, 3.0f, 0.5f), time, 0.0);
 		add(c, "overlapping circles", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(0.75f, 0.0f, v, 0.0f, 0.5f), time, 0.0);
@@ -281,6 +281,12 @@ static void add_touching(cases *c)
 		add(c, "overlapping faces", square, scenery_box(0.75f, 0.0f, v, 3.0f, 1.0f, 1.0f), time, 0.0);
 		add(c, "a circle on a face", square, scenery_circle(1.0f, 0.25f, v, 3.0f, 0.5f), time, 0.0);
 		add(c, "a corner on a face", square, turned(scenery_box(1.20710678f, 0.25f, v, 3.0f, 1.0f, 1.0f), 0.78539816f, 0.0f), time, 0.0);
+		/* SLOP is 2e-6 m here: rounding has sunk what is four of them deep, but not what is fifty, and only the former is to part */
+		add(c, "sunk circles", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(1.0f - 8e-6f, 0.0f, v, 3.0f, 0.5f), sunk, 0.0);
+		add(c, "sunk faces", square, scenery_box(1.0f - 1e-5f, 0.25f, v, 3.0f, 1.0f, 1.0f), sunk, 0.0);
+		add(c, "a sunk circle on a face", square, scenery_circle(1.0f - 8e-6f, 0.25f, v, 3.0f, 0.5f), sunk, 0.0);
+		add(c, "circles deeper than rounding gets", scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(1.0f - 1e-4f, 0.0f, v, 3.0f, 0.5f),
+			time, 0.0);
 		add(c, "a circle in a box", square, scenery_circle(0.25f, 0.0f, v, 0.0f, 0.125f), time, 0.0);
 	}
 }

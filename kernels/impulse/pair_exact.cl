@@ -1,10 +1,10 @@
 /* Impulse [2.3], with the two contacts of a pair solved together, so that each gets back its share of its own speed and a
  * restitution of 1 keeps the energy. Where that would take a pull, or one contact alone approaches, that one bears it all. */
 
-float2 contact_impulses(body a, body b, contact c, float restitution, float stillness, float micro)
+float2 contact_impulses(body a, body b, contact c, float restitution, float most, float micro)
 {
 	float k00 = coupling(a, b, c, 0, 0), gain0 = gain_of(c.rate[0], restitution, micro);
-	bool first = -c.rate[0] > stillness, second = c.count > 1 && -c.rate[1] > stillness;
+	bool first = c.rate[0]<most, second = c.count> 1 && c.rate[1] < most;
 	if (!second)
 		return first ? (float2)(gain0 / k00, 0.0f) : (float2)(0.0f, 0.0f);
 	float k11 = coupling(a, b, c, 1, 1), gain1 = gain_of(c.rate[1], restitution, micro);

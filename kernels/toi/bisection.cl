@@ -22,11 +22,12 @@ bool pair_overlaps(VERTICES_IN, body a, body b, float t)
 	return vertex_inside(VERTICES, a, b, p) || vertex_inside(VERTICES, b, a, pose_swapped(p));
 }
 
-bool pair_approaches(VERTICES_IN, body a, body b, float t)
+bool pair_is_hit(VERTICES_IN, body a, body b, float t)
 {
 	pose p = pose_at(a, b, t);
-	contact c = contact_at(VERTICES, a, b, p, best_axis(VERTICES, a, b, p), pair_slop(a, b));
-	return contact_approaches(c, pair_stillness(a, b));
+	axis k = best_axis(VERTICES, a, b, p);
+	float slop = pair_slop(a, b);
+	return contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), hit_rate(is_sunk(k.gap, slop, 1.0f), slop, pair_stillness(a, b), 1.0f));
 }
 
 float4 bisect(VERTICES_IN, body a, body b, float min_time, float max_time, float4 rules)
@@ -42,7 +43,7 @@ float4 bisect(VERTICES_IN, body a, body b, float min_time, float max_time, float
 	}
 	if (max_time - min_time > epsilon)
 		return (float4)(min_time, max_time, 0.0f, min_time);
-	return pair_approaches(VERTICES, a, b, min_time) ? (float4)(min_time, max_time, 1.0f, min_time) : hit_none();
+	return pair_is_hit(VERTICES, a, b, min_time) ? (float4)(min_time, max_time, 1.0f, min_time) : hit_none();
 }
 
 float4 pair_first(VERTICES_IN, body a, body b, float until, float4 rules)
@@ -51,7 +52,7 @@ float4 pair_first(VERTICES_IN, body a, body b, float until, float4 rules)
 	if (!(a.inverse_mass > 0.0f) && !(b.inverse_mass > 0.0f))
 		return hit_none();
 	if (pair_overlaps(VERTICES, a, b, 0.0f))
-		return pair_approaches(VERTICES, a, b, 0.0f) ? hit_at(0.0f) : hit_none();
+		return pair_is_hit(VERTICES, a, b, 0.0f) ? hit_at(0.0f) : hit_none();
 	if (!pair_overlaps(VERTICES, a, b, 1.0f))
 		return hit_none();
 	return bisect(VERTICES, a, b, 0.0f, 1.0f, rules);

@@ -3,8 +3,10 @@
 /* A circle's hit with one wall is a root of a quadratic: exact, with and without gravity. */
 float circle_wall(body k, float2 n, float offset)
 {
-	float rate = inner(n, k.v), push = inner(n, k.a), stillness = wall_stillness(k);
-	float t = first_root(larger((inner(n, k.x) - offset) - k.radius, 0.0f), rate, -push);
+	float rate = inner(n, k.v), push = inner(n, k.a), slop = wall_slop(k), stillness = wall_stillness(k), gap = (inner(n, k.x) - offset) - k.radius;
+	float t = first_root(larger(gap, 0.0f), rate, -push);
+	if (is_sunk(gap, slop, 1.0f) && rate < hit_rate(true, slop, stillness, 1.0f))
+		return 0.0f;
 	/* too slow an approach is none; it becomes one when the push has made it faster */
 	if (t <= 1.0f && rate + t * push >= -stillness)
 		t = push < 0.0f ? larger(t, (-stillness - rate) / push) : INFINITY;
@@ -33,13 +35,11 @@ float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 	if (((inner(n, k.x) - offset) - k.radius) - (norm(k.v) + norm(k.a)) > slop)
 		return INFINITY;
 	for (int i = 0; i < SEARCH_LIMIT; i++) {
-		int deepest;
 		if (!(t <= 1.0f))
 			return INFINITY;
-		float2 m = turn_back(body_rotation(k, t), n);
-		float gap = (inner(n, place(k.x, k.v, k.a, t)) - offset) + lowest(VERTICES, k, m, &deepest);
+		float gap = wall_gap(VERTICES, k, n, offset, t);
 		bool touching = gap <= slop;
-		if (touching && contact_approaches(wall_contact(VERTICES, k, n, t, slop), stillness))
+		if (touching && contact_is_hit(wall_contact(VERTICES, k, n, t, slop), hit_rate(is_sunk(gap, slop, 1.0f), slop, stillness, 1.0f)))
 			return t;
 		float safe = wall_safe_time(VERTICES, k, n, offset, t, slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);

@@ -23,7 +23,22 @@ template <typename T> struct Contact {
 		rate[count++] = point_rate;
 	}
 
-	bool approaches(T stillness) const { return (count > 0 && rate[0] < -stillness) || (count > 1 && rate[1] < -stillness); }
+	/* Is a point's rate below that? */
+	bool is_below(T limit) const { return (count > 0 && rate[0] < limit) || (count > 1 && rate[1] < limit); }
+};
+
+/* When bodies that touch count as hitting each other, and as sunk into each other by rounding. What was found so is so still when it is answered: then the
+ * thresholds are nearer, by `loose` of them. */
+template <typename T> struct Threshold {
+	bool sunk;
+	T rate;    /* a point with less is hit */
+	T parting; /* what is sunk parts at least so fast */
+
+	Threshold(T gap, T slop, T stillness, T loose = 0)
+		: sunk(-gap > (1 - loose) * slop && -gap < (1 + loose) * (T(SUNK_MOST) * slop)),
+		  rate(sunk ? (1 + loose) * (T(SUNK_RATE) * slop) : -((1 - loose) * stillness)), parting(sunk ? larger(slop, 4 * stillness) : T(0))
+	{
+	}
 };
 
 /* The pose is the reference's. */

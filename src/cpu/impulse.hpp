@@ -9,9 +9,10 @@ namespace carom::cpu {
 /* A contact with what resists at it. */
 template <typename T> struct Collision {
 	Contact<T> contact;
-	T stillness, restitution;
+	Threshold<T> threshold;
+	T restitution;
 	T ref_mass, inc_mass, ref_inertia, inc_inertia; /* inverse; a wall's are 0 */
-	T micro = 0;                                    /* the least speed at which the points part */
+	T micro = 0;                                    /* the least speed at which a push lets the points part */
 
 	/* How fast the points' parting at i grows by an impulse of 1 at k. */
 	T coupling(int i, int k) const
@@ -23,10 +24,10 @@ template <typename T> struct Collision {
 
 	T gain(int i) const
 	{
-		const T rate = contact.rate[i];
-		return -rate < micro ? micro - rate : (-(1 + restitution)) * rate;
+		const T rate = contact.rate[i], least = larger(micro, threshold.parting);
+		return -rate < least ? least - rate : (-(1 + restitution)) * rate;
 	}
-	bool approaches(int i) const { return i < contact.count && contact.rate[i] < -stillness; }
+	bool is_hit(int i) const { return i < contact.count && contact.rate[i] < threshold.rate; }
 	T alone(int i) const { return gain(i) / coupling(i, i); }
 };
 
@@ -38,9 +39,10 @@ template <typename T> struct Impulses {
 template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
 {
 	const HeldConvex<T> body = shapes.convex(hit.row);
-	T restitution = larger(shapes.restitution(hit.row), shapes.rule(RULES_RESTITUTION));
-	return {wall_contact(body, room_wall(shapes, hit.wall()), hit.time, wall_slop(body)), wall_stillness(body), restitution, 0, body.inverse_mass, 0,
-		body.inverse_inertia};
+	const Wall<T> wall = room_wall(shapes, hit.wall());
+	const T restitution = larger(shapes.restitution(hit.row), shapes.rule(RULES_RESTITUTION)), slop = wall_slop(body);
+	return {wall_contact(body, wall, hit.time, slop), {wall_gap(body, wall, hit.time), slop, wall_stillness(body)}, restitution, 0, body.inverse_mass,
+		0, body.inverse_inertia};
 }
 
 template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
@@ -49,7 +51,8 @@ template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const
 	const Pose<T> at_hit = pose(a, b, hit.time);
 	const Axis<T> axis = best_axis(a, b, at_hit);
 	const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
-	return {contact_at(a, b, at_hit, axis, pair_slop(a, b)), pair_stillness(a, b),
+	const T slop = pair_slop(a, b);
+	return {contact_at(a, b, at_hit, axis, slop), {axis.gap, slop, pair_stillness(a, b)},
 		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
 		inc.inverse_inertia};
 }

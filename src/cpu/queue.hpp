@@ -258,6 +258,8 @@ private:
 		return stays;
 	}
 
+	static constexpr T found_loose = T(0.5);
+
 	/* What the row body gets; the column body gets the impulse's opposite. */
 	struct Impact {
 		T x, y, row_torque, column_torque, total;
@@ -271,7 +273,6 @@ private:
 		collision.micro = restitution < 1 ? larger(-(T(MICRO) * pull), T(0)) : T(0);
 		const bool fast = collision.micro > 0 && -rate > collision.micro * (1 / T(MICRO));
 		collision.restitution = rapid && !fast ? T(1) : restitution;
-		collision.stillness = collision.stillness * T(0.5);
 	}
 
 	Impact impact(const Collision<T> &collision) const
@@ -290,8 +291,9 @@ private:
 		Convex<T> body;
 		clusters.fill(body, slots[s], way);
 		const Wall<T> wall = clusters.wall(k);
-		Collision<T> collision{
-			wall_contact(body, wall, T(0), wall_slop(body)), wall_stillness(body), 1, 0, body.inverse_mass, 0, body.inverse_inertia};
+		const T slop = wall_slop(body);
+		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, wall_stillness(body), found_loose}, 1, 0,
+			body.inverse_mass, 0, body.inverse_inertia};
 		set_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), rapid);
 		return impact(collision);
 	}
@@ -304,8 +306,9 @@ private:
 		const Pose<T> at = pose(a, b, T(0));
 		const Axis<T> axis = best_axis(a, b, at);
 		const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
-		Collision<T> collision{contact_at(a, b, at, axis, pair_slop(a, b)), pair_stillness(a, b), 1, ref.inverse_mass, inc.inverse_mass,
-			ref.inverse_inertia, inc.inverse_inertia};
+		const T slop = pair_slop(a, b);
+		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, pair_stillness(a, b), found_loose}, 1, ref.inverse_mass,
+			inc.inverse_mass, ref.inverse_inertia, inc.inverse_inertia};
 		const Vec<T> between = inc.a - ref.a;
 		set_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]), inner(collision.contact.n, between),
 			rapid);

@@ -37,6 +37,11 @@ template <typename T> T wall_stillness(const Body<T> &body)
 	return ((span(body.v) + span(body.a)) + (std::abs(body.w) + std::abs(body.b)) * body.radius) * APPROACH;
 }
 
+template <typename T> T wall_gap(const Convex<T> &convex, const Wall<T> &wall, T t)
+{
+	return wall.height(convex.place_at(t)) + lowest<T>(convex, turn_back(rotation_of(convex.angle_at(t)), wall.n)).height;
+}
+
 /* Adds the ends of what of a polygon touches. */
 template <typename T> void add_wall_points(Contact<T> &contact, const Convex<T> &convex, const Wall<T> &wall, T t, T slop)
 {

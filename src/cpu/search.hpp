@@ -70,7 +70,7 @@ template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 		Pose<T> pose_at_t = pose(pair.a, pair.b, t);
 		Axis<T> axis = best_axis(pair.a, pair.b, pose_at_t);
 		bool touching = axis.gap <= pair.slop;
-		if (touching && pair.approaches(pose_at_t, axis))
+		if (touching && pair.is_hit(pose_at_t, axis))
 			return hit_at(t);
 		T safe = safe_time(pair, pose_at_t, axis, t);
 		t = t + (touching ? larger(safe, creep_time(pair.slop, pair.stillness)) : safe);

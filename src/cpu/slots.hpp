@@ -159,11 +159,11 @@ template <typename T> struct Approach {
 		return !(dx * dx + dy * dy > reach * reach * T(1.00001));
 	}
 
-	/* They do not hit before; of circles that fall alike it is known that they part for good. */
-	T earliest(bool part_for_good) const
+	/* They do not hit before. Circles that fall alike do not any more once they part, and fast enough for what is sunk. */
+	T earliest(bool falls_alike) const
 	{
 		const T reach = this->reach() * T(1.00001), square = x * x + y * y, nearer = -(x * vx + y * vy);
-		if (part_for_good && -nearer > (reach - most) * (std::abs(vx) + std::abs(vy)))
+		if (falls_alike && -nearer > (reach - most) * ((std::abs(vx) + std::abs(vy)) + T(0.5 * SUNK_RATE) * (std::abs(x) + std::abs(y))))
 			return rest;
 		if (!(square > reach * reach) || !(nearer > 0))
 			return 0;

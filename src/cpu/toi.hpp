@@ -42,7 +42,10 @@ template <typename T> struct Pair {
 	}
 
 	bool are_circles() const { return a.is_circle() && b.is_circle(); }
-	bool approaches(const Pose<T> &pose, const Axis<T> &axis) const { return contact_at(a, b, pose, axis, slop).approaches(stillness); }
+	bool is_hit(const Pose<T> &pose, const Axis<T> &axis) const
+	{
+		return contact_at(a, b, pose, axis, slop).is_below(Threshold<T>(axis.gap, slop, stillness).rate);
+	}
 };
 
 /* Where the slot's textures are in the list, after STATE, vertices and clock. */

@@ -7,7 +7,7 @@ template <typename T> static Impulses<T> each_alone(const Collision<T> &collisio
 {
 	Impulses<T> j{};
 	for (int i = 0; i < 2; i++) {
-		if (collision.approaches(i))
+		if (collision.is_hit(i))
 			j.at[i] = collision.alone(i);
 	}
 	return j;

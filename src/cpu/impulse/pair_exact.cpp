@@ -18,7 +18,7 @@ template <typename T> static bool solve(const Collision<T> &collision, Impulses<
 template <typename T> static Impulses<T> together(const Collision<T> &collision)
 {
 	Impulses<T> j{};
-	bool first = collision.approaches(0), second = collision.approaches(1);
+	bool first = collision.is_hit(0), second = collision.is_hit(1);
 	if (!first && !second)
 		return j;
 	if (first && second) {

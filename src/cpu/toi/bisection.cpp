@@ -23,10 +23,10 @@ template <typename T> static bool overlap_at(const Pair<T> &pair, T t)
 	return reaches_into(a, b, at_t, pair.inside) || reaches_into(b, a, at_t.swapped(), pair.inside);
 }
 
-template <typename T> static bool approaches_at(const Pair<T> &pair, T t)
+template <typename T> static bool hits_at(const Pair<T> &pair, T t)
 {
 	Pose<T> at_t = pose(pair.a, pair.b, t);
-	return pair.approaches(at_t, best_axis(pair.a, pair.b, at_t));
+	return pair.is_hit(at_t, best_axis(pair.a, pair.b, at_t));
 }
 
 /* Halves the interval, at most `iterations` times [2.1]. */
@@ -39,14 +39,14 @@ template <typename T> static HitTime<T> bisect(const Pair<T> &pair, T min, T max
 	}
 	if (max - min > epsilon)
 		return {min, max, 0, min};
-	return approaches_at(pair, min) ? HitTime<T>{min, max, 1, min} : no_hit<T>();
+	return hits_at(pair, min) ? HitTime<T>{min, max, 1, min} : no_hit<T>();
 }
 
 /* A pair that parts is no hit, or time would stop at it. */
 template <typename T> static HitTime<T> find(const Pair<T> &pair, const SearchRules<T> &rules)
 {
 	if (overlap_at(pair, T(0)))
-		return approaches_at(pair, T(0)) ? hit_at(T(0)) : no_hit<T>();
+		return hits_at(pair, T(0)) ? hit_at(T(0)) : no_hit<T>();
 	return overlap_at(pair, T(1)) ? bisect(pair, T(0), T(1), rules) : no_hit<T>();
 }
 

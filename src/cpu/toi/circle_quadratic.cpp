@@ -9,7 +9,7 @@ template <typename T> static HitTime<T> quadratic(const Pair<T> &pair)
 	T reach = pair.a.radius + pair.b.radius, distance = norm(d), approach = inner(d, v);
 	T gap = (distance - reach) * (distance + reach);
 	if (gap <= 0)
-		return approach < -pair.stillness * distance ? hit_at(T(0)) : no_hit<T>();
+		return approach < Threshold<T>(distance - reach, pair.slop, pair.stillness).rate * distance ? hit_at(T(0)) : no_hit<T>();
 	T x = cross(d, v), under = (reach * reach) * inner(v, v) - x * x;
 	if (approach >= 0 || under <= 0 || std::sqrt(under) <= pair.stillness * reach)
 		return no_hit<T>();

@@ -10,10 +10,13 @@ template <typename T> struct WallHit {
 };
 
 /* A circle's height over the wall is quadratic in time. */
-template <typename T> static WallHit<T> circle_hit(const Body<T> &body, const Wall<T> &wall, T stillness)
+template <typename T> static WallHit<T> circle_hit(const Body<T> &body, const Wall<T> &wall, T slop, T stillness)
 {
-	T rate = inner(wall.n, body.v), push = inner(wall.n, body.a);
-	T t = first_root(larger(wall.height(body.x) - body.radius, T(0)), rate, -push);
+	const T rate = inner(wall.n, body.v), push = inner(wall.n, body.a), gap = wall.height(body.x) - body.radius;
+	const Threshold<T> threshold(gap, slop, stillness);
+	if (threshold.sunk && rate < threshold.rate)
+		return {0, 1};
+	T t = first_root(larger(gap, T(0)), rate, -push);
 	if (t <= 1 && rate + t * push >= -stillness)
 		t = push < 0 ? larger(t, (-stillness - rate) / push) : infinite<T>;
 	return {t <= 1 ? t : T(NO_HIT), 1};
@@ -45,8 +48,9 @@ template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, con
 			return {NO_HIT, 1};
 		Vec<T> m = turn_back(rotation_of(convex.angle_at(t)), wall.n);
 		T base = wall.height(convex.place_at(t));
-		bool touching = base + lowest(convex, m).height <= slop;
-		if (touching && wall_contact(convex, wall, t, slop).approaches(stillness))
+		const T gap = base + lowest(convex, m).height;
+		const bool touching = gap <= slop;
+		if (touching && wall_contact(convex, wall, t, slop).is_below(Threshold<T>(gap, slop, stillness).rate))
 			return {t, 1};
 		T safe = safe_time(convex, wall, m, base, t, slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
@@ -56,8 +60,8 @@ template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, con
 
 template <typename T> static WallHit<T> body_hit(const Convex<T> &convex, const Wall<T> &wall)
 {
-	const T stillness = wall_stillness(convex);
-	return convex.is_circle() ? circle_hit(convex, wall, stillness) : polygon_hit(convex, wall, wall_slop(convex), stillness);
+	const T slop = wall_slop(convex), stillness = wall_stillness(convex);
+	return convex.is_circle() ? circle_hit(convex, wall, slop, stillness) : polygon_hit(convex, wall, slop, stillness);
 }
 
 template <typename T> static HitTime<T> time(const Convex<T> &convex, const Wall<T> &wall)
