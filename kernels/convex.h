@@ -293,22 +293,22 @@ float creep_time(float slop, float stillness)
 	return smaller(CREEP_MOST, larger((slop * APPROACH) / stillness, CREEP_LEAST));
 }
 
-/* Has rounding sunk them into each other? What was found so is so, whatever rounding did since: `part` is 1 to find it, less to answer it. */
-bool is_sunk(float gap, float slop, float part)
-{
-	return gap < -(part * slop) && gap > -((2.0f - part) * (SUNK_MOST * slop));
-}
+/* What makes a touch a hit. */
+typedef struct threshold {
+	bool sunk;  /* by rounding, into each other */
+	float rate; /* a point with less is hit */
+	float
+		mended; /* the least speed at which it parts then: of what is sunk a slop a step, eight units in the last place, where rounding spoils one or two */
+} threshold;
 
-/* A contact at a rate below this one is a hit. */
-float hit_rate(bool sunk, float slop, float stillness, float part)
+/* What was found to be a hit is one, whatever rounding did since: `part` is 1 to find it, less to answer it. */
+threshold threshold_of(float gap, float slop, float stillness, float part)
 {
-	return sunk ? (2.0f - part) * (SUNK_RATE * slop) : -(part * stillness);
-}
-
-/* The least speed at which what is sunk parts: a slop a step, eight units in the last place, where rounding spoils one or two. */
-float mending_speed(bool sunk, float slop, float stillness)
-{
-	return sunk ? larger(slop, 4.0f * stillness) : 0.0f;
+	threshold h;
+	h.sunk = gap < -(part * slop) && gap > -((2.0f - part) * (SUNK_MOST * slop));
+	h.rate = h.sunk ? (2.0f - part) * (SUNK_RATE * slop) : -(part * stillness);
+	h.mended = h.sunk ? larger(slop, 4.0f * stillness) : 0.0f;
+	return h;
 }
 
 bool contact_is_hit(contact c, float most)

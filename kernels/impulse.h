@@ -22,10 +22,10 @@ float gain_of(float rate, float restitution, float micro)
 	return -rate < micro ? micro - rate : -(1.0f + restitution) * rate;
 }
 
-/* The alternative's own: impulses (j0, j1) at those of the contact's points with a rate below `most` that part the reference a and the incident body b. */
+/* The alternative's own: impulses (j0, j1) that part the reference a and the incident body b, at those of the contact's points with a rate below `most`. */
 float2 contact_impulses(body a, body b, contact c, float restitution, float most, float micro);
 
-/* How a hit is answered: MICRO or 0, and the part that is_sunk and hit_rate take. */
+/* How a hit is answered: MICRO or 0, and the part that threshold_of takes. */
 typedef struct rules_of_hit {
 	float restitution, micro, part;
 	bool rapid;
@@ -59,10 +59,8 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	contact c = wall_contact(VERTICES, k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
 	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f);
-	float slop = wall_slop(k), stillness = wall_stillness(k), restitution = restitution_of(rules, c, micro);
-	bool sunk = is_sunk(wall_gap(VERTICES, k, n, offset, t), slop, rules.part);
-	micro = larger(micro, mending_speed(sunk, slop, stillness));
-	float2 j = contact_impulses(walls, k, c, restitution, hit_rate(sunk, slop, stillness, rules.part), micro);
+	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), wall_stillness(k), rules.part);
+	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, larger(micro, h.mended));
 	*total = j.x + j.y;
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
 	return (float4)((*total * n.x) / length, (*total * n.y) / length, torque / length, 0.0f);
@@ -72,14 +70,13 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float length, float *total)
 {
 	pose p = pose_at(a, b, t);
-	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
+	float slop = pair_slop(a, b);
 	axis k = best_axis(VERTICES, a, b, p);
 	contact c = contact_at(VERTICES, a, b, p, k, slop);
-	bool sunk = is_sunk(k.gap, slop, rules.part);
+	threshold h = threshold_of(k.gap, slop, pair_stillness(a, b), rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float restitution = restitution_of(rules, c, micro), most = hit_rate(sunk, slop, stillness, rules.part);
-	micro = larger(micro, mending_speed(sunk, slop, stillness));
-	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, most, micro) : contact_impulses(a, b, c, restitution, most, micro);
+	float restitution = restitution_of(rules, c, micro), least = larger(micro, h.mended);
+	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, least) : contact_impulses(a, b, c, restitution, h.rate, least);
 	*total = j.x + j.y;
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;

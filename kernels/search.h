@@ -73,7 +73,7 @@ float4 search_separating(VERTICES_IN, body a, body b, float until)
 		pose p = pose_at(a, b, t);
 		axis k = best_axis(VERTICES, a, b, p);
 		bool touching = k.gap <= slop;
-		if (touching && contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), hit_rate(is_sunk(k.gap, slop, 1.0f), slop, stillness, 1.0f)))
+		if (touching && contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), threshold_of(k.gap, slop, stillness, 1.0f).rate))
 			return hit_at(t);
 		float safe = safe_time(VERTICES, a, b, p, k, t, slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
@@ -88,7 +88,7 @@ float4 search_circles(body a, body b)
 	float reach = a.radius + b.radius, distance = norm(d), approach = inner(d, v);
 	float gap = (distance - reach) * (distance + reach), slop = pair_slop(a, b), stillness = pair_stillness(a, b);
 	if (gap <= 0.0f)
-		return approach < hit_rate(is_sunk(distance - reach, slop, 1.0f), slop, stillness, 1.0f) * distance ? hit_at(0.0f) : hit_none();
+		return approach < threshold_of(distance - reach, slop, stillness, 1.0f).rate * distance ? hit_at(0.0f) : hit_none();
 	float x = cross2(d, v), under = (reach * reach) * inner(v, v) - x * x;
 	/* the root of `under` is the speed of approach at the hit, times reach */
 	if (approach >= 0.0f || under <= 0.0f || sqrt(under) <= stillness * reach)

@@ -27,7 +27,7 @@ bool pair_is_hit(VERTICES_IN, body a, body b, float t)
 	pose p = pose_at(a, b, t);
 	axis k = best_axis(VERTICES, a, b, p);
 	float slop = pair_slop(a, b);
-	return contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), hit_rate(is_sunk(k.gap, slop, 1.0f), slop, pair_stillness(a, b), 1.0f));
+	return contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), threshold_of(k.gap, slop, pair_stillness(a, b), 1.0f).rate);
 }
 
 float4 bisect(VERTICES_IN, body a, body b, float min_time, float max_time, float4 rules)

@@ -3,9 +3,10 @@
 /* A circle's hit with one wall is a root of a quadratic: exact, with and without gravity. */
 float circle_wall(body k, float2 n, float offset)
 {
-	float rate = inner(n, k.v), push = inner(n, k.a), slop = wall_slop(k), stillness = wall_stillness(k), gap = (inner(n, k.x) - offset) - k.radius;
+	float rate = inner(n, k.v), push = inner(n, k.a), stillness = wall_stillness(k), gap = (inner(n, k.x) - offset) - k.radius;
 	float t = first_root(larger(gap, 0.0f), rate, -push);
-	if (is_sunk(gap, slop, 1.0f) && rate < hit_rate(true, slop, stillness, 1.0f))
+	threshold h = threshold_of(gap, wall_slop(k), stillness, 1.0f);
+	if (h.sunk && rate < h.rate)
 		return 0.0f;
 	/* too slow an approach is none; it becomes one when the push has made it faster */
 	if (t <= 1.0f && rate + t * push >= -stillness)
@@ -39,7 +40,7 @@ float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 			return INFINITY;
 		float gap = wall_gap(VERTICES, k, n, offset, t);
 		bool touching = gap <= slop;
-		if (touching && contact_is_hit(wall_contact(VERTICES, k, n, t, slop), hit_rate(is_sunk(gap, slop, 1.0f), slop, stillness, 1.0f)))
+		if (touching && contact_is_hit(wall_contact(VERTICES, k, n, t, slop), threshold_of(gap, slop, stillness, 1.0f).rate))
 			return t;
 		float safe = wall_safe_time(VERTICES, k, n, offset, t, slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);

@@ -27,8 +27,8 @@ template <typename T> struct Contact {
 	bool is_below(T limit) const { return (count > 0 && rate[0] < limit) || (count > 1 && rate[1] < limit); }
 };
 
-/* When bodies that touch count as hitting each other, and as sunk into each other by rounding. What was found so is so still when it is answered: then the
- * thresholds are nearer, by `loose` of them. */
+/* When bodies that touch hit each other, and when rounding has sunk them into each other. What was found so is so still when it is answered: then the thresholds are
+ * nearer, by `loose` of them. */
 template <typename T> struct Threshold {
 	bool sunk;
 	T rate;    /* a point with less is hit */
