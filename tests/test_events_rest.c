@@ -132,6 +132,33 @@ static void squeezed_ball(void **unused)
 	}
 }
 
+/* A ball that is held falls no more, though the one that bounces on it does: that comes down on it once more in the same step, before it gets to the wall, and before
+ * another hits the held one from below. */
+static void what_is_held_does_not_fall(void **unused)
+{
+	(void)unused;
+	enum { COUNT = 5 };
+	for (int order = 0; order < 2; order++) {
+		carom_world_def def = runs_room(0.65f, 5.0f);
+		const carom_body_def balls[2] = {scenery_circle(0.0f, 1.02f, 0.5f, -1.0f, 0.5f), scenery_circle(0.0f, -2.0f, 0.0f, 4.68f, 0.5f)};
+		const carom_body_def bodies[COUNT] = {balls[order], scenery_circle(0.0f, 0.0f, 100.0f, 0.0f, 0.5f), balls[1 - order],
+			fixed(scenery_box(0.55001f, 0.0f, 0.0f, 0.0f, 0.1f, 1.0f)), fixed(scenery_box(-0.55001f, 0.0f, 0.0f, 0.0f, 0.1f, 1.0f))};
+		def.gravity.y = -(float)GRAVITY;
+		def.time_step = 0.35f;
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			assert_int_equal(runs_step(world, 1).held, 1);
+			assert_true(runs_state(world, 2 * (uint32_t)order).position.y > runs_state(world, 1).position.y + 0.9f);
+			assert_true(runs_state(world, 2 * (uint32_t)order).velocity.y > -0.5f);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* Fifty balls in a row are run into by a heavy one: inelastic collapse. Momentum stays, energy goes. */
 static void row_collapses(void **unused)
 {
@@ -245,7 +272,7 @@ static void small_heap(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_come_to_rest), cmocka_unit_test(what_falls_on_a_resting_ball_stays),
-		cmocka_unit_test(squeezed_ball), cmocka_unit_test(row_collapses), cmocka_unit_test(what_moves_alike_does_not_sink),
-		cmocka_unit_test(small_heap)};
+		cmocka_unit_test(squeezed_ball), cmocka_unit_test(what_is_held_does_not_fall), cmocka_unit_test(row_collapses),
+		cmocka_unit_test(what_moves_alike_does_not_sink), cmocka_unit_test(small_heap)};
 	return cmocka_run_group_tests_name("events_rest", tests, NULL, NULL);
 }

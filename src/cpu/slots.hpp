@@ -12,7 +12,6 @@ template <typename T> struct Slot {
 	T place[4], turn[4], mass[4], push[4];
 
 	bool is_circle() const { return !(mass[MASS_COUNT] > 1); }
-	bool falls_like(const Slot &other) const { return push[PUSH_X] == other.push[PUSH_X] && push[PUSH_Y] == other.push[PUSH_Y]; }
 	bool is_static() const { return !(mass[MASS_INVERSE] > 0); }
 	int32_t body() const { return static_cast<int32_t>(push[PUSH_BODY]); }
 	T radius() const { return turn[TURN_RADIUS]; }
@@ -105,6 +104,7 @@ template <typename T> struct Disc {
 	T vy() const { return way[3]; }
 	T ax() const { return push[0]; }
 	T ay() const { return push[1]; }
+	bool falls_like(const Disc &other) const { return ax() == other.ax() && ay() == other.ay(); }
 
 	[[gnu::always_inline]] Disc later(T t) const
 	{
@@ -186,7 +186,7 @@ template <typename T> struct Outlook {
 
 	Outlook(const Approach<T> &approach, const Slot<T> &slot, const Disc<T> &disc, const Slot<T> &other, const Disc<T> &other_disc)
 	{
-		const bool alike = slot.falls_like(other);
+		const bool alike = disc.falls_like(other_disc);
 		earliest = std::max(disc.time, other_disc.time) + approach.earliest(alike && slot.is_circle() && other.is_circle());
 		may_touch = !(earliest > 1) && (alike || Approach<T>(between(disc, other_disc, T(0)), T(0)).may_touch());
 	}
