@@ -4,16 +4,6 @@
 	LIST_OUT(spans), LIST_IN(neighbours), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), LIST_OUT(found), LIST_IN(extra), LIST_OUT(wakes)
 #define LISTS spans, neighbours, status, members, active, found, extra, wakes
 
-/* Do the circles about two bodies that are pushed differently stay apart for the rest of the step? Then they have no hit, and no pause; of those that are
- * pushed alike a search knows. */
-bool circles_stay_apart(body a, body b, float rest)
-{
-	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
-	float push = norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), approach = inner(d, v);
-	float t = approach < 0.0f ? smaller(-approach / inner(v, v), rest) : 0.0f;
-	return push > 0.0f && norm((float2)(d.x + t * v.x, d.y + t * v.y)) > ((a.radius + b.radius) + pair_slop(a, b)) + 0.5f * push;
-}
-
 /* When two trajectories hit; NO_HIT if they don't, and also if it is later than `until`, perhaps. Bodies are in the order of their indices. Those whose
  * discs stay apart need not be asked. */
 float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k, int other, trajectory o, float length, float until, bool *pause)
@@ -24,9 +14,6 @@ float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k
 	body a = body_of(slots, s, k, length), b = body_of(slots, other, o, length);
 	bool in_order = slot_body(slots, s) > slot_body(slots, other);
 	float end = smaller((until - t0) + 1e-6f, rest); /* not before, however that is rounded */
-	*pause = false;
-	if (circles_stay_apart(a, b, rest))
-		return NO_HIT;
 	float4 found = in_order ? pair_first(VERTICES, a, b, end, rules) : pair_first(VERTICES, b, a, end, rules);
 	float hit = CHANNEL(found, HITTIMES_HIT);
 	*pause = !(CHANNEL(found, HITTIMES_DONE) > 0.0f);

@@ -262,17 +262,6 @@ public:
 		bool is_pause;
 	};
 
-	/* Do the circles about two bodies with different pushes? Of the same ones the searches for hits know. */
-	static bool stay_apart(const Body<T> &a, const Body<T> &b, T rest)
-	{
-		const Vec<T> d = b.x - a.x, v = b.v - a.v;
-		const T push = norm(b.a - a.a), approach = inner(d, v);
-		if (!(push > 0))
-			return false;
-		const T nearest = approach < 0 ? smaller(-approach / inner(v, v), rest) : T(0);
-		return norm(d + nearest * v) > ((a.radius + b.radius) + pair_slop(a, b)) + T(0.5) * push;
-	}
-
 	/* When the two hit; what is later than `until` need not be found. */
 	[[gnu::always_inline]] Found pair_time(int32_t s, Trajectory<T> way, int32_t other, Trajectory<T> other_way, T until = 1) const
 	{
@@ -284,7 +273,7 @@ public:
 		const bool in_order = slots[s].body() > slots[other].body();
 		fill(in_order ? a : b, slots[s], way);
 		fill(in_order ? b : a, slots[other], other_way);
-		if ((a.is_static() && b.is_static()) || stay_apart(a, b, rest))
+		if (a.is_static() && b.is_static())
 			return {NO_HIT, false};
 		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside, end), rules);
 		return {found.hit <= rest ? smaller(t0 + found.hit, T(1)) : T(NO_HIT), !(found.done > 0)};
