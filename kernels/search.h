@@ -62,11 +62,22 @@ float circles_touch(body a, body b, float slop)
 	return (way * (norm(d) + reach)) / (sqrt(under) - approach);
 }
 
+/* The same of bodies that pushes bring together: no hit and no pause is before. */
+float circles_meet(body a, body b, float slop)
+{
+	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
+	float push = norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y));
+	float reach = ((a.radius + b.radius) + slop) + 0.5f * push, way = norm(d) - reach;
+	float x = cross2(d, v), approach = inner(d, v), under = (reach * reach) * inner(v, v) - x * x;
+	if (way <= 0.0f)
+		return 0.0f;
+	return approach >= 0.0f || under < 0.0f ? INFINITY : (way * (norm(d) + reach)) / (sqrt(under) - approach);
+}
+
 /* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch, or that is not asked for any more. */
-float4 search_separating(VERTICES_IN, body a, body b, float until)
+float4 search_from(VERTICES_IN, body a, body b, float t, float until)
 {
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
-	float t = circles_touch(a, b, slop);
 	for (int i = 0; i < SEARCH_LIMIT; i++) {
 		if (!(t <= until))
 			return hit_none();
@@ -79,6 +90,16 @@ float4 search_separating(VERTICES_IN, body a, body b, float until)
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	return hit_pause(smaller(t, 1.0f));
+}
+
+float4 search_separating(VERTICES_IN, body a, body b, float until)
+{
+	float slop = pair_slop(a, b);
+	float4 hit = search_from(VERTICES, a, b, circles_touch(a, b, slop), until);
+	if (CHANNEL(hit, HITTIMES_DONE) > 0.0f || (a.a.x == b.a.x && a.a.y == b.a.y))
+		return hit;
+	float meet = circles_meet(a, b, slop);
+	return CHANNEL(hit, HITTIMES_HIT) < meet ? search_from(VERTICES, a, b, meet, until) : hit;
 }
 
 /* The hit time of two circles without relative acceleration [4.1]: the first root of |d + t v| = ra + rb. */

@@ -61,9 +61,19 @@ template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a,
 	return least;
 }
 
-template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
+/* Before that no two bodies have a hit, however they are pushed, and so none has a pause: others take it that there is nothing before. */
+template <typename T> T circles_meet(const Convex<T> &a, const Convex<T> &b, T slop)
 {
-	T t = circles_touch(pair.a, pair.b, pair.slop);
+	const Vec<T> d = b.x - a.x, v = b.v - a.v;
+	const T reach = ((a.radius + b.radius) + slop) + T(0.5) * norm(b.a - a.a), way = norm(d) - reach;
+	if (way <= 0)
+		return 0;
+	const T x = cross(d, v), approach = inner(d, v), under = (reach * reach) * inner(v, v) - x * x;
+	return approach >= 0 || under < 0 ? infinite<T> : (way * (norm(d) + reach)) / (std::sqrt(under) - approach);
+}
+
+template <typename T> HitTime<T> search_from(const Pair<T> &pair, T t)
+{
 	for (int k = 0; k < SEARCH_LIMIT; k++) {
 		if (!(t <= pair.until))
 			return no_hit<T>();
@@ -76,6 +86,15 @@ template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 		t = t + (touching ? larger(safe, creep_time(pair.slop, pair.stillness)) : safe);
 	}
 	return pause_at(smaller(t, T(1)));
+}
+
+template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
+{
+	const HitTime<T> hit = search_from(pair, circles_touch(pair.a, pair.b, pair.slop));
+	if (hit.done > 0 || (pair.a.a.x() == pair.b.a.x() && pair.a.a.y() == pair.b.a.y()))
+		return hit;
+	const T meet = circles_meet(pair.a, pair.b, pair.slop);
+	return hit.hit < meet ? search_from(pair, meet) : hit;
 }
 
 }
