@@ -7,8 +7,9 @@
 #include "cl/api.h"
 #include "faults/walk.h"
 
-static int grown;  /* lists that could not */
-static int spared; /* calls of the cache, which is done without */
+static int grown;       /* lists that could not */
+static int spared;      /* calls of the cache, which is done without */
+static cl_uint drivers; /* of which one that can't be asked for its devices is left out */
 static char cache[] = "/tmp/carom-test-XXXXXX";
 
 static void opencl_failed(const char *call, carom_status status, const carom_error *error)
@@ -17,6 +18,8 @@ static void opencl_failed(const char *call, carom_status status, const carom_err
 		fail_msg("nothing failed, but: %s", error->text);
 		return;
 	}
+	if (!status && drivers > 1 && strcmp(call, "clGetDeviceIDs") == 0)
+		return;
 	/* what is released is gone, whatever the call says */
 	if (!status ? strncmp(call, "clRelease", 9) != 0 : error->status != status || !strstr(error->text, ": CL_") || strstr(error->text, "(null)"))
 		fail_msg("%s failed: %s: %s", call, carom_status_name(status), error->text);
@@ -64,7 +67,7 @@ static void worlds_that_open(void **unused)
 	for (int i = 0; i < 2; i++) {
 		spared = 0;
 		if (walk_opening(&scenery_devices[2], "events", FAULTS_OPENCL, judges[i])) /* with images it is the same */
-			assert_int_equal(spared, 2 * (2 + 5 + 2));
+			assert_true(drivers > 1 ? spared >= 2 * (2 + 5 + 2) : spared == 2 * (2 + 5 + 2));
 	}
 	unsetenv("CAROM_CACHE");
 	empty_cache();
@@ -140,9 +143,17 @@ static void failures_are_listed(void **unused)
 	carom_world_destroy(world);
 }
 
+static int count_drivers(void **state)
+{
+	carom_cl_api cl;
+	if (carom_cl_load(&cl) && cl.clGetPlatformIDs(0, NULL, &drivers))
+		drivers = 0;
+	return walk_make_folder(state);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(machines_without_opencl), cmocka_unit_test(failures_are_listed),
 		cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow)};
-	return cmocka_run_group_tests_name("faults_opencl", tests, walk_make_folder, walk_remove_folder);
+	return cmocka_run_group_tests_name("faults_opencl", tests, count_drivers, walk_remove_folder);
 }
