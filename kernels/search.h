@@ -45,40 +45,46 @@ float safe_time(VERTICES_IN, body a, body b, pose p, axis k, float t, float slop
 	return least;
 }
 
-/* When the circles about two bodies can touch at the earliest: a bound that skips most of a fast body's way. */
-float circles_touch(body a, body b, float slop)
+/* When the centres of two bodies come within reach of each other, without pushes. */
+float centres_near(body a, body b, float reach)
 {
 	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
-	float push = norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y));
-	float reach = (a.radius + b.radius) + slop, way = norm(d) - reach;
+	float way = norm(d) - reach, x = cross2(d, v), approach = inner(d, v), under = (reach * reach) * inner(v, v) - x * x;
 	if (way <= 0.0f)
 		return 0.0f;
-	if (push > 0.0f)
-		return way / (norm(v) + push);
-	float square = inner(v, v), x = cross2(d, v), approach = inner(d, v);
-	float under = (reach * reach) * square - x * x;
 	if (approach >= 0.0f || under < 0.0f)
 		return INFINITY;
 	return (way * (norm(d) + reach)) / (sqrt(under) - approach);
 }
 
-/* The same of bodies that pushes bring together: no hit and no pause is before. */
+/* When the circles about two bodies can touch at the earliest: a bound that skips most of a fast body's way. */
+float circles_touch(body a, body b, float slop)
+{
+	float push = norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), reach = (a.radius + b.radius) + slop;
+	if (!(push > 0.0f))
+		return centres_near(a, b, reach);
+	float way = norm((float2)(b.x.x - a.x.x, b.x.y - a.x.y)) - reach;
+	return way <= 0.0f ? 0.0f : way / (norm((float2)(b.v.x - a.v.x, b.v.y - a.v.y)) + push);
+}
+
+/* Nearer to that where pushes differ: no hit and no pause is before. */
 float circles_meet(body a, body b, float slop)
 {
-	float2 d = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y);
-	float push = norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y));
-	float reach = ((a.radius + b.radius) + slop) + 0.5f * push, way = norm(d) - reach;
-	float x = cross2(d, v), approach = inner(d, v), under = (reach * reach) * inner(v, v) - x * x;
-	if (way <= 0.0f)
-		return 0.0f;
-	return approach >= 0.0f || under < 0.0f ? INFINITY : (way * (norm(d) + reach)) / (sqrt(under) - approach);
+	return centres_near(a, b, ((a.radius + b.radius) + slop) + 0.5f * norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y)));
 }
 
 /* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch, or that is not asked for any more. */
-float4 search_from(VERTICES_IN, body a, body b, float t, float until)
+float4 search_separating(VERTICES_IN, body a, body b, float until)
 {
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
-	for (int i = 0; i < SEARCH_LIMIT; i++) {
+	float t = circles_touch(a, b, slop);
+	for (int i = 0; i < 2 * SEARCH_LIMIT; i++) {
+		if (i == SEARCH_LIMIT) {
+			float meet = circles_meet(a, b, slop);
+			if (!(smaller(t, 1.0f) < meet))
+				break;
+			t = meet;
+		}
 		if (!(t <= until))
 			return hit_none();
 		pose p = pose_at(a, b, t);
@@ -90,16 +96,6 @@ float4 search_from(VERTICES_IN, body a, body b, float t, float until)
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	return hit_pause(smaller(t, 1.0f));
-}
-
-float4 search_separating(VERTICES_IN, body a, body b, float until)
-{
-	float slop = pair_slop(a, b);
-	float4 hit = search_from(VERTICES, a, b, circles_touch(a, b, slop), until);
-	if (CHANNEL(hit, HITTIMES_DONE) > 0.0f || (a.a.x == b.a.x && a.a.y == b.a.y))
-		return hit;
-	float meet = circles_meet(a, b, slop);
-	return CHANNEL(hit, HITTIMES_HIT) < meet ? search_from(VERTICES, a, b, meet, until) : hit;
 }
 
 /* The hit time of two circles without relative acceleration [4.1]: the first root of |d + t v| = ra + rb. */

@@ -82,6 +82,15 @@ uint64_t runs_hash(carom_world *world)
 	return hash;
 }
 
+uint64_t runs_hash_after(carom_world *world, uint64_t steps, uint64_t calls)
+{
+	for (uint64_t i = 0; i < calls; i++)
+		runs_step(world, steps / calls);
+	const uint64_t hash = runs_hash(world);
+	carom_world_destroy(world);
+	return hash;
+}
+
 void runs_near(double found, double expected, double tolerance)
 {
 	if (!(fabs(found - expected) <= tolerance))

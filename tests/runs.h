@@ -20,6 +20,8 @@ carom_report runs_advance(carom_world *world, double seconds);
 carom_body_state runs_state(carom_world *world, uint32_t index);
 carom_measure runs_measure(carom_world *world);
 uint64_t runs_hash(carom_world *world);
+/* The hash after so many steps, in so many calls; destroys the world. */
+uint64_t runs_hash_after(carom_world *world, uint64_t steps, uint64_t calls);
 
 void runs_near(double found, double expected, double tolerance);
 /* The same hash on every device: `first` is 0 before the first. */

@@ -161,15 +161,6 @@ static void each_step_is_as_foretold(void **unused)
 
 /* ---- Bits */
 
-static uint64_t hash_after(carom_world *world, uint64_t steps, uint64_t calls)
-{
-	for (uint64_t i = 0; i < calls; i++)
-		runs_step(world, steps / calls);
-	const uint64_t hash = runs_hash(world);
-	carom_world_destroy(world);
-	return hash;
-}
-
 static void devices_and_calls_change_no_bit(void **unused)
 {
 	(void)unused;
@@ -182,7 +173,7 @@ static void devices_and_calls_change_no_bit(void **unused)
 			for (int cut = 0; cut < 3; cut++) {
 				carom_world *world = runs_world(&def, device, bodies, s->count);
 				if (world)
-					runs_same_hash(&first, hash_after(world, steps, cut == 0 ? 1 : cut == 1 ? 2 : steps), device);
+					runs_same_hash(&first, runs_hash_after(world, steps, cut == 0 ? 1 : cut == 1 ? 2 : steps), device);
 			}
 		}
 	}
@@ -199,7 +190,7 @@ static void threads_change_no_bit(void **unused)
 			def.threads = threads;
 			carom_world *world = runs_world(&def, &scenery_devices[0], bodies, s->count);
 			if (world)
-				runs_same_hash(&first, hash_after(world, runs_affordable(60), 1), &scenery_devices[0]);
+				runs_same_hash(&first, runs_hash_after(world, runs_affordable(60), 1), &scenery_devices[0]);
 		}
 	}
 }
@@ -226,7 +217,7 @@ static void advancing_in_pieces_changes_no_bit(void **unused)
 				runs_near(carom_world_time(world), 0.777, 1e-9);
 				assert_true(hits == 0 || hits == sum);
 				hits = sum;
-				runs_same_hash(&first, hash_after(world, 0, 1), device);
+				runs_same_hash(&first, runs_hash_after(world, 0, 1), device);
 			}
 		}
 	}

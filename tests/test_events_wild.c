@@ -66,16 +66,6 @@ static carom_world_def wild_world(uint64_t seed, carom_body_def *bodies, uint32_
 	return def;
 }
 
-/* The hash after so many steps in so many calls. */
-static uint64_t run(carom_world *world, uint32_t steps, uint32_t calls)
-{
-	for (uint32_t i = 0; i < calls; i++)
-		runs_step(world, steps / calls);
-	const uint64_t hash = runs_hash(world);
-	carom_world_destroy(world);
-	return hash;
-}
-
 /* Written to a scene half of the way, and read again. */
 static uint64_t run_in_halves(carom_world *world, uint32_t steps)
 {
@@ -92,7 +82,7 @@ static uint64_t run_in_halves(carom_world *world, uint32_t steps)
 	scene->world.device = "cpu";
 	scenery_check(carom_scene_create_world(scene, &world, &error), &error);
 	carom_scene_destroy(scene);
-	return run(world, steps - steps / 2, 1);
+	return runs_hash_after(world, steps - steps / 2, 1);
 }
 
 /* In each of these worlds a pause was found or not, by chance, or a hit upon what was held not found. */
@@ -110,11 +100,11 @@ static void wild_worlds_have_one_hash(void **unused)
 		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = runs_world(&def, device, bodies, count);
 			if (world)
-				runs_same_hash(&first, run(world, steps, 1), device);
+				runs_same_hash(&first, runs_hash_after(world, steps, 1), device);
 		}
 		runs_same_hash(&first, run_in_halves(runs_world(&def, scenery_devices, bodies, count), steps), scenery_devices);
 		for (def.threads = 1; def.threads <= 3; def.threads++)
-			runs_same_hash(&first, run(runs_world(&def, scenery_devices, bodies, count), steps, steps), scenery_devices);
+			runs_same_hash(&first, runs_hash_after(runs_world(&def, scenery_devices, bodies, count), steps, steps), scenery_devices);
 	}
 }
 

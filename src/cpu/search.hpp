@@ -7,19 +7,31 @@
 
 namespace carom::cpu {
 
+/* When the centres come within reach of each other, without pushes. */
+template <typename T> T centres_near(const Convex<T> &a, const Convex<T> &b, T reach)
+{
+	const Vec<T> d = b.x - a.x, v = b.v - a.v;
+	const T way = norm(d) - reach;
+	if (way <= 0)
+		return 0;
+	const T x = cross(d, v), approach = inner(d, v), under = (reach * reach) * inner(v, v) - x * x;
+	return approach >= 0 || under < 0 ? infinite<T> : (way * (norm(d) + reach)) / (std::sqrt(under) - approach);
+}
+
 /* When the circles about the bodies touch, or a time before that. */
 template <typename T> T circles_touch(const Convex<T> &a, const Convex<T> &b, T slop)
 {
-	Vec<T> d = b.x - a.x, v = b.v - a.v, acceleration = b.a - a.a;
-	T push = norm(acceleration), reach = (a.radius + b.radius) + slop, way = norm(d) - reach;
-	if (way <= 0)
-		return 0;
-	if (push > 0)
-		return way / (norm(v) + push);
-	T square = inner(v, v), x = cross(d, v), approach = inner(d, v), under = (reach * reach) * square - x * x;
-	if (approach >= 0 || under < 0)
-		return infinite<T>;
-	return (way * (norm(d) + reach)) / (std::sqrt(under) - approach);
+	const T push = norm(b.a - a.a), reach = (a.radius + b.radius) + slop;
+	if (!(push > 0))
+		return centres_near(a, b, reach);
+	const T way = norm(b.x - a.x) - reach;
+	return way <= 0 ? T(0) : way / (norm(b.v - a.v) + push);
+}
+
+/* Nearer to that, where pushes differ: before it no two bodies have a hit, and so none has a pause, for others take it that there is nothing. */
+template <typename T> T circles_meet(const Convex<T> &a, const Convex<T> &b, T slop)
+{
+	return centres_near(a, b, ((a.radius + b.radius) + slop) + T(0.5) * norm(b.a - a.a));
 }
 
 /* How the incident body can move against the axis while the reference turns with it, for the rest of the step. */
@@ -61,20 +73,16 @@ template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a,
 	return least;
 }
 
-/* Before that no two bodies have a hit, however they are pushed, and so none has a pause: others take it that there is nothing before. */
-template <typename T> T circles_meet(const Convex<T> &a, const Convex<T> &b, T slop)
+template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 {
-	const Vec<T> d = b.x - a.x, v = b.v - a.v;
-	const T reach = ((a.radius + b.radius) + slop) + T(0.5) * norm(b.a - a.a), way = norm(d) - reach;
-	if (way <= 0)
-		return 0;
-	const T x = cross(d, v), approach = inner(d, v), under = (reach * reach) * inner(v, v) - x * x;
-	return approach >= 0 || under < 0 ? infinite<T> : (way * (norm(d) + reach)) / (std::sqrt(under) - approach);
-}
-
-template <typename T> HitTime<T> search_from(const Pair<T> &pair, T t)
-{
-	for (int k = 0; k < SEARCH_LIMIT; k++) {
+	T t = circles_touch(pair.a, pair.b, pair.slop);
+	for (int k = 0; k < 2 * SEARCH_LIMIT; k++) {
+		if (k == SEARCH_LIMIT) {
+			const T meet = circles_meet(pair.a, pair.b, pair.slop);
+			if (!(smaller(t, T(1)) < meet))
+				break;
+			t = meet;
+		}
 		if (!(t <= pair.until))
 			return no_hit<T>();
 		Pose<T> pose_at_t = pose(pair.a, pair.b, t);
@@ -86,15 +94,6 @@ template <typename T> HitTime<T> search_from(const Pair<T> &pair, T t)
 		t = t + (touching ? larger(safe, creep_time(pair.slop, pair.stillness)) : safe);
 	}
 	return pause_at(smaller(t, T(1)));
-}
-
-template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
-{
-	const HitTime<T> hit = search_from(pair, circles_touch(pair.a, pair.b, pair.slop));
-	if (hit.done > 0 || (pair.a.a.x() == pair.b.a.x() && pair.a.a.y() == pair.b.a.y()))
-		return hit;
-	const T meet = circles_meet(pair.a, pair.b, pair.slop);
-	return hit.hit < meet ? search_from(pair, meet) : hit;
 }
 
 }
