@@ -127,6 +127,7 @@ help:
 	@echo 'make check-threads   build and run what has threads with the thread sanitizer'
 	@echo 'make conformance     run the tests on every OpenCL implementation that is installed, and from several compilers'
 	@echo 'make fuzz            feed made-up scenes and calls to the library, with clang and libFuzzer, FUZZ_SECONDS=600 each'
+	@echo 'make wild            run made-up worlds on every device and ask for one outcome, WILD_SECONDS=600, from world WILD_SEED=1 on'
 	@echo 'make bench           measure the tables of the paper, scale and tunnel, and write them into build/bench/'
 	@echo 'make pictures        draw the pictures of README.md into docs/'
 	@echo 'make install         install below PREFIX=$(PREFIX), libraries into LIBDIR=PREFIX/lib, staged in DESTDIR='
@@ -270,6 +271,14 @@ fuzz-%:
 		-max_len=4096 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/found/$*- $(FUZZ) $(addprefix -dict=,$(wildcard tests/fuzz/$*.dict)) \
 		$(BUILD)/fuzz/corpus/$* $(wildcard tests/corpus/$*) $(FUZZ_SEEDS_$*) </dev/null
 
+# ---- Worlds that nobody would make: the one of a WILD_SEED that failed is the first when it is asked for again.
+
+WILD_SECONDS ?= 600
+WILD_SEED ?= 1
+
+wild: $(BUILD)/tests/test_events_wild
+	CAROM_BUILD=$(BUILD) CAROM_WILD_SECONDS=$(WILD_SECONDS) CAROM_WILD_SEED=$(WILD_SEED) $<
+
 ALL_INCLUDES := $(INCLUDES) -Itests $(PACKAGES) $(EIGEN) $(CMOCKA) $(CAIRO_INCLUDES) $(BOX2D_INCLUDES)
 quoted = $(subst ','\'',$(1))
 
@@ -376,7 +385,7 @@ clean:
 	rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all help check check-threads run-threads fuzz fuzzers conformance static doc demo bench pictures install uninstall dist distcheck clean FORCE
+.PHONY: all help check check-threads run-threads fuzz fuzzers wild conformance static doc demo bench pictures install uninstall dist distcheck clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := all

@@ -1,80 +1,45 @@
-/* Worlds that nobody would make: tiny bodies that torques spin up to millions of rad/s, others at hundreds of m/s, forces of their own. Whatever comes of them, it is
- * the same on every device, with any number of threads, and when a run stops and goes on. */
+/* Whatever comes of a wild world, it is the same on every device, with any number of threads, and when a run stops and goes on. */
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "runs.h"
+#include "wild.h"
 
-enum { MOST = 72 };
+/* What a run came to. */
+typedef struct outcome {
+	uint64_t hash, hits, held;
+} outcome;
 
-static uint32_t below(scenery_random *random, uint32_t end)
+static void go_on(carom_world *world, uint32_t steps, uint32_t calls, outcome *o)
 {
-	return (uint32_t)scenery_uniform(random, 0.0f, (float)end);
+	for (uint32_t i = 0; i < calls; i++) {
+		const carom_report report = runs_step(world, steps / calls);
+		o->hits += report.hits;
+		o->held += report.held;
+	}
 }
 
-static bool one_in(scenery_random *random, uint32_t many)
+/* Destroys the world. */
+static outcome run(carom_world *world, uint32_t steps, uint32_t calls)
 {
-	return below(random, many) == 0;
-}
-
-static carom_body_def wild_body(scenery_random *random, uint32_t shapes, float speed)
-{
-	const float small = one_in(random, 6) ? 0.02f : 0.6f, radius = 0.5f * scenery_uniform(random, small, 1.0f);
-	carom_body_def body = scenery_circle(0.0f, 0.0f, scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed), radius);
-	if (shapes == 1 || (shapes == 2 && one_in(random, 2))) {
-		body.shape = CAROM_REGULAR;
-		body.sides = 3 + below(random, 5);
-		body.angle = scenery_uniform(random, -3.0f, 3.0f);
-		body.angular_velocity = scenery_uniform(random, -5.0f, 5.0f);
-	}
-	if (one_in(random, 12))
-		body.is_static = true;
-	if (one_in(random, 8))
-		body.mass = scenery_uniform(random, 0.01f, 100.0f);
-	if (one_in(random, 15) && !body.is_static)
-		body.force = (carom_vec2){scenery_uniform(random, -3.0f, 3.0f), scenery_uniform(random, -3.0f, 3.0f)};
-	if (one_in(random, 8) && !body.is_static && body.shape == CAROM_REGULAR)
-		body.torque = scenery_uniform(random, -1.0f, 1.0f);
-	if (body.is_static) {
-		body.velocity = (carom_vec2){0.0f, 0.0f};
-		body.angular_velocity = 0.0f;
-	}
-	return body;
-}
-
-/* On a lattice in a room, which may be far from the origin. */
-static carom_world_def wild_world(uint64_t seed, carom_body_def *bodies, uint32_t *count)
-{
-	static const float restitutions[] = {0.0f, 0.0f, 0.3f, 0.9f, 1.0f, 1.0f};
-	scenery_random random = {seed};
-	carom_world_def def = runs_def();
-	const uint32_t shapes = below(&random, 3), side = 2 + below(&random, 7);
-	const float pitch = scenery_uniform(&random, 1.02f, 2.0f), half = 0.5f * (float)side * pitch + 0.6f;
-	const float middle = one_in(&random, 3) ? scenery_uniform(&random, -200.0f, 200.0f) : 0.0f;
-	const float speed = one_in(&random, 12) ? 300.0f : scenery_uniform(&random, 0.0f, 10.0f);
-	def.restitution = restitutions[below(&random, 6)];
-	def.gravity.y = one_in(&random, 2) ? -scenery_uniform(&random, 0.0f, 20.0f) : 0.0f;
-	def.has_room = true;
-	def.room_min = (carom_vec2){middle - half, -half};
-	def.room_max = (carom_vec2){middle + half, half};
-	*count = side * side;
-	for (uint32_t i = 0; i < *count; i++) {
-		bodies[i] = wild_body(&random, shapes, speed);
-		bodies[i].position.x = middle + ((float)(i % side) - 0.5f * (float)(side - 1)) * pitch;
-		bodies[i].position.y = ((float)(i / side) - 0.5f * (float)(side - 1)) * pitch;
-	}
-	return def;
+	outcome o = {0, 0, 0};
+	go_on(world, steps, calls, &o);
+	o.hash = runs_hash(world);
+	carom_world_destroy(world);
+	return o;
 }
 
 /* Written to a scene half of the way, and read again. */
-static uint64_t run_in_halves(carom_world *world, uint32_t steps)
+static outcome run_in_halves(carom_world *world, uint32_t steps)
 {
 	char path[] = "/tmp/carom-wild-XXXXXX";
 	carom_error error;
 	carom_scene *scene = NULL;
+	outcome o = {0, 0, 0};
 	const int file = mkstemp(path);
 	assert_true(file >= 0 && close(file) == 0);
-	runs_step(world, steps / 2);
+	go_on(world, steps / 2, 1, &o);
 	scenery_check(carom_world_write_scene(world, NULL, path, &error), &error);
 	carom_world_destroy(world);
 	scenery_check(carom_scene_read(path, &scene, &error), &error);
@@ -82,34 +47,69 @@ static uint64_t run_in_halves(carom_world *world, uint32_t steps)
 	scene->world.device = "cpu";
 	scenery_check(carom_scene_create_world(scene, &world, &error), &error);
 	carom_scene_destroy(scene);
-	return runs_hash_after(world, steps - steps / 2, 1);
+	go_on(world, steps - steps / 2, 1, &o);
+	o.hash = runs_hash(world);
+	carom_world_destroy(world);
+	return o;
+}
+
+static void check_same(const outcome *first, outcome found, const scenery_device *device, const char *how)
+{
+	if (found.hash != first->hash || found.hits != first->hits || found.held != first->held)
+		fail_msg("%s%s, %s: hash %016llx, %llu hits, %llu held; at first it was %016llx, %llu, %llu", device->name,
+			device->storage == CAROM_STORAGE_IMAGE ? " images" : "", how, (unsigned long long)found.hash, (unsigned long long)found.hits,
+			(unsigned long long)found.held, (unsigned long long)first->hash, (unsigned long long)first->hits, (unsigned long long)first->held);
+}
+
+/* On one thread of the CPU fallback, and in all other ways. */
+static void check_one_outcome(wild_world *wild, uint32_t steps)
+{
+	const scenery_device *cpu = scenery_devices;
+	wild->def.threads = 1;
+	const outcome first = run(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, 1);
+	print_message("%u bodies, %llu hits\n", (unsigned)wild->count, (unsigned long long)first.hits);
+	wild->def.threads = 2;
+	check_same(&first, run_in_halves(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps), cpu, "in halves");
+	for (; wild->def.threads <= 3; wild->def.threads++)
+		check_same(&first, run(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, steps), cpu, "step by step");
+	for (const scenery_device *device = scenery_devices + 1; device < scenery_devices + scenery_device_count; device++) {
+		carom_world *world = runs_world(&wild->def, device, wild->bodies, wild->count);
+		if (world)
+			check_same(&first, run(world, steps, 1), device, "in one go");
+	}
 }
 
 /* In each of these worlds a pause was found or not, by chance, or a hit upon what was held not found. */
-static void wild_worlds_have_one_hash(void **unused)
+static void wild_worlds_have_one_outcome(void **unused)
 {
 	(void)unused;
 	static const uint64_t seeds[] = {42, 143, 494, 612, 812};
-	const uint32_t steps = (uint32_t)runs_affordable(120);
+	static wild_world wild;
 	for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
-		carom_body_def bodies[MOST];
-		uint32_t count;
-		uint64_t first = 0;
-		carom_world_def def = wild_world(seeds[i], bodies, &count);
-		print_message("seed %u: %u bodies\n", (unsigned)seeds[i], (unsigned)count);
-		SCENERY_EACH_DEVICE(device) {
-			carom_world *world = runs_world(&def, device, bodies, count);
-			if (world)
-				runs_same_hash(&first, runs_hash_after(world, steps, 1), device);
-		}
-		runs_same_hash(&first, run_in_halves(runs_world(&def, scenery_devices, bodies, count), steps), scenery_devices);
-		for (def.threads = 1; def.threads <= 3; def.threads++)
-			runs_same_hash(&first, runs_hash_after(runs_world(&def, scenery_devices, bodies, count), steps, steps), scenery_devices);
+		print_message("seed %u: ", (unsigned)seeds[i]);
+		wild_make(seeds[i], &wild);
+		check_one_outcome(&wild, (uint32_t)runs_affordable(120));
+	}
+}
+
+/* For so many seconds, from some seed on: `make wild`. */
+static void other_worlds_have_one_outcome(void **unused)
+{
+	(void)unused;
+	static wild_world wild;
+	const char *seconds = getenv("CAROM_WILD_SECONDS"), *from = getenv("CAROM_WILD_SEED");
+	const time_t begun = time(NULL);
+	for (uint64_t seed = from ? strtoull(from, NULL, 10) : 1; difftime(time(NULL), begun) < strtod(seconds, NULL); seed++) {
+		print_message("CAROM_WILD_SEED=%llu: ", (unsigned long long)seed);
+		wild_make_wider(seed, &wild);
+		check_one_outcome(&wild, (uint32_t)runs_affordable(60));
 	}
 }
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test(wild_worlds_have_one_hash)};
-	return cmocka_run_group_tests_name("events_wild", tests, NULL, NULL);
+	const struct CMUnitTest kept[] = {cmocka_unit_test(wild_worlds_have_one_outcome)}, others[] = {cmocka_unit_test(other_worlds_have_one_outcome)};
+	if (getenv("CAROM_WILD_SECONDS"))
+		return cmocka_run_group_tests_name("events_wild_others", others, NULL, NULL);
+	return cmocka_run_group_tests_name("events_wild", kept, NULL, NULL);
 }

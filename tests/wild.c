@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT */
+#include "wild.h"
+
+#include <math.h>
+
+#include "runs.h"
+
+static uint32_t below(scenery_random *random, uint32_t end)
+{
+	return (uint32_t)scenery_uniform(random, 0.0f, (float)end);
+}
+
+static bool one_in(scenery_random *random, uint32_t many)
+{
+	return below(random, many) == 0;
+}
+
+static carom_body_def wild_body(scenery_random *random, uint32_t shapes, float speed)
+{
+	const float small = one_in(random, 6) ? 0.02f : 0.6f, radius = 0.5f * scenery_uniform(random, small, 1.0f);
+	carom_body_def body = scenery_circle(0.0f, 0.0f, scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed), radius);
+	if (shapes == 1 || (shapes == 2 && one_in(random, 2))) {
+		body.shape = CAROM_REGULAR;
+		body.sides = 3 + below(random, 5);
+		body.angle = scenery_uniform(random, -3.0f, 3.0f);
+		body.angular_velocity = scenery_uniform(random, -5.0f, 5.0f);
+	}
+	if (one_in(random, 12))
+		body.is_static = true;
+	if (one_in(random, 8))
+		body.mass = scenery_uniform(random, 0.01f, 100.0f);
+	if (one_in(random, 15) && !body.is_static)
+		body.force = (carom_vec2){scenery_uniform(random, -3.0f, 3.0f), scenery_uniform(random, -3.0f, 3.0f)};
+	if (one_in(random, 8) && !body.is_static && body.shape == CAROM_REGULAR)
+		body.torque = scenery_uniform(random, -1.0f, 1.0f);
+	if (body.is_static) {
+		body.velocity = (carom_vec2){0.0f, 0.0f};
+		body.angular_velocity = 0.0f;
+	}
+	return body;
+}
+
+static void make(scenery_random *random, uint32_t sides, wild_world *world)
+{
+	static const float restitutions[] = {0.0f, 0.0f, 0.3f, 0.9f, 1.0f, 1.0f};
+	carom_world_def *def = &world->def;
+	*def = runs_def();
+	const uint32_t shapes = below(random, 3), side = 2 + below(random, sides);
+	const float pitch = scenery_uniform(random, 1.02f, 2.0f), half = 0.5f * (float)side * pitch + 0.6f;
+	const float middle = one_in(random, 3) ? scenery_uniform(random, -200.0f, 200.0f) : 0.0f;
+	const float speed = one_in(random, 12) ? 300.0f : scenery_uniform(random, 0.0f, 10.0f);
+	def->restitution = restitutions[below(random, 6)];
+	def->gravity.y = one_in(random, 2) ? -scenery_uniform(random, 0.0f, 20.0f) : 0.0f;
+	def->has_room = true;
+	def->room_min = (carom_vec2){middle - half, -half};
+	def->room_max = (carom_vec2){middle + half, half};
+	world->count = side * side;
+	for (uint32_t i = 0; i < world->count; i++) {
+		carom_body_def *body = &world->bodies[i];
+		*body = wild_body(random, shapes, speed);
+		body->position.x = middle + ((float)(i % side) - 0.5f * (float)(side - 1)) * pitch;
+		body->position.y = ((float)(i / side) - 0.5f * (float)(side - 1)) * pitch;
+	}
+}
+
+void wild_make(uint64_t seed, wild_world *world)
+{
+	scenery_random random = {seed};
+	make(&random, 7, world);
+}
+
+/* Corners on an ellipse, in order: convex, with edges of all lengths. */
+static void make_outline(scenery_random *random, carom_vec2 *corners)
+{
+	const float flat = scenery_uniform(random, 0.1f, 1.0f), turn = 6.2831853f / (float)WILD_CORNERS;
+	for (uint32_t i = 0; i < WILD_CORNERS; i++) {
+		const float angle = ((float)i + scenery_uniform(random, 0.0f, 0.95f)) * turn;
+		corners[i] = (carom_vec2){0.45f * cosf(angle), 0.45f * flat * sinf(angle)};
+	}
+}
+
+/* Beside the others, or in their midst. */
+static void add_large(scenery_random *random, wild_world *world)
+{
+	carom_body_def large = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, scenery_uniform(random, 2.0f, 20.0f));
+	large.position.x = 0.5f * (world->def.room_min.x + world->def.room_max.x);
+	large.is_static = one_in(random, 2);
+	if (one_in(random, 2)) {
+		large.shape = CAROM_REGULAR;
+		large.sides = 3 + below(random, 60);
+	}
+	if (!large.is_static)
+		large.velocity = (carom_vec2){scenery_uniform(random, -20.0f, 20.0f), scenery_uniform(random, -20.0f, 20.0f)};
+	if (one_in(random, 2)) {
+		world->def.has_room = false;
+		large.position.y = world->def.room_min.y - large.radius - 1.0f;
+	} else {
+		world->def.room_min.y -= 3.0f * large.radius;
+		world->def.room_min.x -= large.radius;
+		world->def.room_max.x += large.radius;
+		large.position.y = world->def.room_min.y + 1.5f * large.radius;
+	}
+	world->bodies[world->count++] = large;
+}
+
+void wild_make_wider(uint64_t seed, wild_world *world)
+{
+	static const char *const tois[] = {"circle_quadratic", "separating"}, *const impulses[] = {"pair_exact", "accumulate"};
+	static const float steps[] = {0.005f, 1.0f / 60.0f, 1.0f / 60.0f, 0.1f};
+	scenery_random random = {seed};
+	carom_error error;
+	make(&random, one_in(&random, 6) ? WILD_SIDE - 1 : 7, world);
+	world->def.time_step = steps[below(&random, 4)];
+	scenery_check(carom_pipeline_set(&world->def.pipeline, "toi", tois[below(&random, 2)], &error), &error);
+	scenery_check(carom_pipeline_set(&world->def.pipeline, "impulse", impulses[below(&random, 4) / 3], &error), &error);
+	for (uint32_t i = 0; i < WILD_OUTLINES; i++)
+		make_outline(&random, world->outlines[i]);
+	const bool irregular = one_in(&random, 2);
+	for (uint32_t i = 0; i < world->count; i++) {
+		carom_body_def *body = &world->bodies[i];
+		if (!irregular || body->shape == CAROM_CIRCLE || one_in(&random, 2))
+			continue;
+		body->shape = CAROM_POLYGON;
+		body->vertices = world->outlines[below(&random, WILD_OUTLINES)];
+		body->vertex_count = WILD_CORNERS;
+	}
+	if (one_in(&random, 6))
+		world->def.has_room = false;
+	if (one_in(&random, 3))
+		add_large(&random, world);
+}

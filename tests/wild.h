@@ -1,0 +1,23 @@
+/* Worlds that nobody would make: tiny bodies that torques spin up to millions of rad/s, others at hundreds of m/s, forces of their own.
+ * SPDX-License-Identifier: MIT */
+#ifndef CAROM_TESTS_WILD_H
+#define CAROM_TESTS_WILD_H
+
+#include "scenery.h"
+
+enum { WILD_SIDE = 24, WILD_MOST = WILD_SIDE * WILD_SIDE + 1, WILD_OUTLINES = 8, WILD_CORNERS = 9 };
+
+/* `bodies` point into `outlines`. */
+typedef struct wild_world {
+	carom_world_def def;
+	uint32_t count;
+	carom_body_def bodies[WILD_MOST];
+	carom_vec2 outlines[WILD_OUTLINES][WILD_CORNERS];
+} wild_world;
+
+/* Up to 64 circles and regular polygons on a lattice in a room, which may be far from the origin. */
+void wild_make(uint64_t seed, wild_world *world);
+/* Of any size, by other rules, among them irregular polygons and one large body, with walls or without. */
+void wild_make_wider(uint64_t seed, wild_world *world);
+
+#endif
