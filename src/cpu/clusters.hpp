@@ -73,32 +73,6 @@ public:
 		}
 	}
 
-	/* A body has a hit as the step begins, and so a number; others may ask for it when the kernel has ended. */
-	void activate(int32_t s, int32_t partner, const typename Bodies<T>::Found &hit, int32_t round) const
-	{
-		keep(s, partner, hit);
-		if (__atomic_load_n(&owners[s], __ATOMIC_RELAXED) != -1 || !take(s, -2))
-			return;
-		const int32_t id = fetch_add(&status[STATUS_ACTIVE], 1);
-		active[id] = s;
-		members[id].owner = id;
-		members[id].round = round;
-		__atomic_store_n(&owners[s], id, __ATOMIC_RELEASE);
-		__atomic_store_n(&status[STATUS_ROUND], round, __ATOMIC_RELAXED);
-	}
-
-	/* What the body hits at first. In double (the tests' oracle) times have no room here, and are found again. */
-	void keep(int32_t s, int32_t partner, const typename Bodies<T>::Found &hit) const
-	{
-		const int32_t k = fetch_add(&status[STATUS_FOUND], 1);
-		if (sizeof(T) != sizeof(float) || k >= status[STATUS_NODE_ROOM] * NODE_WIDTH / FOUND_WIDTH) {
-			__atomic_store_n(&spans[s].found, FOUND_NO_ROOM, __ATOMIC_RELAXED);
-			return;
-		}
-		const float time = static_cast<float>(hit.time);
-		found[k] = {partner, as_bits(hit.is_pause ? -time : time), __atomic_exchange_n(&spans[s].found, k, __ATOMIC_RELAXED)};
-	}
-
 	bool take(int32_t s, int32_t id) const
 	{
 		int32_t nobody = -1;

@@ -7,7 +7,7 @@
 namespace carom::cpu {
 
 constexpr uint32_t most_threads = 256;       /* a mistyped number should not take the machine down */
-constexpr int32_t chunks_a_thread = 2;       /* that what is left should make */
+constexpr int32_t chunks_a_range = 2;        /* that what is left of it should make */
 constexpr int most_yields = 50, polls = 500; /* some 50 us */
 
 /* Of Pool::state: a job's number times `numbers`, `is_open`, and the workers at it. */
@@ -40,12 +40,13 @@ Pool::Pool(uint32_t threads)
 	if (threads == 0)
 		threads = std::thread::hardware_concurrency();
 	threads = std::clamp(threads, 1u, most_threads);
+	ranges = std::vector<Range>(threads);
 	workers.reserve(threads - 1);
 	try {
 		while (workers.size() + 1 < threads)
-			workers.emplace_back(&Pool::serve, this);
+			workers.emplace_back(&Pool::serve, this, workers.size() + 1);
 	} catch (const std::exception &) {
-		/* There are no more threads to be had; the caller can do all the work. */
+		/* There are no more threads to be had; the others do the work. */
 	}
 }
 
@@ -68,7 +69,7 @@ void Pool::run(int32_t rows, int32_t chunk, const Work &work)
 		return;
 	}
 	open(work, rows, chunk);
-	take_chunks();
+	take_chunks(0);
 	close();
 	if (failed)
 		throw std::bad_alloc();
@@ -79,8 +80,11 @@ void Pool::open(const Work &work, int32_t rows, int32_t chunk)
 	job = &work;
 	most = chunk;
 	least = std::max(chunk / 32, 1);
-	shares = chunks_a_thread * static_cast<int32_t>(workers.size() + 1);
-	left = rows;
+	const int64_t many = static_cast<int64_t>(ranges.size());
+	for (int64_t i = 0; i < many; i++) {
+		ranges[i].begin = static_cast<int32_t>(rows * i / many);
+		ranges[i].end = static_cast<int32_t>(rows * (i + 1) / many);
+	}
 	failed = false;
 	state = number_of(state + numbers) * numbers + is_open;
 	if (sleepers > 0) {
@@ -125,23 +129,30 @@ void Pool::leave()
 	}
 }
 
-void Pool::take_chunks()
+/* First of its own range, then of those that others have not done. */
+void Pool::take_chunks(size_t own)
 {
-	int32_t rest = left;
-	while (rest > 0) {
-		const int32_t size = std::min(std::clamp(rest / shares, least, most), rest);
-		if (!left.compare_exchange_weak(rest, rest - size))
+	for (size_t i = 0; i < ranges.size(); i++)
+		take_chunks_of(ranges[(own + i) % ranges.size()]);
+}
+
+void Pool::take_chunks_of(Range &range)
+{
+	int32_t end = range.end;
+	while (end > range.begin) {
+		const int32_t rest = end - range.begin, size = std::min(std::clamp(rest / chunks_a_range, least, most), rest);
+		if (!range.end.compare_exchange_weak(end, end - size))
 			continue;
 		try {
-			(*job)(rest - size, rest);
+			(*job)(end - size, end);
 		} catch (const std::exception &) {
 			failed = true;
 		}
-		rest = left;
+		end = range.end;
 	}
 }
 
-void Pool::serve()
+void Pool::serve(size_t own)
 {
 	uint32_t seen = 0;
 	bool has_joined = false;
@@ -156,7 +167,7 @@ void Pool::serve()
 		}
 		if (!has_joined)
 			return;
-		take_chunks();
+		take_chunks(own);
 		leave();
 		has_joined = false;
 	}

@@ -10,6 +10,17 @@
 
 namespace carom::cpu {
 
+/* What clusters did. */
+struct Tally {
+	int32_t hits, held;
+
+	Tally &operator+=(const Tally &other)
+	{
+		hits += other.hits, held += other.held;
+		return *this;
+	}
+};
+
 /* One cluster, by its leader's number. */
 template <typename T> class Queue
 {
@@ -20,17 +31,17 @@ public:
 	{
 	}
 
-	void run()
+	Tally run()
 	{
 		if (head < 0)
-			return;
+			return {0, 0};
 		for (int32_t m = head; m >= 0; m = members[m].link) {
 			recall(m);
 			heap.add(m);
 		}
 		while (answer_first()) {
 		}
-		count();
+		return count();
 	}
 
 private:
@@ -347,20 +358,16 @@ private:
 		return false;
 	}
 
-	/* Adds up what the cluster did; one that is given up did nothing. */
-	void count()
+	/* What a finished cluster did; one that is given up did nothing. */
+	Tally count()
 	{
-		int32_t hits = 0, held = 0;
+		Tally tally{0, 0};
 		for (int32_t m = head; m >= 0; m = members[m].link) {
-			hits += members[m].hits;
-			held += work[m].held > 0;
+			tally += {members[m].hits, work[m].held > 0};
 			if (!finished)
 				members[m].hits = members[m].events = 0;
 		}
-		if (finished) {
-			fetch_add(&clusters.status[STATUS_HITS], hits);
-			fetch_add(&clusters.status[STATUS_HELD], held);
-		}
+		return finished ? tally : Tally{0, 0};
 	}
 
 	const Clusters<T> &clusters;
