@@ -232,6 +232,8 @@
 #define FOUND_TIME 1    /* float bits; the sign: it is only a pause of the search */
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
+#define GROUP_MOST 64 /* work-items of a group */
+
 /* Status: ints, and some floats in their bits */
 #define STATUS_WIDTH 64
 #define STATUS_STALE 0     /* 1: the lists of neighbours are to be made anew before the next step */

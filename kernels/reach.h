@@ -129,6 +129,18 @@ void member_reset(LIST_OUT(members), int id)
 	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
 }
 
+/* All that a group wants; what each of its work-items wants becomes what those before it do. To be done by one of them. */
+int group_sum(__local int *wanted)
+{
+	int sum = 0;
+	for (int i = 0; i < (int)get_local_size(0); i++) {
+		int own = wanted[i];
+		wanted[i] = sum;
+		sum += own;
+	}
+	return sum;
+}
+
 /* Room for `count` ints in Neighbours; -1 if there is not enough. */
 int neighbours_take(LIST_OUT(status), int count)
 {
@@ -210,4 +222,21 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 			near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own, from, to, list, neighbours, half_at);
 		}
 	}
+}
+
+/* Those that the list had no room for are found once more. */
+void near_again(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s, int columns, int rows,
+	int half_at, LIST_OUT(neighbours))
+{
+	near_list again;
+	again.ahead = again.behind = 0;
+	near_search(slots, reach, status, cells, nodes, members, s, columns, rows, &again, neighbours, half_at);
+}
+
+void near_write(const near_list *list, int start, int half_end, int end, LIST_OUT(neighbours))
+{
+	for (int k = start; k < half_end; k++)
+		neighbours[k] = list->found[k - start];
+	for (int k = half_end; k < end; k++)
+		neighbours[k] = list->found[NEAR_MOST - 1 - (k - half_end)];
 }

@@ -1,6 +1,66 @@
-/* The hits that the step begins with, of the pairs that this slot watches. */
+/* The hits that a step begins with. To count where all work-items count costs as much as the search for a hit: those of a group are counted at once. */
+
+#define SEEDS_MOST 4 /* of a slot; those beyond are counted each alone */
+
+/* Hits that a slot found, once for each body that they change. */
+typedef struct seeds {
+	int count;
+	int bodies[SEEDS_MOST], partners[SEEDS_MOST], times[SEEDS_MOST]; /* a slot, and as in Found */
+	int taken;                                                      /* bits: whose body has no number yet */
+} seeds;
+
+void seeds_add(LISTS_IN, LIST_OUT(owners), seeds *all, int s, int partner, float time, bool pause, int round)
+{
+	if (all->count == SEEDS_MOST) {
+		activate(LISTS, owners, s, partner, time, pause, round);
+		return;
+	}
+	all->bodies[all->count] = s;
+	all->partners[all->count] = partner;
+	all->times[all->count++] = as_int(pause ? -time : time);
+}
+
+/* How many entries of Found are wanted, and SEEDS_NUMBER times how many numbers, for bodies that nobody has taken before. */
+#define SEEDS_NUMBER 65536
+
+int seeds_take(LIST_OUT(owners), seeds *all)
+{
+	int numbers = 0;
+	all->taken = 0;
+	for (int i = 0; i < all->count; i++) {
+		int s = all->bodies[i];
+		if (PEEK(owners, s) != -1 || atomic_cmpxchg(&owners[s], -1, -2) != -1)
+			continue;
+		all->taken |= 1 << i;
+		numbers++;
+	}
+	return all->count + SEEDS_NUMBER * numbers;
+}
+
+/* Room for all that the group wants: where its entries and numbers begin. */
+void seeds_count(LIST_OUT(status), int sum, __local int *first, int round)
+{
+	if (sum == 0)
+		return;
+	first[0] = atomic_add(&status[STATUS_FOUND], sum % SEEDS_NUMBER);
+	first[1] = atomic_add(&status[STATUS_ACTIVE], sum / SEEDS_NUMBER);
+	if (PEEK(status, STATUS_ROUND) < round)
+		atomic_max(&status[STATUS_ROUND], round);
+}
+
+/* Others may ask for the numbers when the kernel has ended. */
+void seeds_activate(LISTS_IN, LIST_OUT(owners), const seeds *all, int entry, int id, int round)
+{
+	for (int i = 0; i < all->count; i++) {
+		found_keep(spans, status, found, entry + i, all->bodies[i], all->partners[i], all->times[i]);
+		if (all->taken & (1 << i))
+			activate_as(members, active, owners, id++, all->bodies[i], round);
+	}
+}
+
+/* Of the pairs that this slot watches. */
 void seek_neighbours(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), float4 rules, int s, trajectory k, float length,
-	float ahead, int round)
+	float ahead, int round, seeds *all)
 {
 	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
 	int changed = wakes[WAKE(s, WAKE_CHANGED)], half_end = spans[SPAN(s, SPAN_HALF)], end = changed > 0 ? spans[SPAN(s, SPAN_END)] : half_end;
@@ -19,10 +79,32 @@ void seek_neighbours(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), 
 			continue;
 		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
 		if (changes)
-			activate(LISTS, owners, s, other, t, pause, round);
+			seeds_add(LISTS, owners, all, s, other, t, pause, round);
 		if (other_changes)
-			activate(LISTS, owners, other, s, t, pause, round);
+			seeds_add(LISTS, owners, all, other, s, t, pause, round);
 		if (changes && other_changes)
 			unite(parents, s, other);
 	}
+}
+
+/* All that the slot looks at, if it is awake. */
+void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int s, float length, int round, seeds *all)
+{
+	int wall;
+	bool pause;
+	if (s == 0)
+		status[STATUS_BEGUN] = round;
+	if (status[STATUS_AGE] == 0)
+		wakes[WAKE(s, WAKE_CHANGED)] = 0;
+	else if (wakes[WAKE(s, WAKE_NEXT)] > status[STATUS_AGE])
+		return;
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
+	trajectory k = trajectory_start(slots, s);
+	float ahead = steps_ahead(TEX(uniforms), status, length);
+	bool clear = is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
+	wakes[WAKE(s, WAKE_NEXT)] = step_of(status, clear ? 1.0f + ahead : 1.0f);
+	float t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
+	if (t <= 1.0f)
+		seeds_add(LISTS, owners, all, s, -1 - wall, t, pause, round);
+	seek_neighbours(VERTICES, slots, LISTS, owners, parents, rules, s, k, length, ahead, round, all);
 }

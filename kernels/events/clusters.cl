@@ -2,26 +2,21 @@
 
 __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
-	int s = get_global_id(0), wall;
-	bool pause;
+	__local int wanted[GROUP_MOST], first[2];
+	int s = get_global_id(0), local_id = get_local_id(0);
 	float length = step_length(TEX(uniforms), TEX(clock));
-	if (s >= domain.x || !(length > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
-		return;
-	if (s == 0)
-		status[STATUS_BEGUN] = domain.z;
-	if (status[STATUS_AGE] == 0)
-		wakes[WAKE(s, WAKE_CHANGED)] = 0;
-	else if (wakes[WAKE(s, WAKE_NEXT)] > status[STATUS_AGE])
-		return;
-	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
-	trajectory k = trajectory_start(slots, s);
-	float ahead = steps_ahead(TEX(uniforms), status, length);
-	bool clear = is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
-	wakes[WAKE(s, WAKE_NEXT)] = step_of(status, clear ? 1.0f + ahead : 1.0f);
-	float t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
-	if (t <= 1.0f)
-		activate(LISTS, owners, s, -1 - wall, t, pause, domain.z);
-	seek_neighbours(VERTICES, slots, LISTS, owners, parents, rules, s, k, length, ahead, domain.z);
+	bool begins = length > 0.0f && lists_are_good(status) && !status[STATUS_UNDER_WAY];
+	seeds all;
+	all.count = 0;
+	if (begins && s < domain.x)
+		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, s, length, domain.z, &all);
+	wanted[local_id] = seeds_take(owners, &all);
+	barrier(CLK_LOCAL_MEM_FENCE);
+	if (local_id == 0)
+		seeds_count(status, group_sum(wanted), first, domain.z);
+	barrier(CLK_LOCAL_MEM_FENCE);
+	if (all.count > 0)
+		seeds_activate(LISTS, owners, &all, first[0] + wanted[local_id] % SEEDS_NUMBER, first[1] + wanted[local_id] / SEEDS_NUMBER, domain.z);
 }
 
 __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners),

@@ -61,30 +61,29 @@ __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST
 __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans), LIST_OUT(neighbours),
 	LIST_OUT(nodes), LIST_OUT(members), LIST_OUT(extra), int4 domain)
 {
-	int s = get_global_id(0);
+	__local int wanted[GROUP_MOST], first;
+	int s = get_global_id(0), local_id = get_local_id(0);
+	near_list list;
+	list.ahead = list.behind = 0;
+	if (s < domain.x)
+		near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &list, neighbours, -1);
+	wanted[local_id] = list.ahead + list.behind;
+	barrier(CLK_LOCAL_MEM_FENCE);
+	if (local_id == 0)
+		first = neighbours_take(status, group_sum(wanted));
+	barrier(CLK_LOCAL_MEM_FENCE);
 	if (s >= domain.x)
 		return;
-	near_list list;
+	int all = first < 0 ? 0 : list.ahead + list.behind, start = first < 0 ? 0 : first + wanted[local_id], half_end = start + min(all, list.ahead);
 	extra[s] = -1;
-	list.ahead = list.behind = 0;
-	near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &list, neighbours, -1);
-	int all = list.ahead + list.behind, start = all > 0 ? neighbours_take(status, all) : 0;
-	if (start < 0)
-		all = start = list.ahead = list.behind = 0;
 	spans[SPAN(s, SPAN_START)] = start;
-	spans[SPAN(s, SPAN_HALF)] = start + list.ahead;
+	spans[SPAN(s, SPAN_HALF)] = half_end;
 	spans[SPAN(s, SPAN_END)] = start + all;
 	spans[SPAN(s, SPAN_FOUND)] = FOUND_NONE;
-	if (all > NEAR_MOST) {
-		near_list again;
-		again.ahead = again.behind = 0;
-		near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &again, neighbours + start, list.ahead);
-		return;
-	}
-	for (int k = 0; k < list.ahead; k++)
-		neighbours[start + k] = list.found[k];
-	for (int k = 0; k < list.behind; k++)
-		neighbours[start + list.ahead + k] = list.found[NEAR_MOST - 1 - k];
+	if (all > NEAR_MOST)
+		near_again(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, list.ahead, neighbours + start);
+	else
+		near_write(&list, start, half_end, start + all, neighbours);
 }
 
 /* What smaller bodies found beside this one joins its span. */

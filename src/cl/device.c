@@ -49,7 +49,7 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 static cl_int local_size(const cl_device *d, carom_stage stage, cl_kernel kernel, size_t *local)
 {
 	bool few = stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES);
-	size_t wanted = few ? 1 : 64, most = 1;
+	size_t wanted = few ? 1 : GROUP_MOST, most = 1;
 	cl_int code = d->cl.clGetKernelWorkGroupInfo(kernel, d->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
 	*local = wanted < most ? wanted : most;
 	return code;
