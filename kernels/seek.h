@@ -6,7 +6,7 @@
 typedef struct seeds {
 	int count;
 	int bodies[SEEDS_MOST], partners[SEEDS_MOST], times[SEEDS_MOST]; /* a slot, and as in Found */
-	int taken;                                                      /* bits: whose body has no number yet */
+	int taken;                                                       /* bits: whose body has no number yet */
 } seeds;
 
 void seeds_add(LISTS_IN, LIST_OUT(owners), seeds *all, int s, int partner, float time, bool pause, int round)
