@@ -97,9 +97,10 @@ static void other_worlds_have_one_outcome(void **unused)
 {
 	(void)unused;
 	static wild_world wild;
-	const char *seconds = getenv("CAROM_WILD_SECONDS"), *from = getenv("CAROM_WILD_SEED");
+	const char *limit = getenv("CAROM_WILD_SECONDS"), *from = getenv("CAROM_WILD_SEED");
+	const double seconds = limit ? strtod(limit, NULL) : 0.0;
 	const time_t begun = time(NULL);
-	for (uint64_t seed = from ? strtoull(from, NULL, 10) : 1; difftime(time(NULL), begun) < strtod(seconds, NULL); seed++) {
+	for (uint64_t seed = from ? strtoull(from, NULL, 10) : 1; difftime(time(NULL), begun) < seconds; seed++) {
 		print_message("CAROM_WILD_SEED=%llu: ", (unsigned long long)seed);
 		wild_make_wider(seed, &wild);
 		check_one_outcome(&wild, (uint32_t)runs_affordable(60));
