@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scenery.h"
+#include "runs.h"
 
 #define STEPS 1000
 #define RESTING_STEPS 200 /* of worlds in which a hundred bodies come to rest: the others take minutes, and are run if CAROM_LONG_TESTS is set */
@@ -37,17 +37,6 @@ static carom_world *world_of(const char *path, const char *step, const scenery_d
 		scenery_check(carom_world_add(world, scene->bodies, scene->body_count, NULL, &error), &error);
 	carom_scene_destroy(scene);
 	return world;
-}
-
-static uint64_t hash_after(carom_world *world, uint64_t steps, int calls)
-{
-	uint64_t hash = 0;
-	carom_error error;
-	for (int i = 0; i < calls; i++)
-		scenery_check(carom_world_step(world, steps / (uint64_t)calls, NULL, &error), &error);
-	scenery_check(carom_world_hash(world, &hash, &error), &error);
-	carom_world_destroy(world);
-	return hash;
 }
 
 /* ---- Random worlds: seeds of scenery_bodies in a room with gravity, of all shapes, with static bodies, and lossy hits */
@@ -99,7 +88,7 @@ static void check_random(size_t i, const char *step, uint64_t steps, uint64_t ex
 		uint64_t hash;
 		if (!world)
 			continue;
-		hash = hash_after(world, steps, 1);
+		hash = runs_hash_after(world, steps, 1);
 		if (hash != expected)
 			fail_msg("seed %llu, %llu steps of %s on %s: %016llx, expected %016llx", (unsigned long long)random_worlds[i].seed,
 				(unsigned long long)steps, step, device->name, (unsigned long long)hash, (unsigned long long)expected);
@@ -129,7 +118,7 @@ static void check_hash(const char *scene, const char *step, uint64_t steps, uint
 		uint64_t hash;
 		if (!world)
 			continue;
-		hash = hash_after(world, steps, 1);
+		hash = runs_hash_after(world, steps, 1);
 		if (hash != expected)
 			fail_msg("%s, step %s on %s: %016llx, expected %016llx", scene, step, device->name, (unsigned long long)hash,
 				(unsigned long long)expected);
@@ -156,9 +145,9 @@ static void threads_and_calls_change_no_bit(void **unused)
 	const size_t last = sizeof golden / sizeof *golden - 1;
 	const char *scene = golden[last].scene;
 	for (uint32_t threads = 1; threads <= 3; threads++) {
-		int calls = threads == 3 ? 10 : 1;
-		assert_true(hash_after(world_of(scene, "first_impact", &scenery_devices[0], threads), STEPS, calls) == golden[last].hash);
-		assert_true(hash_after(world_of(scene, "events", &scenery_devices[0], threads), STEPS, calls) == golden[last].events);
+		const uint64_t calls = threads == 3 ? 10 : 1;
+		assert_true(runs_hash_after(world_of(scene, "first_impact", &scenery_devices[0], threads), STEPS, calls) == golden[last].hash);
+		assert_true(runs_hash_after(world_of(scene, "events", &scenery_devices[0], threads), STEPS, calls) == golden[last].events);
 	}
 }
 
@@ -175,7 +164,7 @@ static void advance_in_pieces(const char *step)
 				return;
 			while (report.steps > 0)
 				scenery_check(carom_world_advance_to(world, 0.777, pieces ? 7 : UINT64_MAX, &report, &error), &error);
-			hashes[pieces] = hash_after(world, 0, 1);
+			hashes[pieces] = runs_hash_after(world, 0, 1);
 		}
 		assert_true(hashes[0] == hashes[1]);
 	}
@@ -212,7 +201,7 @@ static void what_steps_learn_changes_no_bit(void **unused)
 				forget(forgetting);
 				scenery_check(carom_world_step(forgetting, 1, NULL, &error), &error);
 			}
-			assert_true(hash_after(learning, LEARNING_STEPS, 1) == hash_after(forgetting, 0, 1));
+			assert_true(runs_hash_after(learning, LEARNING_STEPS, 1) == runs_hash_after(forgetting, 0, 1));
 		}
 	}
 }
@@ -222,7 +211,7 @@ static void what_steps_learn_changes_no_bit(void **unused)
 static void calls_of_any_length_change_no_bit(void **unused)
 {
 	enum { COUNT = 256, ALL = 840 };
-	static const int lengths[] = {1, 2, 3, 4, 6, 7, 8, ALL};
+	static const uint64_t lengths[] = {1, 2, 3, 4, 6, 7, 8, ALL};
 	carom_world_def def = carom_default_world_def();
 	carom_body_def bodies[COUNT];
 	scenery_random random = {18};
@@ -246,7 +235,7 @@ static void calls_of_any_length_change_no_bit(void **unused)
 			if (!world)
 				break;
 			scenery_check(carom_world_add(world, bodies, COUNT, NULL, &error), &error);
-			const uint64_t hash = hash_after(world, ALL, ALL / lengths[i]);
+			const uint64_t hash = runs_hash_after(world, ALL, ALL / lengths[i]);
 			expected = expected ? expected : hash;
 			if (hash != expected)
 				fail_msg("calls of %d steps on %s: %016llx, expected %016llx", lengths[i], device->name, (unsigned long long)hash,
