@@ -225,8 +225,8 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 }
 
 /* Those that the list had no room for are found once more. */
-void near_again(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s, int columns, int rows,
-	int half_at, LIST_OUT(neighbours))
+void near_again(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s, int columns,
+	int rows, int half_at, LIST_OUT(neighbours))
 {
 	near_list again;
 	again.ahead = again.behind = 0;
