@@ -81,9 +81,10 @@ void Pool::open(const Work &work, int32_t rows, int32_t chunk)
 	most = chunk;
 	least = std::max(chunk / 32, 1);
 	const int64_t many = static_cast<int64_t>(ranges.size());
-	for (int64_t i = 0; i < many; i++) {
-		ranges[i].begin = static_cast<int32_t>(rows * i / many);
-		ranges[i].end = static_cast<int32_t>(rows * (i + 1) / many);
+	int64_t i = 0;
+	for (Range &range : ranges) {
+		range.begin = static_cast<int32_t>(rows * i / many);
+		range.end = static_cast<int32_t>(rows * ++i / many);
 	}
 	failed = false;
 	state = number_of(state + numbers) * numbers + is_open;
