@@ -98,37 +98,6 @@ void unite(LIST_OUT(parents), int a, int b)
 	}
 }
 
-/* What the body hits first as the step begins: `partner` is a slot, or -1 - wall; `time` as in Found. */
-void found_keep(LIST_OUT(spans), LIST_OUT(status), LIST_OUT(found), int k, int s, int partner, int time)
-{
-	if (k >= status[STATUS_NODE_ROOM] * NODE_WIDTH / FOUND_WIDTH) {
-		atomic_xchg(&spans[SPAN(s, SPAN_FOUND)], FOUND_NO_ROOM);
-		return;
-	}
-	found[FOUND_WIDTH * k + FOUND_PARTNER] = partner;
-	found[FOUND_WIDTH * k + FOUND_TIME] = time;
-	found[FOUND_WIDTH * k + FOUND_LINK] = atomic_xchg(&spans[SPAN(s, SPAN_FOUND)], k);
-}
-
-/* A body has a hit as the step begins: it gets this number, which is known to others when the kernel has ended. */
-void activate_as(LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int id, int s, int round)
-{
-	active[id] = s;
-	members[MEMBER(id, MEMBER_OWNER)] = id;
-	members[MEMBER(id, MEMBER_ROUND)] = round;
-	atomic_xchg(&owners[s], id);
-}
-
-void activate(LISTS_IN, LIST_OUT(owners), int s, int partner, float time, bool pause, int round)
-{
-	found_keep(spans, status, found, atomic_inc(&status[STATUS_FOUND]), s, partner, as_int(pause ? -time : time));
-	if (PEEK(owners, s) != -1 || atomic_cmpxchg(&owners[s], -1, -2) != -1)
-		return;
-	activate_as(members, active, owners, atomic_inc(&status[STATUS_ACTIVE]), s, round);
-	if (PEEK(status, STATUS_ROUND) < round)
-		atomic_max(&status[STATUS_ROUND], round);
-}
-
 /* Two clusters get into each other's way: they are one in the next round. */
 void conflict(LIST_OUT(status), LIST_OUT(members), LIST_IN(active), LIST_OUT(parents), int a, int b, int round)
 {

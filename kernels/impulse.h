@@ -22,13 +22,14 @@ float gain_of(float rate, float restitution, float micro)
 	return -rate < micro ? micro - rate : -(1.0f + restitution) * rate;
 }
 
-/* The alternative's own: impulses (j0, j1) that part the reference a and the incident body b, at those of the contact's points with a rate below `most`. */
-float2 contact_impulses(body a, body b, contact c, float restitution, float most, float micro);
+/* The alternative's own: impulses (j0, j1) that part the reference a and the incident body b, at those of the contact's points with a rate below `most`.
+ * Of an `event` they add no energy. */
+float2 contact_impulses(body a, body b, contact c, float restitution, float most, float micro, bool event);
 
-/* How a hit is answered: MICRO or 0, and the part that threshold_of takes. */
+/* How a hit is answered: MICRO or 0, what a crowd makes of that, and the part that threshold_of takes. */
 typedef struct rules_of_hit {
-	float restitution, micro, part;
-	bool rapid;
+	float restitution, micro, crowd, part;
+	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
 
 /* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step: what falls on a
@@ -44,9 +45,9 @@ rules_of_hit first_impact_rules(float restitution)
 {
 	rules_of_hit rules;
 	rules.restitution = restitution;
-	rules.micro = 0.0f;
+	rules.micro = rules.crowd = 0.0f;
 	rules.part = 1.0f;
-	rules.rapid = false;
+	rules.rapid = rules.event = false;
 	return rules;
 }
 
@@ -58,9 +59,9 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	float2 n = wall_normal(room, wall, &offset);
 	contact c = wall_contact(VERTICES, k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
-	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f);
+	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f), least = larger(micro, rules.crowd * norm(k.a));
 	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), wall_stillness(k), rules.part);
-	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, larger(micro, h.mended));
+	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, larger(least, h.mended), rules.event);
 	*total = j.x + j.y;
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
 	return (float4)((*total * n.x) / length, (*total * n.y) / length, torque / length, 0.0f);
@@ -75,8 +76,10 @@ float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float
 	contact c = contact_at(VERTICES, a, b, p, k, slop);
 	threshold h = threshold_of(k.gap, slop, pair_stillness(a, b), rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float restitution = restitution_of(rules, c, micro), least = larger(micro, h.mended);
-	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, least) : contact_impulses(a, b, c, restitution, h.rate, least);
+	float restitution = restitution_of(rules, c, micro), crowd = rules.crowd * larger(norm(a.a), norm(b.a)),
+		  least = larger(larger(micro, crowd), h.mended);
+	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, least, rules.event)
+						 : contact_impulses(a, b, c, restitution, h.rate, least, rules.event);
 	*total = j.x + j.y;
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;

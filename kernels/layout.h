@@ -273,10 +273,14 @@
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.
  * Bodies that are pushed together, and meet more slowly than MICRO of what the push makes of their speed in a step, part with that speed
- * (microcollisions). A body that is in more than HOLD_LIMIT events of one step is held until its end. */
+ * (microcollisions). So do bodies in a crowd, pushed together or not: beyond CROWD events that one of them had in the step, this speed grows by CROWD_PART
+ * with each, up to CROWD_MOST of what the stronger push makes of a speed in a step. A body that is in more than HOLD_LIMIT events of one step is held until its end. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
+#define CROWD 32
+#define CROWD_PART 0.0078125f
+#define CROWD_MOST 0.25f
 #define HOLD_LIMIT 4096
 
 /* ---- Rendering [3] */

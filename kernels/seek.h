@@ -9,27 +9,64 @@ typedef struct seeds {
 	int taken;                                                       /* bits: whose body has no number yet */
 } seeds;
 
-void seeds_add(LISTS_IN, LIST_OUT(owners), seeds *all, int s, int partner, float time, bool pause, int round)
+/* What the body hits first as the step begins: `partner` is a slot, or -1 - wall; `time` as in Found. */
+void found_keep(LIST_OUT(spans), LIST_OUT(status), LIST_OUT(found), int k, int s, int partner, int time)
 {
-	if (all->count == SEEDS_MOST) {
-		activate(LISTS, owners, s, partner, time, pause, round);
+	if (k >= status[STATUS_NODE_ROOM] * NODE_WIDTH / FOUND_WIDTH) {
+		atomic_xchg(&spans[SPAN(s, SPAN_FOUND)], FOUND_NO_ROOM);
 		return;
 	}
-	all->bodies[all->count] = s;
-	all->partners[all->count] = partner;
-	all->times[all->count++] = as_int(pause ? -time : time);
+	found[FOUND_WIDTH * k + FOUND_PARTNER] = partner;
+	found[FOUND_WIDTH * k + FOUND_TIME] = time;
+	found[FOUND_WIDTH * k + FOUND_LINK] = atomic_xchg(&spans[SPAN(s, SPAN_FOUND)], k);
 }
 
-/* How many entries of Found are wanted, and SEEDS_NUMBER times how many numbers, for bodies that nobody has taken before. */
-#define SEEDS_NUMBER 65536
+/* A body has a hit as the step begins: is this the first to find one, so that it gives it a number? */
+bool takes(LIST_OUT(owners), int s)
+{
+	return PEEK(owners, s) == -1 && atomic_cmpxchg(&owners[s], -1, -2) == -1;
+}
 
+/* The number is known to others when the kernel has ended. */
+void number(LIST_OUT(members), LIST_OUT(active), LIST_OUT(owners), int id, int s, int round)
+{
+	active[id] = s;
+	members[MEMBER(id, MEMBER_OWNER)] = id;
+	members[MEMBER(id, MEMBER_ROUND)] = round;
+	atomic_xchg(&owners[s], id);
+}
+
+/* There is something to be done in this round. */
+void begin_round(LIST_OUT(status), int round)
+{
+	if (PEEK(status, STATUS_ROUND) < round)
+		atomic_max(&status[STATUS_ROUND], round);
+}
+
+void seeds_add(LISTS_IN, LIST_OUT(owners), seeds *all, int s, int partner, float time, bool pause, int round)
+{
+	int bits = as_int(pause ? -time : time);
+	if (all->count < SEEDS_MOST) {
+		all->bodies[all->count] = s;
+		all->partners[all->count] = partner;
+		all->times[all->count++] = bits;
+		return;
+	}
+	found_keep(spans, status, found, atomic_inc(&status[STATUS_FOUND]), s, partner, bits);
+	if (takes(owners, s))
+		number(members, active, owners, atomic_inc(&status[STATUS_ACTIVE]), s, round);
+	begin_round(status, round);
+}
+
+#define SEEDS_NUMBER 65536 /* a group has far fewer entries */
+
+/* How many entries of Found are wanted, and SEEDS_NUMBER times how many numbers, for bodies that have none. */
 int seeds_take(LIST_OUT(owners), seeds *all)
 {
 	int numbers = 0;
 	all->taken = 0;
 	for (int i = 0; i < all->count; i++) {
-		int s = all->bodies[i];
-		if (PEEK(owners, s) != -1 || atomic_cmpxchg(&owners[s], -1, -2) != -1)
+		if (!takes(owners, all->bodies[i]))
 			continue;
 		all->taken |= 1 << i;
 		numbers++;
@@ -44,17 +81,15 @@ void seeds_count(LIST_OUT(status), int sum, __local int *first, int round)
 		return;
 	first[0] = atomic_add(&status[STATUS_FOUND], sum % SEEDS_NUMBER);
 	first[1] = atomic_add(&status[STATUS_ACTIVE], sum / SEEDS_NUMBER);
-	if (PEEK(status, STATUS_ROUND) < round)
-		atomic_max(&status[STATUS_ROUND], round);
+	begin_round(status, round);
 }
 
-/* Others may ask for the numbers when the kernel has ended. */
-void seeds_activate(LISTS_IN, LIST_OUT(owners), const seeds *all, int entry, int id, int round)
+void seeds_keep(LISTS_IN, LIST_OUT(owners), const seeds *all, int entry, int id, int round)
 {
 	for (int i = 0; i < all->count; i++) {
 		found_keep(spans, status, found, entry + i, all->bodies[i], all->partners[i], all->times[i]);
 		if (all->taken & (1 << i))
-			activate_as(members, active, owners, id++, all->bodies[i], round);
+			number(members, active, owners, id++, all->bodies[i], round);
 	}
 }
 

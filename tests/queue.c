@@ -253,7 +253,7 @@ static double coupling(const touch *t, const party *r, const party *k, int i, in
 }
 
 typedef struct rules {
-	double restitution, micro, stillness;
+	double restitution, micro, crowd, stillness;
 	bool rapid; /* again and again */
 } rules;
 
@@ -318,12 +318,14 @@ static void record(queue *q, queue_hit hit)
 	q->hits[q->hit_count++] = hit;
 }
 
-/* CONTRACT's 1 to 3: an approach needs half the stillness, what is rapid again and again is elastic, and what is pushed together parts with a little speed. */
+/* CONTRACT's 1 to 4: an approach needs half the stillness, what is rapid again and again is elastic, what is pushed together parts with a little speed, and a
+ * crowd with more. */
 static rules rules_of(const queue *q, const queue_body *a, const queue_body *b, double time)
 {
 	const double restitution = fmax(a->restitution, b ? b->restitution : q->room.restitution);
 	const bool rapid = (is_rapid(a, time) && a->rapid >= RAPID_MOST) || (is_rapid(b, time) && b->rapid >= RAPID_MOST);
-	return (rules){restitution, restitution < 1.0 ? (double)MICRO : 0.0, 0.5, rapid};
+	const double events = fmax(a->events, b ? b->events : 0), crowd = fmin(fmax(events - CROWD, 0.0) * (double)CROWD_PART, (double)CROWD_MOST);
+	return (rules){restitution, restitution < 1.0 ? (double)MICRO : 0.0, restitution < 1.0 ? crowd : 0.0, 0.5, rapid};
 }
 
 /* How fast a push makes of them what it will, in a step; 0 where it parts them. */
@@ -356,6 +358,7 @@ static void answer(queue *q, queue_hit hit)
 	const double approach = t.count > 1 ? fmax(-t.rate[0], -t.rate[1]) : -t.rate[0];
 	if (how.rapid && !(how.micro > 0.0 && approach > how.micro / (double)MICRO))
 		how.restitution = 1.0;
+	how.micro = fmax(how.micro, how.crowd * fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay)));
 	solve(&t, reference, incident, &how, j);
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);

@@ -40,12 +40,13 @@ static carom_body_def wild_body(scenery_random *random, uint32_t shapes, float s
 	return body;
 }
 
-static void make(scenery_random *random, uint32_t sides, wild_world *world)
+/* Bodies on a square lattice, of one of so many sizes. */
+static void make(scenery_random *random, uint32_t sizes, wild_world *world)
 {
 	static const float restitutions[] = {0.0f, 0.0f, 0.3f, 0.9f, 1.0f, 1.0f};
 	carom_world_def *def = &world->def;
 	*def = runs_def();
-	const uint32_t shapes = below(random, 3), side = 2 + below(random, sides);
+	const uint32_t shapes = below(random, 3), side = 2 + below(random, sizes);
 	const float pitch = scenery_uniform(random, 1.02f, 2.0f), half = 0.5f * (float)side * pitch + 0.6f;
 	const float middle = one_in(random, 3) ? scenery_uniform(random, -200.0f, 200.0f) : 0.0f;
 	const float speed = one_in(random, 12) ? 300.0f : scenery_uniform(random, 0.0f, 10.0f);
@@ -79,7 +80,7 @@ static void make_outline(scenery_random *random, carom_vec2 *corners)
 	}
 }
 
-/* Beside the others, or in their midst. */
+/* Below the others, in a room that grows for it or in none. */
 static void add_large(scenery_random *random, wild_world *world)
 {
 	carom_body_def large = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, scenery_uniform(random, 2.0f, 20.0f));

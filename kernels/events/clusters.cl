@@ -16,7 +16,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 		seeds_count(status, group_sum(wanted), first, domain.z);
 	barrier(CLK_LOCAL_MEM_FENCE);
 	if (all.count > 0)
-		seeds_activate(LISTS, owners, &all, first[0] + wanted[local_id] % SEEDS_NUMBER, first[1] + wanted[local_id] / SEEDS_NUMBER, domain.z);
+		seeds_keep(LISTS, owners, &all, first[0] + wanted[local_id] % SEEDS_NUMBER, first[1] + wanted[local_id] / SEEDS_NUMBER, domain.z);
 }
 
 __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners),

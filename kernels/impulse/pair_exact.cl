@@ -1,8 +1,9 @@
 /* Impulse [2.3], with the two contacts of a pair solved together, so that each gets back its share of its own speed and a
  * restitution of 1 keeps the energy. Where that would take a pull, or one contact alone approaches, that one bears it all. */
 
-float2 contact_impulses(body a, body b, contact c, float restitution, float most, float micro)
+float2 contact_impulses(body a, body b, contact c, float restitution, float most, float micro, bool event)
 {
+	(void)event;
 	float k00 = coupling(a, b, c, 0, 0), gain0 = gain_of(c.rate[0], restitution, micro);
 	bool first = c.rate[0]<most, second = c.count> 1 && c.rate[1] < most;
 	if (!second)
