@@ -55,18 +55,16 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 	return !(k.held > 0.0f) && !slot_is_static(slots, s);
 }
 
-/* Of the speed that a push makes in a step: with how much bodies of such a number of events part at least. */
-float crowd_of(int events)
-{
-	return events > CROWD ? smaller((float)(events - CROWD) * CROWD_PART, CROWD_MOST) : 0.0f;
-}
-
 rules_of_hit event_rules(float restitution, bool rapid, int events)
 {
 	rules_of_hit rules;
 	rules.restitution = restitution;
 	rules.micro = restitution < 1.0f ? MICRO : 0.0f;
-	rules.crowd = restitution < 1.0f ? crowd_of(events) : 0.0f;
+	rules.crowd = rules.shake = 0.0f;
+	if (restitution < 1.0f && events > CROWD) {
+		rules.crowd = smaller((float)(events - CROWD) * CROWD_PART, CROWD_MOST);
+		rules.shake = (float)(1 << min((events - CROWD) / CROWD_DOUBLING, CROWD_DOUBLINGS));
+	}
 	rules.part = 0.5f;
 	rules.rapid = rapid;
 	rules.event = true;

@@ -26,9 +26,9 @@ float gain_of(float rate, float restitution, float micro)
  * Of an `event` they add no energy. */
 float2 contact_impulses(body a, body b, contact c, float restitution, float most, float micro, bool event);
 
-/* How a hit is answered: MICRO or 0, what a crowd makes of that, and the part that threshold_of takes. */
+/* How a hit is answered: MICRO or 0, what a crowd makes of that, and of the stillness, and the part that threshold_of takes. */
 typedef struct rules_of_hit {
-	float restitution, micro, crowd, part;
+	float restitution, micro, crowd, shake, part;
 	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
 
@@ -45,7 +45,7 @@ rules_of_hit first_impact_rules(float restitution)
 {
 	rules_of_hit rules;
 	rules.restitution = restitution;
-	rules.micro = rules.crowd = 0.0f;
+	rules.micro = rules.crowd = rules.shake = 0.0f;
 	rules.part = 1.0f;
 	rules.rapid = rules.event = false;
 	return rules;
@@ -59,8 +59,9 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	float2 n = wall_normal(room, wall, &offset);
 	contact c = wall_contact(VERTICES, k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
-	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f), least = larger(micro, rules.crowd * norm(k.a));
-	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), wall_stillness(k), rules.part);
+	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f), still = wall_stillness(k);
+	float least = larger(larger(micro, rules.crowd * norm(k.a)), rules.shake * still);
+	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), still, rules.part);
 	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, larger(least, h.mended), rules.event);
 	*total = j.x + j.y;
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
@@ -71,12 +72,12 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float length, float *total)
 {
 	pose p = pose_at(a, b, t);
-	float slop = pair_slop(a, b);
+	float slop = pair_slop(a, b), still = pair_stillness(a, b);
 	axis k = best_axis(VERTICES, a, b, p);
 	contact c = contact_at(VERTICES, a, b, p, k, slop);
-	threshold h = threshold_of(k.gap, slop, pair_stillness(a, b), rules.part);
+	threshold h = threshold_of(k.gap, slop, still, rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float restitution = restitution_of(rules, c, micro), crowd = rules.crowd * larger(norm(a.a), norm(b.a)),
+	float restitution = restitution_of(rules, c, micro), crowd = larger(rules.crowd * larger(norm(a.a), norm(b.a)), rules.shake * still),
 		  least = larger(larger(micro, crowd), h.mended);
 	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, least, rules.event)
 						 : contact_impulses(a, b, c, restitution, h.rate, least, rules.event);

@@ -274,13 +274,16 @@
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.
  * Bodies that are pushed together, and meet more slowly than MICRO of what the push makes of their speed in a step, part with that speed
  * (microcollisions). So do bodies in a crowd, pushed together or not: beyond CROWD events that one of them had in the step, this speed grows by CROWD_PART
- * with each, up to CROWD_MOST of what the stronger push makes of a speed in a step. A body that is in more than HOLD_LIMIT events of one step is held until its end. */
+ * with each, up to CROWD_MOST of what the stronger push makes of a speed in a step; and by the
+ * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
 #define CROWD 32
 #define CROWD_PART 0.0078125f
 #define CROWD_MOST 0.25f
+#define CROWD_DOUBLING 8
+#define CROWD_DOUBLINGS 10
 #define HOLD_LIMIT 4096
 
 /* ---- Rendering [3] */

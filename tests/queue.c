@@ -253,7 +253,7 @@ static double coupling(const touch *t, const party *r, const party *k, int i, in
 }
 
 typedef struct rules {
-	double restitution, micro, crowd, stillness;
+	double restitution, micro, crowd, shake, stillness;
 	bool rapid; /* again and again */
 } rules;
 
@@ -325,7 +325,9 @@ static rules rules_of(const queue *q, const queue_body *a, const queue_body *b, 
 	const double restitution = fmax(a->restitution, b ? b->restitution : q->room.restitution);
 	const bool rapid = (is_rapid(a, time) && a->rapid >= RAPID_MOST) || (is_rapid(b, time) && b->rapid >= RAPID_MOST);
 	const double events = fmax(a->events, b ? b->events : 0), crowd = fmin(fmax(events - CROWD, 0.0) * (double)CROWD_PART, (double)CROWD_MOST);
-	return (rules){restitution, restitution < 1.0 ? (double)MICRO : 0.0, restitution < 1.0 ? crowd : 0.0, 0.5, rapid};
+	const double shake = events > CROWD ? exp2(fmin(floor((events - CROWD) / CROWD_DOUBLING), CROWD_DOUBLINGS)) : 0.0;
+	return (rules){
+		restitution, restitution < 1.0 ? (double)MICRO : 0.0, restitution < 1.0 ? crowd : 0.0, restitution < 1.0 ? shake : 0.0, 0.5, rapid};
 }
 
 /* How fast a push makes of them what it will, in a step; 0 where it parts them. */
@@ -353,12 +355,13 @@ static void answer(queue *q, queue_hit hit)
 	const exact_body first = seen_at(a, hit.time), second = b ? seen_at(b, hit.time) : first;
 	const touch t = b ? touch_pair(&first, &second) : touch_wall(&first, &q->room, -1 - hit.column);
 	const party pa = party_of(a), pb = party_of(b), *reference = b && !t.swapped ? &pa : &pb, *incident = reference == &pa ? &pb : &pa;
-	how.stillness *= touch_stillness(&first, b ? &second : NULL);
+	const double still = touch_stillness(&first, b ? &second : NULL);
+	how.stillness *= still;
 	how.micro *= pull_of(&t, &first, b ? &second : NULL);
 	const double approach = t.count > 1 ? fmax(-t.rate[0], -t.rate[1]) : -t.rate[0];
 	if (how.rapid && !(how.micro > 0.0 && approach > how.micro / (double)MICRO))
 		how.restitution = 1.0;
-	how.micro = fmax(how.micro, how.crowd * fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay)));
+	how.micro = fmax(how.micro, fmax(how.crowd * fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay)), how.shake * still));
 	solve(&t, reference, incident, &how, j);
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);

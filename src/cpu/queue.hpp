@@ -4,6 +4,7 @@
 
 #include "cpu/clusters.hpp"
 #include "cpu/heap.hpp"
+#include "cpu/rules.hpp"
 #include "cpu/sieve.hpp"
 
 #include <optional>
@@ -236,15 +237,6 @@ private:
 		return members[id].rapid++ >= RAPID_MOST;
 	}
 
-	/* What is to be known of the parties' events before this one, in the step. */
-	struct Past {
-		bool rapid;
-		int32_t events;
-
-		/* The part of the speed that a push makes in a step, with which a crowd comes apart at least. */
-		T crowd() const { return smaller(larger(T(events - CROWD), T(0)) * T(CROWD_PART), T(CROWD_MOST)); }
-	};
-
 	/* Answers the member's event; false if a body would leave its box. */
 	bool answer(int32_t id, int32_t other_id)
 	{
@@ -252,7 +244,7 @@ private:
 		const T u = work[id].next[NEXT_TIME];
 		Trajectory<T> way = work[id].trajectory(slots[s]);
 		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
-		Past past{!pause && is_rapid(id, way, u), members[id].events};
+		Past<T> past{!pause && is_rapid(id, way, u), members[id].events};
 		bool stays = true;
 		clusters.move(slots[s], way, u);
 		Impact hit{};
@@ -286,19 +278,6 @@ private:
 		T x, y, row_torque, column_torque, total;
 	};
 
-	/* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step. `pull` is how they
-	 * are pushed along the normal, `push` how the one that is pushed most is, in whatever direction. */
-	void set_rules(Collision<T> &collision, T restitution, T pull, T push, const Past &past) const
-	{
-		const Contact<T> &c = collision.contact;
-		const T rate = c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
-		const T micro = restitution < 1 ? larger(-(T(MICRO) * pull), T(0)) : T(0);
-		const bool fast = micro > 0 && -rate > micro * (1 / T(MICRO));
-		collision.micro = restitution < 1 ? larger(micro, past.crowd() * push) : T(0);
-		collision.event = true;
-		collision.restitution = past.rapid && !fast ? T(1) : restitution;
-	}
-
 	Impact impact(const Collision<T> &collision) const
 	{
 		const Contact<T> &c = collision.contact;
@@ -310,7 +289,7 @@ private:
 		return {-x, -y, on_ref, on_inc, total};
 	}
 
-	Impact wall_impact(int32_t s, const Trajectory<T> &way, int32_t k, const Past &past) const
+	Impact wall_impact(int32_t s, const Trajectory<T> &way, int32_t k, const Past<T> &past) const
 	{
 		Convex<T> body;
 		clusters.fill(body, slots[s], way);
@@ -318,11 +297,12 @@ private:
 		const T slop = wall_slop(body);
 		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, wall_stillness(body), found_loose}, 1, 0,
 			body.inverse_mass, 0, body.inverse_inertia};
-		set_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), norm(body.a), past);
+		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), norm(body.a),
+			wall_stillness(body), past);
 		return impact(collision);
 	}
 
-	Impact pair_impact(int32_t row, const Trajectory<T> &row_way, int32_t column, const Trajectory<T> &column_way, const Past &past) const
+	Impact pair_impact(int32_t row, const Trajectory<T> &row_way, int32_t column, const Trajectory<T> &column_way, const Past<T> &past) const
 	{
 		Convex<T> a, b;
 		clusters.fill(a, slots[row], row_way);
@@ -334,8 +314,8 @@ private:
 		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, pair_stillness(a, b), found_loose}, 1, ref.inverse_mass,
 			inc.inverse_mass, ref.inverse_inertia, inc.inverse_inertia};
 		const Vec<T> between = inc.a - ref.a;
-		set_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]), inner(collision.contact.n, between),
-			larger(norm(a.a), norm(b.a)), past);
+		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
+			inner(collision.contact.n, between), larger(norm(a.a), norm(b.a)), pair_stillness(a, b), past);
 		return impact(collision);
 	}
 

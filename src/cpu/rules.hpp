@@ -1,0 +1,42 @@
+/* The rules of events for what would be hits without end: CONTRACT.md, "The step events", Answer. */
+#ifndef CAROM_CPU_RULES_HPP
+#define CAROM_CPU_RULES_HPP
+
+#include "cpu/impulse.hpp"
+
+#include <algorithm>
+
+namespace carom::cpu {
+
+/* What is to be known of the parties' events before this one, in the step. */
+template <typename T> struct Past {
+	bool rapid;
+	int32_t events;
+
+	/* The speed with which a crowd comes apart at least. `push` is what the stronger push makes in a step. */
+	T crowd_speed(T push, T stillness) const
+	{
+		const int32_t beyond = events - CROWD;
+		if (beyond <= 0)
+			return 0;
+		return larger(smaller(T(beyond) * T(CROWD_PART), T(CROWD_MOST)) * push,
+			stillness * static_cast<T>(1 << std::min(beyond / CROWD_DOUBLING, CROWD_DOUBLINGS)));
+	}
+};
+
+/* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step. `pull` is how they
+ * are pushed along the normal, `push` how the one that is pushed most is, in whatever direction. */
+template <typename T> void set_event_rules(Collision<T> &collision, T restitution, T pull, T push, T stillness, const Past<T> &past)
+{
+	const Contact<T> &c = collision.contact;
+	const T rate = c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
+	const T micro = restitution < 1 ? larger(-(T(MICRO) * pull), T(0)) : T(0);
+	const bool fast = micro > 0 && -rate > micro * (1 / T(MICRO));
+	collision.micro = restitution < 1 ? larger(micro, past.crowd_speed(push, stillness)) : T(0);
+	collision.event = true;
+	collision.restitution = past.rapid && !fast ? T(1) : restitution;
+}
+
+}
+
+#endif
