@@ -174,8 +174,10 @@
 /* So many numbers more than bodies, since a cluster loses one where another claims the body first. */
 #define NUMBERS_SPARE 4096
 
-/* From this round of a step on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other. */
+/* From this round of a step on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other.
+ * And at once where the body that is to hit had so many events: in a heap most is lost else, each time that a cluster begins anew. */
 #define SPREAD_ROUND 2
+#define SPREAD_EVENTS 16
 
 /* Members: twelve ints a number */
 #define MEMBER_WIDTH 12

@@ -174,7 +174,7 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 				if (other_id < 0)
 					break; /* there are no more numbers */
 				conflict(status, members, active, parents, leader, int_load(members, MEMBER(other_id, MEMBER_OWNER)), round);
-				if (round - status[STATUS_BEGUN] >= SPREAD_ROUND)
+				if (round - status[STATUS_BEGUN] >= SPREAD_ROUND || members[MEMBER(id, MEMBER_EVENTS)] >= SPREAD_EVENTS)
 					spread(LISTS, owners, parents, leader, head, round);
 				break;
 			}

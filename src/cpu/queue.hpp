@@ -59,7 +59,7 @@ private:
 			return false;
 		int32_t other_id = -1;
 		if (other >= 0 && !slots[other].is_static()) {
-			other_id = member(other);
+			other_id = member(other, id);
 			if (other_id < 0)
 				return false;
 			if (members[other_id].events != members[id].seen) {
@@ -84,8 +84,8 @@ private:
 		heap.update(id);
 	}
 
-	/* The number of a body that is to be hit, claimed if it is nobody's; -1 if it is another cluster's. */
-	int32_t member(int32_t s)
+	/* The number of a body that `by` is to hit, claimed if it is nobody's; -1 if it is another cluster's. */
+	int32_t member(int32_t s, int32_t by)
 	{
 		int32_t id = __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE);
 		if (id < 0)
@@ -96,7 +96,7 @@ private:
 		if (owner == leader)
 			return id;
 		clusters.conflict(leader, owner, round);
-		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND)
+		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND || members[by].events >= SPREAD_EVENTS)
 			spread();
 		return -1;
 	}
