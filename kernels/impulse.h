@@ -41,6 +41,13 @@ float restitution_of(rules_of_hit rules, contact c, float micro)
 	return rules.rapid && !fast ? 1.0f : rules.restitution;
 }
 
+/* The speed at which a contact parts at least: `micro` by a push along the normal; in a crowd by the stronger `push` on the bodies and by `still`, their
+ * stillness; `mended` by what is sunk. */
+float least_speed(rules_of_hit rules, float micro, float push, float still, float mended)
+{
+	return larger(larger(micro, larger(rules.crowd * push, rules.shake * still)), mended);
+}
+
 rules_of_hit first_impact_rules(float restitution)
 {
 	rules_of_hit rules;
@@ -60,9 +67,9 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	contact c = wall_contact(VERTICES, k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
 	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f), still = wall_stillness(k);
-	float least = larger(larger(micro, rules.crowd * norm(k.a)), rules.shake * still);
 	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), still, rules.part);
-	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, larger(least, h.mended), rules.event);
+	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, least_speed(rules, micro, norm(k.a), still, h.mended),
+		rules.event);
 	*total = j.x + j.y;
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
 	return (float4)((*total * n.x) / length, (*total * n.y) / length, torque / length, 0.0f);
@@ -77,8 +84,7 @@ float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float
 	contact c = contact_at(VERTICES, a, b, p, k, slop);
 	threshold h = threshold_of(k.gap, slop, still, rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float restitution = restitution_of(rules, c, micro), crowd = larger(rules.crowd * larger(norm(a.a), norm(b.a)), rules.shake * still),
-		  least = larger(larger(micro, crowd), h.mended);
+	float restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, larger(norm(a.a), norm(b.a)), still, h.mended);
 	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, least, rules.event)
 						 : contact_impulses(a, b, c, restitution, h.rate, least, rules.event);
 	*total = j.x + j.y;

@@ -326,8 +326,9 @@ static rules rules_of(const queue *q, const queue_body *a, const queue_body *b, 
 	const bool rapid = (is_rapid(a, time) && a->rapid >= RAPID_MOST) || (is_rapid(b, time) && b->rapid >= RAPID_MOST);
 	const double events = fmax(a->events, b ? b->events : 0), crowd = fmin(fmax(events - CROWD, 0.0) * (double)CROWD_PART, (double)CROWD_MOST);
 	const double shake = events > CROWD ? exp2(fmin(floor((events - CROWD) / CROWD_DOUBLING), CROWD_DOUBLINGS)) : 0.0;
-	return (rules){
-		restitution, restitution < 1.0 ? (double)MICRO : 0.0, restitution < 1.0 ? crowd : 0.0, restitution < 1.0 ? shake : 0.0, 0.5, rapid};
+	if (!(restitution < 1.0))
+		return (rules){restitution, 0.0, 0.0, 0.0, 0.5, rapid};
+	return (rules){restitution, (double)MICRO, crowd, shake, 0.5, rapid};
 }
 
 /* How fast a push makes of them what it will, in a step; 0 where it parts them. */

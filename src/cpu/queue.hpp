@@ -294,11 +294,11 @@ private:
 		Convex<T> body;
 		clusters.fill(body, slots[s], way);
 		const Wall<T> wall = clusters.wall(k);
-		const T slop = wall_slop(body);
-		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, wall_stillness(body), found_loose}, 1, 0,
+		const T slop = wall_slop(body), stillness = wall_stillness(body);
+		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, stillness, found_loose}, 1, 0,
 			body.inverse_mass, 0, body.inverse_inertia};
 		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), norm(body.a),
-			wall_stillness(body), past);
+			stillness, past);
 		return impact(collision);
 	}
 
@@ -310,12 +310,12 @@ private:
 		const Pose<T> at = pose(a, b, T(0));
 		const Axis<T> axis = best_axis(a, b, at);
 		const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
-		const T slop = pair_slop(a, b);
-		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, pair_stillness(a, b), found_loose}, 1, ref.inverse_mass,
-			inc.inverse_mass, ref.inverse_inertia, inc.inverse_inertia};
+		const T slop = pair_slop(a, b), stillness = pair_stillness(a, b);
+		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, stillness, found_loose}, 1, ref.inverse_mass, inc.inverse_mass,
+			ref.inverse_inertia, inc.inverse_inertia};
 		const Vec<T> between = inc.a - ref.a;
 		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
-			inner(collision.contact.n, between), larger(norm(a.a), norm(b.a)), pair_stillness(a, b), past);
+			inner(collision.contact.n, between), larger(norm(a.a), norm(b.a)), stillness, past);
 		return impact(collision);
 	}
 

@@ -30,9 +30,10 @@ template <typename T> void set_event_rules(Collision<T> &collision, T restitutio
 {
 	const Contact<T> &c = collision.contact;
 	const T rate = c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
-	const T micro = restitution < 1 ? larger(-(T(MICRO) * pull), T(0)) : T(0);
+	const bool lossy = restitution < 1;
+	const T micro = lossy ? larger(-(T(MICRO) * pull), T(0)) : T(0);
 	const bool fast = micro > 0 && -rate > micro * (1 / T(MICRO));
-	collision.micro = restitution < 1 ? larger(micro, past.crowd_speed(push, stillness)) : T(0);
+	collision.micro = lossy ? larger(micro, past.crowd_speed(push, stillness)) : T(0);
 	collision.event = true;
 	collision.restitution = past.rapid && !fast ? T(1) : restitution;
 }
