@@ -55,7 +55,7 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 	return !(k.held > 0.0f) && !slot_is_static(slots, s);
 }
 
-rules_of_hit event_rules(float restitution, bool rapid, int events)
+rules_of_hit event_rules(float restitution, bool rapid, int events, float weight)
 {
 	rules_of_hit rules;
 	rules.restitution = restitution;
@@ -66,6 +66,7 @@ rules_of_hit event_rules(float restitution, bool rapid, int events)
 		rules.shake = (float)(1 << min((events - CROWD) / CROWD_DOUBLING, CROWD_DOUBLINGS));
 	}
 	rules.part = 0.5f;
+	rules.weight = weight;
 	rules.rapid = rapid;
 	rules.event = true;
 	return rules;
@@ -76,6 +77,8 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 	int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
+	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
+	float weight = norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
 	float u = CHANNEL(next, NEXT_TIME), total = 0.0f;
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
 	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
@@ -84,7 +87,7 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 	k = moved(slots, s, k, u, length);
 	body b = body_of(slots, s, k, length);
 	if (wall && !pause) {
-		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), is_rapid(members, id, was, u), events);
+		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), is_rapid(members, id, was, u), events, weight);
 		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &total);
 	} else if (!wall) {
 		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
@@ -94,7 +97,7 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 		body c = body_of(slots, other, o, length);
 		events = other_id >= 0 ? max(events, members[MEMBER(other_id, MEMBER_EVENTS)]) : events;
 		bool rapid = is_rapid(members, id, was, u), other_rapid = is_rapid(members, other_id, other_was, u);
-		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rapid || other_rapid, events);
+		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rapid || other_rapid, events, weight);
 		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &total) : pair_push(VERTICES, c, b, 0.0f, how, length, &total);
 	}
 	if (total > 0.0f)

@@ -109,10 +109,15 @@ void conflict(LIST_OUT(status), LIST_OUT(members), LIST_IN(active), LIST_OUT(par
 	atomic_max(&status[STATUS_ROUND], round + 1);
 }
 
-/* Is a step to be done, with lists that are good? */
 bool lists_are_good(LIST_OUT(status))
 {
 	return !status[STATUS_STALE] && !status[STATUS_SMALL];
+}
+
+/* Does a step of contacts wait for its forces? */
+bool forces_are_wanted(LIST_IN(status))
+{
+	return status[STATUS_WANTED] > status[STATUS_HANDED];
 }
 
 /* Goes through a slot's neighbours: k is an index of Neighbours up to `end`, then -2 - an index of Extra's nodes, then -1. */

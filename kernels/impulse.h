@@ -29,6 +29,7 @@ float2 contact_impulses(body a, body b, contact c, float restitution, float most
 /* How a hit is answered: MICRO or 0, what a crowd makes of that, and of the stillness, and the part that threshold_of takes. */
 typedef struct rules_of_hit {
 	float restitution, micro, crowd, shake, part;
+	float weight; /* what gravity makes of a speed in a step: a push that a crowd counts, though forces may bear it */
 	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
 
@@ -45,14 +46,14 @@ float restitution_of(rules_of_hit rules, contact c, float micro)
  * stillness; `mended` by what is sunk. */
 float least_speed(rules_of_hit rules, float micro, float push, float still, float mended)
 {
-	return larger(larger(micro, larger(rules.crowd * push, rules.shake * still)), mended);
+	return larger(larger(micro, larger(rules.crowd * larger(push, rules.weight), rules.shake * still)), mended);
 }
 
 rules_of_hit first_impact_rules(float restitution)
 {
 	rules_of_hit rules;
 	rules.restitution = restitution;
-	rules.micro = rules.crowd = rules.shake = 0.0f;
+	rules.micro = rules.crowd = rules.shake = rules.weight = 0.0f;
 	rules.part = 1.0f;
 	rules.rapid = rules.event = false;
 	return rules;

@@ -234,6 +234,32 @@
 #define FOUND_TIME 1    /* float bits; the sign: it is only a pause of the search */
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
+/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first; four records each */
+#define CONTACTS_MOST 12 /* a slot; a body with more has none */
+#define CONTACT_WIDTH 4
+#define CONTACT_PAIR 0    /* record */
+#define PAIR_PARTNER 0    /* its slot, or -1 - wall */
+#define PAIR_POINTS 1     /* 1 or 2; 0: the partner has too many contacts */
+#define PAIR_NORMAL_X 2   /* from the partner to this body, 1 long */
+#define PAIR_NORMAL_Y 3
+#define CONTACT_POINT 1   /* two records, of a point each */
+#define POINT_ARM 0       /* m: the normal's arm about this body's centre, */
+#define POINT_OTHER_ARM 1 /* and about the partner's */
+#define POINT_RATE 2      /* m a step: how fast the points part, less how fast they may come together */
+#define POINT_FORCE 3     /* kg m / step^2, 0 or more */
+#define CONTACT_START 3   /* record */
+#define START_FORCES 0    /* two: the forces from which the next iteration starts */
+#define START_TOLERANCE 2 /* m a step */
+
+/* Touching: two ints a slot */
+#define TOUCHING_WIDTH 2
+#define TOUCHING_COUNT 0 /* of the slot's contacts; -1: too many */
+#define TOUCHING_SLOT 1  /* a list: slots with contacts */
+
+/* Loads: two records a slot, of the iterations with even numbers and of the others: x, y, torque of the acceleration, a step's units, and the points */
+#define LOADS_WIDTH 2
+#define LOAD_POINTS 3
+
 #define GROUP_MOST 64 /* work-items of a group */
 
 /* Status: ints, and some floats in their bits */
@@ -261,6 +287,11 @@
 #define STATUS_EXTRA_ROOM 20 /* ints there are in Extra */
 #define STATUS_MENDED 21     /* of Movers: those that are with their new neighbours */
 #define STATUS_AHEAD 22      /* steps after this one that a look is good for */
+/* Of the step contacts, whose iterations are numbered on and on: */
+#define STATUS_WANTED 23 /* the last iteration that is wanted; if that is after STATUS_HANDED, the step waits for its forces */
+#define STATUS_FIRST 24  /* the first of those now */
+#define STATUS_HANDED 25 /* the last that was handed over */
+#define STATUS_WAITS 26  /* since the host asked: steps not done since they needed more iterations */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */
@@ -271,6 +302,7 @@
 #define STATUS_PLACED 38     /* slots that have got their place */
 #define STATUS_MOVERS 39     /* slots in Movers */
 #define STATUS_EXTRA 40      /* ints wanted in Extra */
+#define STATUS_TOUCHING 41   /* slots with contacts */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.
@@ -287,6 +319,15 @@
 #define CROWD_DOUBLING 8
 #define CROWD_DOUBLINGS 10
 #define HOLD_LIMIT 4096
+
+/* Rules of contacts. Bodies of which one is pushed (a, the stronger push, is what it makes in a step) and whose gap is not larger than |a| are in contact at the points that
+ * approach more slowly than CONTACT_FAST |a|; forces let them come nearer by EASE of the gap in a step, down to CUSHION slops, or to |a| / 2 if that is less. They are found within
+ * a CONTACT_PART of what EASE leaves of that, or by CONTACT_ITERATIONS iterations. */
+#define CONTACT_FAST 4.0f
+#define EASE 0.5f
+#define CUSHION 32.0f
+#define CONTACT_PART 0.25f
+#define CONTACT_ITERATIONS 256
 
 /* ---- Rendering [3] */
 

@@ -10,6 +10,7 @@
 void status_begin(LIST_OUT(status), int count)
 {
 	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
+	status[STATUS_WANTED] = status[STATUS_TOUCHING] = 0;
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;
 	status[STATUS_LEVELS] = 1;
@@ -239,4 +240,32 @@ void near_write(const near_list *list, int start, int half_end, int end, LIST_OU
 		neighbours[k] = list->found[k - start];
 	for (int k = half_end; k < end; k++)
 		neighbours[k] = list->found[NEAR_MOST - 1 - (k - half_end)];
+}
+
+/* Might the body leave its reach in the next step? */
+bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(status), float4 box, int s)
+{
+	float step = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP);
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	float speed = norm((float2)(CHANNEL(at, LINEAR_VX), CHANNEL(at, LINEAR_VY)))
+		+ norm((float2)(CHANNEL(push, PUSH_X), CHANNEL(push, PUSH_Y))) * step;
+	float common = as_float(status[STATUS_PACE]) * (step / as_float(status[STATUS_WINDOW]));
+	float way = larger(REACH_FACTOR * speed * step, DRIFT_FACTOR * common) + CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
+	float x = CHANNEL(at, LINEAR_X), y = CHANNEL(at, LINEAR_Y);
+	return x - way < CHANNEL(box, AABB_MIN_X) || y - way < CHANNEL(box, AABB_MIN_Y) || x + way > CHANNEL(box, AABB_MAX_X)
+		|| y + way > CHANNEL(box, AABB_MAX_Y);
+}
+
+/* A body that might gets another reach, and new neighbours before that step. */
+void reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
+{
+	if (!leaves_reach(TEX(uniforms), slots, status, reach[s], s))
+		return;
+	int mover = atomic_inc(&status[STATUS_MOVERS]);
+	if (mover < room)
+		movers[mover] = s;
+	else
+		atomic_or(&status[STATUS_STALE], 1);
+	reach[s] = reach_about(slots, s, 0.0f, status);
+	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
 }

@@ -45,6 +45,11 @@ typedef enum carom_role {
 	ROLE_WAKE,       /* list, WAKE_WIDTH a slot */
 	ROLE_CELLS,      /* list, CELL_WIDTH a cell */
 	ROLE_STATUS,     /* list, STATUS_WIDTH */
+	/* of the step contacts, likewise */
+	ROLE_CONTACTS, /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */
+	ROLE_TOUCHING, /* list, TOUCHING_WIDTH a slot */
+	ROLE_LOADS,    /* records, LOADS_WIDTH a slot */
+	ROLE_PUSHES,   /* records, one a slot: SLOT_PUSH as it is without contacts */
 	/* of pictures, made when the first is drawn; lists are those of ints */
 	ROLE_STREAM,      /* one texel a vertex */
 	ROLE_TRANSFORMS,  /* one texel a body */
@@ -95,6 +100,13 @@ typedef enum carom_stage {
 	STAGE_SETTLE,  /* (1, 1, round, slots) */
 	STAGE_DRIFT,   /* (slots, 1, room in Movers) */
 	STAGE_UNLOAD,  /* (slots): the slots into the state */
+	/* the step contacts; iterations are numbered like rounds */
+	STAGE_CONTACTS_BEGIN,   /* (1, 1, first iteration, last) */
+	STAGE_CONTACTS_FIND,    /* (slots, 1, first iteration) */
+	STAGE_CONTACTS_JOIN,    /* (share, 1, first iteration) */
+	STAGE_CONTACTS_ITERATE, /* (share, 1, iteration) */
+	STAGE_CONTACTS_APPLY,   /* (share, 1, room in Movers, last iteration) */
+	STAGE_CONTACTS_RELEASE, /* (share, 1, room in Movers, 1: even if the step is under way) */
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
 	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */

@@ -28,10 +28,10 @@ uint32_t carom_capacity(size_t items)
 
 static carom_texel_format format_of(carom_role role)
 {
-	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED)
+	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED || role == ROLE_TOUCHING)
 		return TEXELS_LIST;
 	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES || role == ROLE_SHAPES
-		|| role == ROLE_EDGES || role == ROLE_LIGHT)
+		|| role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_LOADS || role == ROLE_PUSHES)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -70,6 +70,10 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_WAKE] = "Wake",
 	[ROLE_CELLS] = "Cells",
 	[ROLE_STATUS] = "Status",
+	[ROLE_CONTACTS] = "Contacts",
+	[ROLE_TOUCHING] = "Touching",
+	[ROLE_LOADS] = "Loads",
+	[ROLE_PUSHES] = "Pushes",
 	[ROLE_STREAM] = "Stream",
 	[ROLE_TRANSFORMS] = "Transforms",
 	[ROLE_VIEW] = "View",

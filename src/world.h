@@ -48,10 +48,11 @@ typedef struct carom_events {
 	uint32_t room, node_room; /* ints of Neighbours, nodes of Nodes */
 	uint32_t columns, rows;   /* of cells */
 	uint32_t steps_a_list;    /* steps handed over between two makings of the lists */
-	uint32_t rounds;          /* handed over a step */
+	uint32_t rounds;          /* handed over a step, */
+	uint32_t iterations;      /* and of the step contacts iterations */
 	uint32_t since;           /* steps handed over since the last making */
 	uint32_t good;            /* makings since one died before its time */
-	int32_t round;            /* number of the last one handed over */
+	int32_t round, iteration; /* numbers of the last ones handed over */
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */
 	uint32_t idle;            /* batches in a row that ended no step */
 } carom_events;

@@ -5,7 +5,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 	__local int wanted[GROUP_MOST], first[2];
 	int s = get_global_id(0), local_id = get_local_id(0);
 	float length = step_length(TEX(uniforms), TEX(clock));
-	bool begins = length > 0.0f && lists_are_good(status) && !status[STATUS_UNDER_WAY];
+	bool begins = length > 0.0f && lists_are_good(status) && !forces_are_wanted(status) && !status[STATUS_UNDER_WAY];
 	seeds all;
 	all.count = 0;
 	if (begins && s < domain.x)

@@ -7,7 +7,8 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 	float4 hit = TEX_LOAD(clock, CLOCK_HIT, 0), step = TEX_LOAD(clock, CLOCK_STEP, 0), time = TEX_LOAD(clock, CLOCK_TIME, 0);
 	float4 counts = TEX_LOAD(clock, CLOCK_COUNTS, 0);
 	float length = step_length(TEX(uniforms), TEX(clock));
-	bool good = lists_are_good(status) && length > 0.0f, left = good && status[STATUS_LEFT], again = status[STATUS_ROUND] > domain.z;
+	bool begins = lists_are_good(status) && length > 0.0f, waits = begins && forces_are_wanted(status);
+	bool good = begins && !waits, left = good && status[STATUS_LEFT], again = status[STATUS_ROUND] > domain.z;
 	bool done = good && !left && !again;
 	status[STATUS_COMMIT] = done;
 	status[STATUS_UNDER_WAY] = good && !left && again;
@@ -26,7 +27,8 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 		status[STATUS_AHEAD] = busy ? 0 : HORIZON - 1;
 	}
 	status[STATUS_MENDED] = status[STATUS_MOVERS];
-	status[STATUS_IDLE] += !good && length > 0.0f;
+	status[STATUS_IDLE] += !begins && length > 0.0f;
+	status[STATUS_WAITS] += waits;
 	status[STATUS_AGAIN] += good && !left && again;
 	if (done || left)
 		status[STATUS_ACTIVE] = status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_HELD] = 0;

@@ -218,10 +218,10 @@ static void close_device(carom_device *device)
 static const carom_device_class cl_class = {close_device, carom_cl_create_texture, carom_cl_destroy_texture, carom_cl_upload, carom_cl_download,
 	has_kernel, run_stage, flush, read_profile, count_reads};
 
-/* On a CPU a texel of an image is a call out of line: there the step events, which is not the paper's, takes buffers by itself. */
+/* On a CPU a texel of an image is a call out of line: there steps that are not the paper's take buffers by themselves. */
 static bool prefers_buffers(const carom_device_def *def, const carom_cl_found *found)
 {
-	return def->storage == CAROM_STORAGE_AUTO && (found->type & CL_DEVICE_TYPE_CPU) && !strcmp(def->pipeline.step, "events");
+	return def->storage == CAROM_STORAGE_AUTO && (found->type & CL_DEVICE_TYPE_CPU) && strcmp(def->pipeline.step, "first_impact");
 }
 
 static carom_status choose_storage(cl_device *d, const carom_device_def *def, const carom_cl_found *found, carom_error *error)

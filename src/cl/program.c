@@ -11,9 +11,9 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][20] = {
+static const char *const headers[2][21] = {
 	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "mend",
-		"answer", "heap", "queue", "seek"},
+		"answer", "heap", "queue", "seek", "rest"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
 };
 
@@ -172,7 +172,7 @@ carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_devic
 	sources all = {.count = 0};
 	carom_status status = collect(&all, &def->pipeline, draws, error);
 	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s%s", images ? " -DCAROM_IMAGES" : "",
-		!strcmp(carom_pipeline_get(&def->pipeline, "step"), "events") ? " -DCAROM_OUTLINES" : "", def->count_reads ? " -DCAROM_COUNT_READS" : "",
+		strcmp(carom_pipeline_get(&def->pipeline, "step"), "first_impact") ? " -DCAROM_OUTLINES" : "", def->count_reads ? " -DCAROM_COUNT_READS" : "",
 		exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
 	if (!status)
 		status = make_program(cl, context, device, options, &all, program, error);

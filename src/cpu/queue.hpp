@@ -297,7 +297,7 @@ private:
 		const T slop = wall_slop(body), stillness = wall_stillness(body);
 		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, stillness, found_loose}, 1, 0,
 			body.inverse_mass, 0, body.inverse_inertia};
-		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), norm(body.a),
+		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), larger(norm(body.a), clusters.weight()),
 			stillness, past);
 		return impact(collision);
 	}
@@ -315,7 +315,7 @@ private:
 			ref.inverse_inertia, inc.inverse_inertia};
 		const Vec<T> between = inc.a - ref.a;
 		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
-			inner(collision.contact.n, between), larger(norm(a.a), norm(b.a)), stillness, past);
+			inner(collision.contact.n, between), larger(larger(norm(a.a), norm(b.a)), clusters.weight()), stillness, past);
 		return impact(collision);
 	}
 

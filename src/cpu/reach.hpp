@@ -131,6 +131,55 @@ template <typename T> Box<T> reach_about(const Slot<T> &slot, T need, const Reac
 	return {x - way, y - way, x + way, y + way};
 }
 
+/* Bodies that might get out of their boxes in the next step get others, and new neighbours before it. */
+template <typename T> class ReachKeeper
+{
+public:
+	ReachKeeper(const Slot<T> *all, T *reach, int32_t *to_status, int32_t *wake, int32_t *to_movers, int32_t movers_room, const Texels<T> &uniforms)
+		: slots(all), boxes(reinterpret_cast<Box<T> *>(reach)), status(to_status), wakes(reinterpret_cast<Wake *>(wake)), movers(to_movers),
+		  room(movers_room), step(uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP)),
+		  common(drift_part * T(as_float(status[STATUS_PACE])) * (step / T(as_float(status[STATUS_WINDOW]))))
+	{
+	}
+
+	[[gnu::always_inline]] void keep(int32_t s) const
+	{
+		if (may_leave(slots[s], boxes[s]))
+			move(s);
+	}
+
+private:
+	[[gnu::always_inline]] bool may_leave(const Slot<T> &slot, const Box<T> &box) const
+	{
+		const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
+		const T speed = std::sqrt(slot.place[LINEAR_VX] * slot.place[LINEAR_VX] + slot.place[LINEAR_VY] * slot.place[LINEAR_VY])
+			+ (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * step;
+		const T way = std::max(speed_margin * speed * step, common) + slot.radius();
+		return (x - way < box.min_x) | (y - way < box.min_y) | (x + way > box.max_x) | (y + way > box.max_y);
+	}
+
+	/* Few do: apart, it is not in the way of the others. */
+	[[gnu::noinline]] void move(int32_t s) const
+	{
+		const int32_t k = fetch_add(&status[STATUS_MOVERS], 1);
+		if (k >= room) {
+			__atomic_store_n(&status[STATUS_STALE], 1, __ATOMIC_RELAXED);
+			return;
+		}
+		movers[k] = s;
+		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>{T(as_float(status[STATUS_WINDOW])), T(as_float(status[STATUS_PACE]))});
+		wakes[s].changed = wakes[s].next = status[STATUS_AGE];
+	}
+
+	const Slot<T> *const slots;
+	Box<T> *const boxes;
+	int32_t *const status;
+	Wake *const wakes;
+	int32_t *const movers;
+	const int32_t room;
+	const T step, common;
+};
+
 template <typename T> Box<T> reach_box(const Slot<T> &slot, T need, const ReachRules<T> &rules, const Corner<T> *corners)
 {
 	return slot.is_static() ? static_box(slot, corners) : reach_about(slot, need, rules);

@@ -247,8 +247,10 @@ public:
 	}
 
 	T rule(int32_t channel) const { return uniforms.fact(UNIFORMS_RULES, channel); }
-	T time_step() const { return uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP); }
+	T time_step() const { return world(WORLD_TIME_STEP); }
 	T room(int32_t channel) const { return uniforms.fact(UNIFORMS_ROOM, channel); }
+	/* What gravity makes of a speed in a step. */
+	T weight() const { return norm(Vec<T>((world(WORLD_GRAVITY_X) * length) * length, (world(WORLD_GRAVITY_Y) * length) * length)); }
 
 	void fill(Convex<T> &convex, const Slot<T> &slot, const Trajectory<T> &way) const
 	{
@@ -318,6 +320,8 @@ public:
 	using Mover<T>::length;
 
 private:
+	T world(int32_t channel) const { return uniforms.fact(UNIFORMS_WORLD, channel); }
+
 	const Texels<T> uniforms;
 	const Corner<T> *const corners;
 	const SearchRules<T> rules;

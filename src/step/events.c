@@ -6,15 +6,15 @@
  * work-item runs to the end of the step. Clusters that get into each other's way are united and run again, in rounds.
  * A step that can't be done as it was handed over (lists too old or too small, more rounds needed) changes nothing, and
  * those behind it in the batch go on with it: nobody waits. */
+#include "step/events.h"
+
 #include "layout.h"
 #include "status.h"
-#include "step/step.h"
-#include "world.h"
 
 #define WINDOW 1536         /* 1/256 of a time step: longer lists are longer, too */
 #define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
 #define MOST_ROUNDS 64
-#define LAST_ROUND (1 << 30)
+#define LAST_NUMBER (1 << 30) /* of a round, or of an iteration of the step contacts */
 #define MOST_IDLE 256 /* batches that end no step: something is wrong */
 #define GOOD_LISTS 4  /* made in a row that were good to the end: the next may be used a step longer */
 #define MOST_MOVERS 4096
@@ -33,16 +33,25 @@ static uint64_t extra_of(uint64_t capacity)
 	return capacity + NODE_WIDTH * (capacity / 2 + 64);
 }
 
-static int32_t share_of(int32_t count)
+int32_t carom_events_share(const carom_world *world)
 {
-	return count / SHARE + 64;
+	return (int32_t)world->body_count / SHARE + 64;
 }
 
-/* New lists of neighbours. */
-static carom_status find_neighbours(carom_world *world, int32_t count, carom_error *error)
+int32_t carom_events_movers(const carom_world *world)
+{
+	return (int32_t)movers_of(world->capacity);
+}
+
+bool carom_events_lists_are_due(const carom_world *world)
+{
+	return world->events.since >= world->events.steps_a_list;
+}
+
+carom_status carom_events_find_neighbours(carom_world *world, carom_error *error)
 {
 	carom_events *events = &world->events;
-	const int32_t columns = (int32_t)events->columns, rows = (int32_t)events->rows;
+	const int32_t count = (int32_t)world->body_count, columns = (int32_t)events->columns, rows = (int32_t)events->rows;
 	TRY(carom_run(world, STAGE_PACE, 1, 1, count, WINDOW, error));
 	TRY(carom_run(world, STAGE_REACH, count, 1, columns, rows, error));
 	TRY(carom_run(world, STAGE_CELLS, rows, 1, columns, 0, error));
@@ -56,11 +65,9 @@ static carom_status find_neighbours(carom_world *world, int32_t count, carom_err
 }
 
 /* Clusters that are in conflict after one round are done again in the next. */
-static carom_status resolve(carom_world *world, int32_t count, carom_error *error)
+static carom_status run_rounds(carom_world *world, int32_t count, carom_error *error)
 {
-	const int32_t share = share_of(count);
-	if (world->events.since > 1)
-		TRY(carom_run(world, STAGE_MEND, MENDERS, 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
+	const int32_t share = carom_events_share(world);
 	TRY(carom_run(world, STAGE_SEEK, count, 1, world->events.round + 1, 0, error));
 	for (uint32_t i = 0; i < world->events.rounds; i++) {
 		const int32_t round = ++world->events.round;
@@ -71,20 +78,26 @@ static carom_status resolve(carom_world *world, int32_t count, carom_error *erro
 	return CAROM_OK;
 }
 
-static carom_status run(carom_world *world, carom_error *error)
+carom_status carom_events_resolve(carom_world *world, carom_error *error)
 {
 	const int32_t count = (int32_t)world->body_count;
 	carom_status status;
-	if (world->events.since >= world->events.steps_a_list)
-		TRY(find_neighbours(world, count, error));
 	world->events.since++;
-	TRY(resolve(world, count, error));
+	TRY(carom_run(world, STAGE_MEND, MENDERS, 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
+	TRY(run_rounds(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, count, error));
 	carom_swap(world, ROLE_CLOCK);
-	status = carom_run(world, STAGE_DRIFT, count, 1, (int32_t)movers_of(world->capacity), 0, error);
+	status = carom_run(world, STAGE_DRIFT, count, 1, carom_events_movers(world), 0, error);
 	if (status)
 		carom_swap(world, ROLE_CLOCK); /* back: the step is not done */
 	return status;
+}
+
+static carom_status run(carom_world *world, carom_error *error)
+{
+	if (carom_events_lists_are_due(world))
+		TRY(carom_events_find_neighbours(world, error));
+	return carom_events_resolve(world, error);
 }
 
 /* A cluster may lose a number to another: there are some more than bodies. */
@@ -93,8 +106,7 @@ static uint64_t numbers_of(uint64_t capacity)
 	return capacity + (capacity < NUMBERS_SPARE ? capacity : NUMBERS_SPARE);
 }
 
-/* A texture of so many ints or records, folded into rows. */
-static carom_status create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error)
+carom_status carom_events_create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error)
 {
 	static const float zero[4] = {0};
 	carom_textures_drop(world, role);
@@ -108,7 +120,7 @@ static carom_status send_status(carom_world *world, const int32_t *status, carom
 	return world->device->kind->upload(world->device, world->textures[ROLE_STATUS].front, 1, status, error);
 }
 
-static carom_status unload(carom_world *world, carom_error *error)
+carom_status carom_events_unload(carom_world *world, carom_error *error)
 {
 	TRY(carom_run(world, STAGE_UNLOAD, (int32_t)world->body_count, 1, 0, 0, error));
 	carom_swap(world, ROLE_LINEAR);
@@ -116,11 +128,11 @@ static carom_status unload(carom_world *world, carom_error *error)
 	return CAROM_OK;
 }
 
-static carom_status begin(carom_world *world, carom_error *error)
+carom_status carom_events_begin(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
-	if (world->events.loaded && world->events.round > LAST_ROUND) { /* numbers of rounds begin anew */
-		TRY(unload(world, error));
+	if (world->events.loaded && (world->events.round > LAST_NUMBER || world->events.iteration > LAST_NUMBER)) { /* numbers begin anew */
+		TRY(carom_events_unload(world, error));
 		world->events.loaded = false;
 	}
 	world->events.ahead = world->events.loaded; /* not yet, but a batch follows */
@@ -141,7 +153,7 @@ static carom_status begin(carom_world *world, carom_error *error)
 	world->events.loaded = true;
 	world->events.ahead = true;
 	world->events.since = UINT32_MAX / 2;
-	world->events.round = 0;
+	world->events.round = world->events.iteration = 0;
 	return CAROM_OK;
 }
 
@@ -157,12 +169,12 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 	world->prepared = false; /* if that fails, the next call begins with lists of the first size */
 	if (status[STATUS_NEIGHBOURS] > status[STATUS_ROOM]) {
 		events->room = enough(status[STATUS_NEIGHBOURS]);
-		TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
+		TRY(carom_events_create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
 		status[STATUS_ROOM] = (int32_t)events->room;
 	}
 	if (status[STATUS_NODES] > status[STATUS_NODE_ROOM]) {
 		events->node_room = enough(status[STATUS_NODES]);
-		TRY(create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
+		TRY(carom_events_create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
 		status[STATUS_NODE_ROOM] = (int32_t)events->node_room;
 	}
 	events->since = UINT32_MAX / 2;
@@ -180,6 +192,8 @@ static carom_status adapt(carom_world *world, const int32_t *status, carom_error
 		return carom_fail(error, CAROM_DEVICE, "'%s' ends no step of events any more", world->device->info.name);
 	if (status[STATUS_AGAIN] > steps / 8 && events->rounds < MOST_ROUNDS)
 		events->rounds++;
+	if (status[STATUS_WAITS] > steps / 8 && events->iterations < CONTACT_ITERATIONS)
+		events->iterations *= 2;
 	events->good += (uint32_t)builds;
 	if (status[STATUS_IDLE] > 0) {
 		/* being idle cost little, but the lists had died before their time */
@@ -192,7 +206,7 @@ static carom_status adapt(carom_world *world, const int32_t *status, carom_error
 	return CAROM_OK;
 }
 
-static carom_status finish(carom_world *world, carom_error *error)
+carom_status carom_events_finish(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH];
 	TRY(world->device->kind->download(world->device, world->textures[ROLE_STATUS].front, 1, status, error));
@@ -203,7 +217,7 @@ static carom_status finish(carom_world *world, carom_error *error)
 	if (status[STATUS_STALE])
 		world->events.since = UINT32_MAX / 2;
 	world->events.in_batch = false;
-	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = 0;
+	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;
 	return send_status(world, status, error);
 }
 
@@ -220,7 +234,7 @@ static void choose_cells(carom_events *events, uint32_t capacity)
 }
 
 /* Neighbours have the room that they begin with: what more they need depends on how crowded it is. */
-static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
+uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	const uint64_t n = carom_capacity(body_count), records = 2 * SLOT_WIDTH + 1,
 				   lists = 2 + 2 + WAKE_WIDTH + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
@@ -233,29 +247,30 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 		+ 4 * (extra_of(n) + movers_of((uint32_t)n) + CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
 }
 
-static carom_status prepare(carom_world *world, carom_error *error)
+carom_status carom_events_prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
 	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 6, .rounds = 2};
 	choose_cells(events, world->capacity);
-	TRY(create_list(world, ROLE_OUTLINES, false, world->polygon_capacity ? 2 * (uint64_t)world->polygon_capacity : 1, error));
-	TRY(create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
-	TRY(create_list(world, ROLE_NEED, true, n, error));
-	TRY(create_list(world, ROLE_REACH, false, n, error));
-	TRY(create_list(world, ROLE_WORK, false, WORK_WIDTH * numbers_of(n), error));
-	TRY(create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * numbers_of(n), error));
-	TRY(create_list(world, ROLE_OWNERS, false, n, error));
-	TRY(create_list(world, ROLE_PARENTS, false, n, error));
-	TRY(create_list(world, ROLE_ACTIVE, false, numbers_of(n), error));
-	TRY(create_list(world, ROLE_SPANS, false, SPAN_WIDTH * n, error));
-	TRY(create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
-	TRY(create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
-	TRY(create_list(world, ROLE_EXTRA, false, extra_of(n), error));
-	TRY(create_list(world, ROLE_MOVERS, false, movers_of(world->capacity), error));
-	TRY(create_list(world, ROLE_WAKE, false, WAKE_WIDTH * n, error));
-	TRY(create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * events->rows, error));
-	return create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
+	TRY(carom_events_create_list(world, ROLE_OUTLINES, false, world->polygon_capacity ? 2 * (uint64_t)world->polygon_capacity : 1, error));
+	TRY(carom_events_create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_NEED, true, n, error));
+	TRY(carom_events_create_list(world, ROLE_REACH, false, n, error));
+	TRY(carom_events_create_list(world, ROLE_WORK, false, WORK_WIDTH * numbers_of(n), error));
+	TRY(carom_events_create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * numbers_of(n), error));
+	TRY(carom_events_create_list(world, ROLE_OWNERS, false, n, error));
+	TRY(carom_events_create_list(world, ROLE_PARENTS, false, n, error));
+	TRY(carom_events_create_list(world, ROLE_ACTIVE, false, numbers_of(n), error));
+	TRY(carom_events_create_list(world, ROLE_SPANS, false, SPAN_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
+	TRY(carom_events_create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
+	TRY(carom_events_create_list(world, ROLE_EXTRA, false, extra_of(n), error));
+	TRY(carom_events_create_list(world, ROLE_MOVERS, false, movers_of(world->capacity), error));
+	TRY(carom_events_create_list(world, ROLE_WAKE, false, WAKE_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * events->rows, error));
+	return carom_events_create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }
 
-const carom_step carom_step_events = {"events", false, prepare, run, begin, finish, unload, memory};
+const carom_step carom_step_events = {
+	"events", false, carom_events_prepare, run, carom_events_begin, carom_events_finish, carom_events_unload, carom_events_memory};

@@ -22,7 +22,7 @@ typedef struct carom_step {
 	uint64_t (*memory)(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count);
 } carom_step;
 
-extern const carom_step carom_step_first_impact, carom_step_events;
+extern const carom_step carom_step_first_impact, carom_step_events, carom_step_contacts;
 
 extern const carom_step *const carom_steps[];
 extern const size_t carom_step_count;

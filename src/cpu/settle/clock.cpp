@@ -8,7 +8,8 @@ template <typename T> static void settle(const Job<T> &job)
 	const Texels<T> uniforms = job.texels(0), clock = job.texels(1), now = job.texels(3);
 	int32_t *status = job.list(2);
 	const T length = step_length(clock, uniforms);
-	const bool good = length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL], left = good && status[STATUS_LEFT];
+	const bool begins = length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL], waits = begins && status[STATUS_WANTED] > status[STATUS_HANDED];
+	const bool good = begins && !waits, left = good && status[STATUS_LEFT];
 	const bool again = good && !left && status[STATUS_ROUND] > job.domain[2], done = good && !left && !again;
 	for (int32_t texel = 0; texel < CLOCK_WIDTH; texel++) {
 		for (int32_t channel = 0; channel < 4; channel++)
@@ -38,7 +39,8 @@ template <typename T> static void settle(const Job<T> &job)
 	}
 	status[STATUS_MENDED] = status[STATUS_MOVERS];
 	status[STATUS_AGAIN] += again;
-	status[STATUS_IDLE] += !good && length > 0;
+	status[STATUS_IDLE] += !begins && length > 0;
+	status[STATUS_WAITS] += waits;
 	if (left)
 		status[STATUS_STALE] = 1;
 	if (done || left)

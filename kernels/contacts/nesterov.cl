@@ -1,0 +1,90 @@
+/* The forces between bodies that rest on each other: a projected gradient, accelerated as Nesterov did. */
+
+__kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), int4 domain)
+{
+	if (get_global_id(0) > 0)
+		return;
+	bool waits = forces_are_wanted(status);
+	if (!(step_length(TEX(uniforms), TEX(clock)) > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
+		return;
+	status[STATUS_HANDED] = domain.w;
+	if (waits)
+		return;
+	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
+	status[STATUS_TOUCHING] = 0;
+}
+
+__kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
+	LIST_IN(owners), LIST_IN(parents), int4 domain)
+{
+	int s = get_global_id(0);
+	if (s >= domain.x || status[STATUS_FIRST] != domain.z)
+		return;
+	int count = rests_find(VERTICES, TEX(uniforms), slots, LISTS, contacts, s, step_length(TEX(uniforms), TEX(clock)));
+	touching[TOUCH(s, TOUCHING_COUNT)] = count;
+	if (count > 0)
+		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
+}
+
+/* Contacts of which one body has too many are none. */
+__kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching),
+	RECORD_OUT(loads), int4 domain)
+{
+	float length = step_length(TEX(uniforms), TEX(clock));
+	if (status[STATUS_FIRST] != domain.z)
+		return;
+	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
+		int s = touching[TOUCH(i, TOUCHING_SLOT)];
+		float4 load = load_begin(slots, s, length);
+		for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+			float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+			int other = (int)CHANNEL(pair, PAIR_PARTNER);
+			if (other >= 0 && touching[TOUCH(other, TOUCHING_COUNT)] < 0) {
+				CHANNEL(pair, PAIR_POINTS) = 0.0f;
+				contacts[CONTACT(s, k, CONTACT_PAIR)] = pair;
+			}
+			CHANNEL(load, LOAD_POINTS) += CHANNEL(pair, PAIR_POINTS);
+		}
+		loads[LOADS_WIDTH * s + (domain.z & 1)] = load;
+	}
+}
+
+__kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_IN(touching),
+	RECORD_OUT(loads), int4 domain)
+{
+	if (PEEK(status, STATUS_WANTED) < domain.z)
+		return;
+	int done = domain.z - status[STATUS_FIRST];
+	float length = step_length(TEX(uniforms), TEX(clock)), beta = (float)done / (float)(done + 3);
+	bool wanted = false;
+	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0))
+		wanted |= rests_iterate(slots, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], domain.z & 1, beta, length);
+	if (wanted && done + 1 < CONTACT_ITERATIONS)
+		atomic_max(&status[STATUS_WANTED], domain.z + 1);
+}
+
+__kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
+	RECORD_OUT(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
+{
+	float length = step_length(TEX(uniforms), TEX(clock));
+	if (status[STATUS_HANDED] != domain.w || forces_are_wanted(status))
+		return;
+	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
+		int s = touching[TOUCH(i, TOUCHING_SLOT)];
+		float4 sum = rests_sum(slots, contacts, touching, s), push = SLOT_LOAD(slots, s, SLOT_PUSH);
+		pushes[s] = push;
+		push = (float4)(push.x + (sum.x / length) / length, push.y + (sum.y / length) / length, push.z + (sum.z / length) / length, push.w);
+		push_set(TEX(uniforms), slots, status, reach, wakes, movers, s, push, domain.z);
+	}
+}
+
+/* The pushes as they were. */
+__kernel void contacts_release(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), LIST_IN(touching), RECORD_IN(pushes), RECORD_OUT(reach),
+	LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
+{
+	if (forces_are_wanted(status) || (status[STATUS_UNDER_WAY] && !domain.w))
+		return;
+	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0))
+		push_set(TEX(uniforms), slots, status, reach, wakes, movers, touching[TOUCH(i, TOUCHING_SLOT)], pushes[touching[TOUCH(i, TOUCHING_SLOT)]],
+			domain.z);
+}

@@ -1,0 +1,208 @@
+/* What bodies rest on, of the step contacts: CONTRACT.md, "contacts". */
+
+#define CONTACT(s, k, record) (CONTACT_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
+#define TOUCH(s, field) (TOUCHING_WIDTH * (s) + (field))
+
+/* The contacts of one slot, while they are found. */
+typedef struct rests {
+	int count, keys[CONTACTS_MOST];
+} rests;
+
+/* A contact, and what its points are judged by: how much the stronger push makes in a step, and how near it may come. */
+typedef struct rest {
+	float4 pair, points[2];
+	float force, cushion;
+} rest;
+
+rest rest_begin(int partner, float2 n, float force, float slop)
+{
+	rest r;
+	r.pair = (float4)((float)partner, 0.0f, n.x, n.y);
+	r.points[0] = r.points[1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	r.force = force;
+	r.cushion = smaller(CUSHION * slop, 0.5f * force);
+	return r;
+}
+
+/* A point, if it does not come too fast. */
+void rest_add(rest *r, float rate, float gap, float arm, float other_arm)
+{
+	if (rate < -(CONTACT_FAST * r->force))
+		return;
+	r->points[(int)CHANNEL(r->pair, PAIR_POINTS)] = (float4)(arm, other_arm, rate + EASE * (larger(gap, 0.0f) - r->cushion), 0.0f);
+	CHANNEL(r->pair, PAIR_POINTS) += 1.0f;
+}
+
+/* Where its key says; the count is more than CONTACTS_MOST once there are too many. */
+void rests_insert(rests *all, RECORD_OUT(contacts), int s, rest r, int key)
+{
+	if (!(CHANNEL(r.pair, PAIR_POINTS) > 0.0f) || all->count > CONTACTS_MOST)
+		return;
+	int k = all->count++;
+	if (k == CONTACTS_MOST)
+		return;
+	for (; k > 0 && all->keys[k - 1] > key; k--) {
+		all->keys[k] = all->keys[k - 1];
+		for (int i = 0; i < CONTACT_WIDTH; i++)
+			contacts[CONTACT(s, k, i)] = contacts[CONTACT(s, k - 1, i)];
+	}
+	all->keys[k] = key;
+	contacts[CONTACT(s, k, CONTACT_PAIR)] = r.pair;
+	contacts[CONTACT(s, k, CONTACT_POINT)] = r.points[0];
+	contacts[CONTACT(s, k, CONTACT_POINT + 1)] = r.points[1];
+	contacts[CONTACT(s, k, CONTACT_START)] = (float4)(0.0f, 0.0f, CONTACT_PART * (EASE * r.cushion), 0.0f);
+}
+
+void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, int other, float length, rests *all)
+{
+	body own = body_of(slots, s, trajectory_start(slots, s), length), partner = body_of(slots, other, trajectory_start(slots, other), length);
+	float force = larger(norm(own.a), norm(partner.a));
+	float2 d = (float2)(partner.x.x - own.x.x, partner.x.y - own.x.y);
+	if (!(larger(own.restitution, partner.restitution) < 1.0f) || !(force > 0.0f) || norm(d) - (own.radius + partner.radius) > force)
+		return;
+	int key = slot_body(slots, other);
+	bool is_row = slot_body(slots, s) > key;
+	body a = is_row ? own : partner, b = is_row ? partner : own;
+	pose p = pose_at(a, b, 0.0f);
+	axis k = best_axis(VERTICES, a, b, p);
+	float slop = pair_slop(a, b);
+	if (k.gap > force || k.gap < -(SUNK_MOST * slop))
+		return;
+	contact c = contact_at(VERTICES, a, b, p, k, force - k.gap);
+	bool is_incident = is_row == c.swapped;
+	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
+	rest r = rest_begin(other, n, force, slop);
+	for (int i = 0; i < c.count; i++) {
+		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
+		float ref = cross2(c.ref[i], n), inc = cross2(c.inc[i], n);
+		rest_add(&r, c.rate[i], gap, is_incident ? inc : ref, is_incident ? ref : inc);
+	}
+	rests_insert(all, contacts, s, r, key);
+}
+
+void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), body k, int s, int wall, rests *all)
+{
+	float offset, force = norm(k.a);
+	float2 n = wall_normal(room, wall, &offset);
+	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
+	rest r = rest_begin(-1 - wall, n, force, wall_slop(k));
+	if (k.count == 1) {
+		if (height - k.radius <= force)
+			rest_add(&r, speed, height - k.radius, 0.0f, 0.0f);
+	} else {
+		float2 rotation = body_rotation(k, 0.0f), m = turn_back(rotation, n);
+		int deepest;
+		lowest(VERTICES, k, m, &deepest);
+		float2 low = vertex_load(VERTICES, k.first, deepest);
+		float2 before = vertex_load(VERTICES, k.first, deepest > 0 ? deepest - 1 : k.count - 1);
+		float2 after = vertex_load(VERTICES, k.first, deepest + 1 < k.count ? deepest + 1 : 0);
+		float2 ends[2] = {low, inner(m, after) < inner(m, before) ? after : before};
+		for (int i = 0; i < 2; i++) {
+			float gap = height + inner(m, ends[i]);
+			float2 lever = turn(rotation, ends[i]);
+			if (gap <= force)
+				rest_add(&r, speed - k.w * cross2(n, lever), gap, cross2(lever, n), 0.0f);
+		}
+	}
+	rests_insert(all, contacts, s, r, -1 - wall);
+}
+
+/* How many contacts the body in a slot has; -1: too many. */
+int rests_find(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), int s, float length)
+{
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
+	rests all;
+	all.count = 0;
+	if (slot_is_static(slots, s))
+		return 0;
+	body k = body_of(slots, s, trajectory_start(slots, s), length);
+	bool by_walls = CHANNEL(rules, RULES_HAS_ROOM) > 0.0f && larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)) < 1.0f && norm(k.a) > 0.0f;
+	for (int wall = 0; by_walls && wall < 4; wall++)
+		rest_on_wall(VERTICES, room, contacts, k, s, wall, &all);
+	int end = spans[SPAN(s, SPAN_END)];
+	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i))
+		rest_on_body(VERTICES, slots, contacts, s, neighbour_of(neighbours, extra, i), length, &all);
+	return all.count > CONTACTS_MOST ? -1 : all.count;
+}
+
+/* An acceleration along n and about the centre at its arm. */
+float load_along(float4 load, float2 n, float arm)
+{
+	return (n.x * load.x + n.y * load.y) + arm * load.z;
+}
+
+float4 load_add(float4 load, float force, float2 n, float arm, float4 mass)
+{
+	float straight = CHANNEL(mass, MASS_INVERSE) * force, turning = CHANNEL(mass, MASS_INVERSE_INERTIA) * force;
+	return (float4)(load.x + straight * n.x, load.y + straight * n.y, load.z + turning * arm, load.w);
+}
+
+/* How much a force at a point parts it, as if it were shared by all of a body's points. */
+float load_gives(float4 load, float4 mass, float arm)
+{
+	return CHANNEL(load, LOAD_POINTS) * (CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm));
+}
+
+/* What acts on a body besides, in a step that is 1 long. */
+float4 load_begin(RECORD_IN(slots), int s, float length)
+{
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	return (float4)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length, (CHANNEL(push, PUSH_TORQUE) * length) * length,
+		0.0f);
+}
+
+/* One iteration of a body's contacts, from the loads of one parity to the other. True if a point comes too fast yet. */
+bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_OUT(loads), int s, int now, float beta, float length)
+{
+	bool wanted = false;
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_WIDTH * s + now], next = load_begin(slots, s, length);
+	CHANNEL(next, LOAD_POINTS) = CHANNEL(load, LOAD_POINTS);
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)], start = contacts[CONTACT(s, k, CONTACT_START)];
+		float4 other_mass = (float4)(0.0f, 0.0f, 0.0f, 0.0f), other_load = other_mass;
+		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
+		int other = (int)CHANNEL(pair, PAIR_PARTNER), points = (int)CHANNEL(pair, PAIR_POINTS);
+		if (other >= 0 && !slot_is_static(slots, other)) {
+			other_mass = SLOT_LOAD(slots, other, SLOT_MASS);
+			other_load = loads[LOADS_WIDTH * other + now];
+		}
+		for (int point = 0; point < points; point++) {
+			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
+			float arm = CHANNEL(at, POINT_ARM), other_arm = CHANNEL(at, POINT_OTHER_ARM), from = point ? start.y : start.x;
+			float rate = CHANNEL(at, POINT_RATE) + (load_along(load, n, arm) - load_along(other_load, n, other_arm));
+			float gives = load_gives(load, mass, arm) + load_gives(other_load, other_mass, other_arm);
+			float force = larger(from - rate / gives, 0.0f), to = force + beta * (force - CHANNEL(at, POINT_FORCE));
+			wanted = wanted || rate < -CHANNEL(start, START_TOLERANCE);
+			start = point ? (float4)(start.x, to, start.z, start.w) : (float4)(to, start.y, start.z, start.w);
+			CHANNEL(at, POINT_FORCE) = force;
+			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
+			next = load_add(next, to, n, arm, mass);
+		}
+		contacts[CONTACT(s, k, CONTACT_START)] = start;
+	}
+	loads[LOADS_WIDTH * s + 1 - now] = next;
+	return wanted;
+}
+
+/* What all forces on a body come to. */
+float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s)
+{
+	float4 sum = (float4)(0.0f, 0.0f, 0.0f, 0.0f), mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
+		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
+			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
+			sum = load_add(sum, CHANNEL(at, POINT_FORCE), n, CHANNEL(at, POINT_ARM), mass);
+		}
+	}
+	return sum;
+}
+
+/* A slot's push is another one: all around looks at it again, and it may get farther. */
+void push_set(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, float4 push, int room)
+{
+	slots[SLOT_WIDTH * s + SLOT_PUSH] = push;
+	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
+	reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
+}

@@ -1,0 +1,177 @@
+/* What bodies rest on, of the step contacts: CONTRACT.md, "contacts". */
+#ifndef CAROM_CPU_RESTING_HPP
+#define CAROM_CPU_RESTING_HPP
+
+#include "cpu/clusters.hpp"
+
+#include <array>
+
+namespace carom::cpu {
+
+/* The records of a contact, seen from one of its bodies. */
+template <typename T> struct Resting {
+	struct Point {
+		T arm, other_arm, rate, force;
+	};
+
+	T partner, points, normal[2];
+	Point at[2];
+	T start[2], tolerance, unused;
+
+	int32_t count() const { return static_cast<int32_t>(points); }
+	int32_t other() const { return static_cast<int32_t>(partner); }
+	Vec<T> n() const { return {normal[0], normal[1]}; }
+};
+
+static_assert(sizeof(Resting<float>) == CONTACT_WIDTH * 4 * sizeof(float), "records");
+
+struct Touching {
+	int32_t count, slot;
+};
+
+static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");
+
+/* Finds the contacts of one body after the other. */
+template <typename T> class RestFinder
+{
+public:
+	explicit RestFinder(const Clusters<T> &all) : clusters(all) {}
+
+	/* How many contacts the body has, which are written in order; -1 if there are too many. */
+	int32_t find(int32_t s, Resting<T> *to)
+	{
+		const Slot<T> &slot = clusters.slots[s];
+		count = 0;
+		if (slot.is_static())
+			return 0;
+		walls(s);
+		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
+			if (may_rest(slot, clusters.slots[other]))
+				pair(s, other);
+		});
+		if (count > CONTACTS_MOST)
+			return -1;
+		std::copy(found.begin(), found.begin() + count, to);
+		return count;
+	}
+
+private:
+	/* What is known of a contact before its points are. */
+	struct Rules {
+		T force, slop;
+
+		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
+		T part(T gap) const { return T(EASE) * (larger(gap, T(0)) - cushion()); }
+	};
+
+	T strength(const Slot<T> &slot) const
+	{
+		return (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * clusters.length * clusters.length;
+	}
+
+	/* False for most that are too far apart. */
+	bool may_rest(const Slot<T> &slot, const Slot<T> &other) const
+	{
+		const T most = (slot.radius() + other.radius() + std::max(strength(slot), strength(other))) * T(1.0001);
+		return std::abs(slot.place[LINEAR_X] - other.place[LINEAR_X]) <= most && std::abs(slot.place[LINEAR_Y] - other.place[LINEAR_Y]) <= most;
+	}
+
+	/* Adds a point, if it does not come too fast. */
+	static void add(Resting<T> &rest, const Rules &rules, T rate, T gap, T arm, T other_arm)
+	{
+		if (rate < -(T(CONTACT_FAST) * rules.force))
+			return;
+		rest.at[rest.count()] = {arm, other_arm, rate + rules.part(gap), 0};
+		rest.points += 1;
+	}
+
+	/* By the partner's index; only so many that it is seen that there are too many. */
+	void insert(const Resting<T> &rest, int32_t key)
+	{
+		if (rest.count() == 0 || count > CONTACTS_MOST)
+			return;
+		int32_t k = count++;
+		for (; k > 0 && keys[k - 1] > key; k--)
+			keys[k] = keys[k - 1], found[k] = found[k - 1];
+		keys[k] = key;
+		found[k] = rest;
+	}
+
+	static Resting<T> begin(int32_t partner, const Vec<T> &n, const Rules &rules)
+	{
+		return {static_cast<T>(partner), 0, {n.x(), n.y()}, {}, {0, 0}, T(CONTACT_PART) * (T(EASE) * rules.cushion()), 0};
+	}
+
+	void pair(int32_t s, int32_t other)
+	{
+		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
+		if (!(larger(slot.turn[TURN_RESTITUTION], other_slot.turn[TURN_RESTITUTION]) < 1))
+			return;
+		const bool is_row = slot.body() > other_slot.body();
+		const int32_t row = is_row ? s : other, column = is_row ? other : s;
+		Convex<T> a, b;
+		clusters.fill(a, clusters.slots[row], Trajectory<T>(clusters.slots[row]));
+		clusters.fill(b, clusters.slots[column], Trajectory<T>(clusters.slots[column]));
+		const Rules rules{larger(norm(a.a), norm(b.a)), pair_slop(a, b)};
+		const Vec<T> d = b.x - a.x;
+		if (!(rules.force > 0) || norm(d) - (a.radius + b.radius) > rules.force)
+			return;
+		const Pose<T> at = pose(a, b, T(0));
+		const Axis<T> axis = best_axis(a, b, at);
+		if (axis.gap > rules.force || axis.gap < -(T(SUNK_MOST) * rules.slop))
+			return;
+		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
+		const bool is_incident = is_row == c.from_b;
+		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
+		Resting<T> rest = begin(other, n, rules);
+		for (int32_t k = 0; k < c.count; k++) {
+			const Vec<T> &own = is_incident ? c.inc[k] : c.ref[k], &others = is_incident ? c.ref[k] : c.inc[k];
+			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n));
+		}
+		insert(rest, other_slot.body());
+	}
+
+	void walls(int32_t s)
+	{
+		const Slot<T> &slot = clusters.slots[s];
+		const Trajectory<T> way(slot);
+		if (!(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)) < 1) || clusters.stays_inside(s, way, T(1)))
+			return;
+		Convex<T> body;
+		clusters.fill(body, slot, way);
+		const Rules rules{norm(body.a), wall_slop(body)};
+		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
+			wall(body, rules, k);
+	}
+
+	void wall(const Convex<T> &body, const Rules &rules, int32_t k)
+	{
+		const Wall<T> wall = clusters.wall(k);
+		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
+		Resting<T> rest = begin(-1 - k, wall.n, rules);
+		if (body.is_circle()) {
+			if (height - body.radius <= rules.force)
+				add(rest, rules, speed, height - body.radius, 0, 0);
+		} else {
+			const Vec<T> rotation = rotation_of(body.r), m = turn_back(rotation, wall.n);
+			const int32_t deepest = lowest(body, m).vertex, before = body.before(deepest), after = body.after(deepest);
+			const int32_t next = inner(m, body.vertex(after)) < inner(m, body.vertex(before)) ? after : before;
+			for (int32_t vertex : {deepest, next}) {
+				const T gap = height + inner(m, body.vertex(vertex));
+				const Vec<T> lever = turn(rotation, body.vertex(vertex));
+				if (gap <= rules.force)
+					add(rest, rules, speed - body.w * cross(wall.n, lever), gap, cross(lever, wall.n), 0);
+			}
+		}
+		insert(rest, -1 - k);
+	}
+
+	const Clusters<T> &clusters;
+	int32_t count = 0;
+	std::array<int32_t, CONTACTS_MOST + 1> keys{};
+	std::array<Resting<T>, CONTACTS_MOST + 1> found{};
+};
+
+}
+
+#endif

@@ -1,0 +1,24 @@
+/* What the step contacts, which is events with a stage more, has of it. */
+#ifndef CAROM_STEP_EVENTS_H
+#define CAROM_STEP_EVENTS_H
+
+#include "step/step.h"
+#include "world.h"
+
+carom_status carom_events_prepare(carom_world *world, carom_error *error);
+carom_status carom_events_begin(carom_world *world, carom_error *error);
+carom_status carom_events_finish(carom_world *world, carom_error *error);
+carom_status carom_events_unload(carom_world *world, carom_error *error);
+uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count);
+
+/* A step's two halves: makes new lists of neighbours where it is time, and answers the hits. */
+bool carom_events_lists_are_due(const carom_world *world);
+carom_status carom_events_find_neighbours(carom_world *world, carom_error *error);
+carom_status carom_events_resolve(carom_world *world, carom_error *error);
+
+/* A texture of so many ints or records, folded into rows. */
+carom_status carom_events_create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error);
+int32_t carom_events_share(const carom_world *world);  /* work-items that share what is active */
+int32_t carom_events_movers(const carom_world *world); /* room in Movers */
+
+#endif
