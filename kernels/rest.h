@@ -2,6 +2,7 @@
 
 #define CONTACT(s, k, record) (CONTACT_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
 #define TOUCH(s, field) (TOUCHING_WIDTH * (s) + (field))
+#define CONTACTS_ALONE 512 /* bodies for which one group iterates alone */
 
 /* The contacts of one slot, while they are found. */
 typedef struct rests {

@@ -129,4 +129,6 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 		world->def.has_room = false;
 	if (one_in(&random, 3))
 		add_large(&random, world);
+	if (one_in(&random, 2))
+		scenery_check(carom_pipeline_set(&world->def.pipeline, "step", "contacts", &error), &error);
 }

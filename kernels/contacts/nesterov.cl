@@ -49,17 +49,35 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 	}
 }
 
+/* One iteration; or where few bodies touch all there are, by one group alone, for which they cost less than launches. */
 __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_IN(touching),
 	RECORD_OUT(loads), int4 domain)
 {
-	if (PEEK(status, STATUS_WANTED) < domain.z)
+	__local int more;
+	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
+	bool alone = touches <= CONTACTS_ALONE;
+	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
-	int done = domain.z - status[STATUS_FIRST];
-	float length = step_length(TEX(uniforms), TEX(clock)), beta = (float)done / (float)(done + 3);
-	bool wanted = false;
-	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0))
-		wanted |= rests_iterate(slots, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], domain.z & 1, beta, length);
-	if (wanted && done + 1 < CONTACT_ITERATIONS)
+	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
+	float length = step_length(TEX(uniforms), TEX(clock));
+	bool again;
+	do {
+		bool wanted = false;
+		int now = (status[STATUS_FIRST] + done) & 1;
+		float beta = (float)done / (float)(done + 3);
+		for (int i = begin; i < touches; i += stride)
+			wanted |= rests_iterate(slots, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, beta, length);
+		done++;
+		if (get_local_id(0) == 0)
+			more = 0;
+		barrier(CLK_LOCAL_MEM_FENCE);
+		if (wanted && done < CONTACT_ITERATIONS)
+			atomic_or(&more, 1);
+		barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+		again = more;
+		barrier(CLK_LOCAL_MEM_FENCE);
+	} while (again && alone);
+	if (again && get_local_id(0) == 0)
 		atomic_max(&status[STATUS_WANTED], domain.z + 1);
 }
 

@@ -1,0 +1,221 @@
+/* The step contacts: what rests lies still, what moves moves as gravity says, and all else is events. On every device.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+
+#include "layout.h"
+#include "runs.h"
+
+#define GRAVITY 10.0f
+#define SETTLED 240 /* steps after which a small heap lies */
+
+/* How near bodies of a radius about 0.5 m come that rest on each other, some metres from the origin. */
+#define NEAR (2.0 * (double)CUSHION * (double)SLOP * 12.0)
+
+static carom_world_def resting(const char *step, float half_width, float height)
+{
+	carom_world_def def = runs_room(half_width, 1.0f);
+	carom_error error;
+	scenery_check(carom_pipeline_set(&def.pipeline, "step", step, &error), &error);
+	def.gravity.y = -GRAVITY;
+	def.restitution = 0.3f;
+	def.room_min.y = 0.0f;
+	def.room_max.y = height;
+	return def;
+}
+
+static carom_body_def body_at(uint32_t sides, float x, float y)
+{
+	carom_body_def body = scenery_circle(x, y, 0.0f, 0.0f, 0.5f);
+	if (sides) {
+		body.shape = CAROM_REGULAR;
+		body.sides = sides;
+	}
+	return body;
+}
+
+/* Bodies fall into a box. The hits of a second, once they lie. */
+static uint64_t hits_of_heap(const char *step, uint32_t sides, const scenery_device *device, uint64_t *hash, carom_measure *measure)
+{
+	enum { SIDE = 6, COUNT = SIDE * SIDE };
+	const carom_world_def def = resting(step, 4.0f, 20.0f);
+	carom_body_def bodies[COUNT];
+	scenery_random random = {3};
+	for (int i = 0; i < COUNT; i++) {
+		bodies[i] = body_at(sides, 1.2f * ((float)(i % SIDE) - 2.5f) + scenery_uniform(&random, -0.05f, 0.05f), 0.7f + 1.2f * (float)(i / SIDE));
+		bodies[i].angle = sides ? scenery_uniform(&random, 0.0f, 3.0f) : 0.0f;
+	}
+	carom_world *world = runs_world(&def, device, bodies, COUNT);
+	if (!world)
+		return 0;
+	runs_step(world, SETTLED);
+	const carom_report report = runs_step(world, 60);
+	*measure = runs_measure(world);
+	*hash = runs_hash(world);
+	carom_world_destroy(world);
+	assert_true(report.held == 0);
+	return report.hits;
+}
+
+static void heaps_lie_still(void **unused)
+{
+	static const uint32_t sides[] = {0, 3, 4, 6};
+	(void)unused;
+	for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+		carom_measure measure;
+		uint64_t hash, first = 0;
+		const uint64_t before = hits_of_heap("events", sides[i], &scenery_devices[0], &hash, &measure);
+		SCENERY_EACH_DEVICE(device) {
+			hash = 0;
+			const uint64_t hits = hits_of_heap("contacts", sides[i], device, &hash, &measure);
+			if (!hash)
+				continue;
+			runs_same_hash(&first, hash, device);
+			if (device == scenery_devices)
+				print_message("%u sides: %llu hits in a second, %llu by events, %.3g J, %.2g m deep\n", sides[i], (unsigned long long)hits,
+					(unsigned long long)before, measure.kinetic_energy, measure.max_penetration);
+			assert_true(hits < before / 5);
+			runs_near(measure.max_penetration, 0.0, 40.0 * (double)SLOP);
+		}
+	}
+}
+
+/* Bodies upon each other are borne all the way down, and no more is hit. */
+static void column(uint32_t sides, uint32_t count, const scenery_device *device, uint64_t *first)
+{
+	enum { MOST = 12 };
+	const carom_world_def def = resting("contacts", 2.0f, 16.0f);
+	const float pitch = sides ? sqrtf(0.5f) : 1.0f;
+	carom_body_def bodies[MOST];
+	for (uint32_t i = 0; i < count; i++) {
+		bodies[i] = body_at(sides, 0.0f, (0.5f + (float)i) * pitch + 0.001f * (float)(i + 1));
+		bodies[i].angle = sides ? 0.78539816f : 0.0f;
+	}
+	carom_world *world = runs_world(&def, device, bodies, count);
+	if (!world)
+		return;
+	runs_step(world, SETTLED);
+	assert_true(runs_step(world, SETTLED).hits == 0);
+	for (uint32_t i = 0; i < count; i++) {
+		const carom_body_state state = runs_state(world, i);
+		const double rests = (0.5 + (double)i) * (double)pitch;
+		assert_true((double)state.position.y > rests - NEAR && (double)state.position.y < rests + NEAR * (double)(i + 1));
+		runs_near(hypot((double)state.velocity.x, (double)state.velocity.y), 0.0, 1e-3);
+	}
+	runs_same_hash(first, runs_hash(world), device);
+	carom_world_destroy(world);
+}
+
+static void columns_stand_without_a_hit(void **unused)
+{
+	uint64_t balls = 0, boxes = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		column(0, 10, device, &balls);
+		column(4, 10, device, &boxes);
+	}
+}
+
+/* Without friction what is on a slope slides down with g sin(slope), ball or box, borne by forces along the normal alone. */
+static void slopes_only_turn_gravity(void **unused)
+{
+	const double slope = 0.5, seconds = 0.5;
+	(void)unused;
+	for (uint32_t sides = 0; sides <= 4; sides += 4) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = resting("contacts", 20.0f, 40.0f);
+			const double high = (sides ? sqrt(0.125) : 0.5) + 0.5 + 1e-5;
+			carom_body_def bodies[2] = {scenery_box(0.0f, 20.0f, 0.0f, 0.0f, 30.0f, 1.0f),
+				body_at(sides, (float)(-sin(slope) * high), (float)(20.0 + cos(slope) * high))};
+			bodies[0].is_static = true;
+			bodies[0].angle = (float)slope;
+			bodies[1].angle = sides ? (float)slope + 0.78539816f : 0.0f;
+			carom_world *world = runs_world(&def, device, bodies, 2);
+			if (!world)
+				continue;
+			runs_advance(world, seconds);
+			const carom_body_state state = runs_state(world, 1);
+			const double expected = -(double)GRAVITY * sin(slope) * seconds;
+			runs_near((double)state.velocity.x * cos(slope) + (double)state.velocity.y * sin(slope), expected, 1e-3 * fabs(expected));
+			runs_near((double)state.velocity.y * cos(slope) - (double)state.velocity.x * sin(slope), 0.0, 0.01);
+			runs_near((double)state.angular_velocity, 0.0, 0.01);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* What comes fast bounces, as it does by events. */
+static void what_falls_bounces(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world_def def = resting("contacts", 5.0f, 10.0f);
+		const carom_body_def ball = body_at(0, 0.0f, 1.5f);
+		def.restitution = 0.5f;
+		carom_world *world = runs_world(&def, device, &ball, 1);
+		if (!world)
+			continue;
+		runs_advance(world, sqrt(2.0 / (double)GRAVITY) * 1.5); /* down, and half as long up */
+		runs_near((double)runs_state(world, 0).position.y, 0.75, 0.002);
+		carom_world_destroy(world);
+	}
+}
+
+/* With restitution 1 nothing rests, and without a push nothing does: not a bit is another. */
+static void without_rest_it_is_events(void **unused)
+{
+	(void)unused;
+	for (int pushed = 0; pushed < 2; pushed++) {
+		uint64_t hashes[2];
+		for (int contacts = 0; contacts < 2; contacts++) {
+			carom_world_def def = resting(contacts ? "contacts" : "events", 10.0f, 20.0f);
+			carom_body_def bodies[49];
+			scenery_random random = {5};
+			scenery_bodies(&random, SCENERY_MIXED, 49, 1.4f, 4.0f, bodies);
+			for (int i = 0; i < 49; i++)
+				bodies[i].position.y += 10.0f;
+			def.restitution = pushed ? 1.0f : 0.5f;
+			def.gravity.y = pushed ? -GRAVITY : 0.0f;
+			for (int i = 0; i < 49 && !pushed; i++) {
+				bodies[i].force = (carom_vec2){0.0f, 0.0f};
+				bodies[i].restitution = 0.5f;
+			}
+			hashes[contacts] = runs_hash_after(runs_world(&def, &scenery_devices[0], bodies, 49), 100, 1);
+		}
+		assert_true(hashes[0] == hashes[1]);
+	}
+}
+
+/* On a plate lie more balls than a body can have contacts: those are events, the plate and all others are none the worse. */
+static void too_many_on_one_are_events(void **unused)
+{
+	enum { BALLS = CONTACTS_MOST + 4 };
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		const carom_world_def def = resting("contacts", 12.0f, 8.0f);
+		carom_body_def bodies[BALLS + 1];
+		bodies[0] = scenery_box(0.0f, 0.3f, 0.0f, 0.0f, 20.0f, 0.5f);
+		for (int i = 0; i < BALLS; i++)
+			bodies[i + 1] = body_at(0, 1.1f * ((float)i - 0.5f * (float)(BALLS - 1)), 1.1f);
+		carom_world *world = runs_world(&def, device, bodies, BALLS + 1);
+		if (!world)
+			continue;
+		assert_true(runs_step(world, SETTLED).held == 0);
+		runs_near((double)runs_state(world, 0).position.y, 0.25, 0.001);
+		for (uint32_t i = 1; i <= BALLS; i++)
+			runs_near((double)runs_state(world, i).position.y, 1.0, 0.002);
+		runs_near(runs_measure(world).max_penetration, 0.0, 40.0 * (double)SLOP);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {cmocka_unit_test(heaps_lie_still), cmocka_unit_test(columns_stand_without_a_hit),
+		cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(what_falls_bounces), cmocka_unit_test(without_rest_it_is_events),
+		cmocka_unit_test(too_many_on_one_are_events)};
+	return cmocka_run_group_tests_name("contacts", tests, NULL, NULL);
+}
