@@ -308,6 +308,7 @@ conformance: all $(TEST_PROGRAMS)
 define DEMO
 triangles_1024 | --set step=first_impact --steps 400 --inset -2,-2,4,4 | 1,024 triangles after 400 hits, a part of them enlarged
 circles_1024   | --time 2 --inset -2,-2,4,4 | 1,024 circles after two seconds, a part of them enlarged
+heap           | --time 6                      | what fell into a box, and lies there
 mixed          | --time 2                      | circles and polygons in one room after two seconds
 billiard_break | --time 1                      | a billiard break one second after the cue ball was struck
 newtons_cradle | --time 1                      | Newton's cradle after one second: what went in on one side went out on the other
