@@ -155,7 +155,7 @@ CAROM_API carom_body_def carom_default_body_def(void);
 
 /** The names of the chosen alternatives; NULL takes the default. */
 typedef struct carom_pipeline {
-	const char *step;    /**< events (default), first_impact [2] */
+	const char *step;    /**< events (default), contacts (for what comes to rest), first_impact [2] */
 	const char *aabb;    /**< tight (default), loose [2.1] */
 	const char *overlap; /**< all_pairs [2.1]; aabb, overlap and reduce are of first_impact alone */
 	const char *inside;  /**< naive (default), orourke: the test that toi bisection makes [2.1] */
@@ -225,7 +225,7 @@ typedef enum carom_storage {
 
 /** What a world is made from. Start from carom_default_world_def(). */
 typedef struct carom_world_def {
-	float time_step;         /**< s, > 0: how long a step of events lasts, and the longest of first_impact; default 1/60 */
+	float time_step;         /**< s, > 0: how long a step of events or contacts lasts, and the longest of first_impact; default 1/60 */
 	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
 	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
 	bool has_room;           /**< four walls that nothing leaves: bodies must start inside; default none */
@@ -278,12 +278,13 @@ CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index,
 typedef struct carom_report {
 	uint64_t steps;  /**< steps done */
 	uint64_t hits;   /**< hits resolved */
-	uint64_t held;   /**< how often a body was held until the end of a step of events, since it was hit too often in it */
+	uint64_t held;   /**< how often a body was held until the end of a step of events or contacts, since it was hit too often in it */
 	double advanced; /**< s, simulated */
 } carom_report;
 
-/** Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of first_impact lasts until the
- * first hit and at most `time_step` [2.2].
+/** Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of contacts does, too, but bodies that
+ * rest on each other, of a restitution below 1, push each other and are not hit; one of first_impact lasts until the first hit and at most
+ * `time_step` [2.2].
  * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED (first_impact alone): time can't get on, and the
  * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are above 1e9 (m, m/s, rad/s), where floats overflow, or
  * there are more bodies than the step can hold. */

@@ -29,7 +29,7 @@ float2 contact_impulses(body a, body b, contact c, float restitution, float most
 /* How a hit is answered: MICRO or 0, what a crowd makes of that, and of the stillness, and the part that threshold_of takes. */
 typedef struct rules_of_hit {
 	float restitution, micro, crowd, shake, part;
-	float weight; /* what gravity makes of a speed in a step: a push that a crowd counts, though forces may bear it */
+	float weight;      /* what gravity makes of a speed in a step: a push that a crowd counts, though forces may bear it */
 	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
 

@@ -237,10 +237,10 @@
 /* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first; four records each */
 #define CONTACTS_MOST 12 /* a slot; a body with more has none */
 #define CONTACT_WIDTH 4
-#define CONTACT_PAIR 0    /* record */
-#define PAIR_PARTNER 0    /* its slot, or -1 - wall */
-#define PAIR_POINTS 1     /* 1 or 2; 0: the partner has too many contacts */
-#define PAIR_NORMAL_X 2   /* from the partner to this body, 1 long */
+#define CONTACT_PAIR 0  /* record */
+#define PAIR_PARTNER 0  /* its slot, or -1 - wall */
+#define PAIR_POINTS 1   /* 1 or 2; 0: the partner has too many contacts */
+#define PAIR_NORMAL_X 2 /* from the partner to this body, 1 long */
 #define PAIR_NORMAL_Y 3
 #define CONTACT_POINT 1   /* two records, of a point each */
 #define POINT_ARM 0       /* m: the normal's arm about this body's centre, */

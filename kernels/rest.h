@@ -148,8 +148,8 @@ float load_gives(float4 load, float4 mass, float arm)
 float4 load_begin(RECORD_IN(slots), int s, float length)
 {
 	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
-	return (float4)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length, (CHANNEL(push, PUSH_TORQUE) * length) * length,
-		0.0f);
+	return (float4)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length,
+		(CHANNEL(push, PUSH_TORQUE) * length) * length, 0.0f);
 }
 
 /* One iteration of a body's contacts, from the loads of one parity to the other. True if a point comes too fast yet. */
@@ -201,7 +201,8 @@ float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s
 }
 
 /* A slot's push is another one: all around looks at it again, and it may get farther. */
-void push_set(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, float4 push, int room)
+void push_set(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, float4 push,
+	int room)
 {
 	slots[SLOT_WIDTH * s + SLOT_PUSH] = push;
 	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];

@@ -28,7 +28,8 @@ uint32_t carom_capacity(size_t items)
 
 static carom_texel_format format_of(carom_role role)
 {
-	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED || role == ROLE_TOUCHING)
+	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED
+		|| role == ROLE_TOUCHING)
 		return TEXELS_LIST;
 	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES || role == ROLE_SHAPES
 		|| role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_LOADS || role == ROLE_PUSHES)

@@ -125,8 +125,8 @@ static void slopes_only_turn_gravity(void **unused)
 		SCENERY_EACH_DEVICE(device) {
 			carom_world_def def = resting("contacts", 20.0f, 40.0f);
 			const double high = (sides ? sqrt(0.125) : 0.5) + 0.5 + 1e-5;
-			carom_body_def bodies[2] = {scenery_box(0.0f, 20.0f, 0.0f, 0.0f, 30.0f, 1.0f),
-				body_at(sides, (float)(-sin(slope) * high), (float)(20.0 + cos(slope) * high))};
+			carom_body_def bodies[2] = {
+				scenery_box(0.0f, 20.0f, 0.0f, 0.0f, 30.0f, 1.0f), body_at(sides, (float)(-sin(slope) * high), (float)(20.0 + cos(slope) * high))};
 			bodies[0].is_static = true;
 			bodies[0].angle = (float)slope;
 			bodies[1].angle = sides ? (float)slope + 0.78539816f : 0.0f;

@@ -73,7 +73,7 @@ const struct command devices_command = {
 			   "always there. The default is what --device auto takes: the fastest device that works. Every device\n"
 			   "is listed, whatever --device says.\n"
 			   "\n--check tries one device instead: how it rounds, and whether a scene that is part of the command\n"
-			   "gives the same bits as everywhere, by both steps, in images and in buffers, and drawn. It ends\n"
+			   "gives the same bits as everywhere, by each step, in images and in buffers, and drawn. It ends\n"
 			   "with the exit code 0 only if all is right.\n",
 	.options = options_table,
 	.main = devices_main,

@@ -246,7 +246,7 @@ const struct command run_command = {
 	.most_arguments = 1,
 	.summary = "Simulates a scene and writes states, pictures and tables",
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
-			   "\nA step of `events` lasts the scene's time step; one of `first_impact` ends at the first hit, so --steps\n"
+			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first hit, so --steps\n"
 			   "counts those, and --time counts simulated seconds. With --time, the step before the end or before a\n"
 			   "frame is cut short to end there.\n"
 			   "With --steps no step is cut short, and a frame shows the end of the step that its time falls into.\n"

@@ -297,8 +297,8 @@ private:
 		const T slop = wall_slop(body), stillness = wall_stillness(body);
 		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, stillness, found_loose}, 1, 0,
 			body.inverse_mass, 0, body.inverse_inertia};
-		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a), larger(norm(body.a), clusters.weight()),
-			stillness, past);
+		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a),
+			larger(norm(body.a), clusters.weight()), stillness, past);
 		return impact(collision);
 	}
 

@@ -64,10 +64,7 @@ private:
 		T part(T gap) const { return T(EASE) * (larger(gap, T(0)) - cushion()); }
 	};
 
-	T strength(const Slot<T> &slot) const
-	{
-		return (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * clusters.length * clusters.length;
-	}
+	T strength(const Slot<T> &slot) const { return (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * clusters.length * clusters.length; }
 
 	/* False for most that are too far apart. */
 	bool may_rest(const Slot<T> &slot, const Slot<T> &other) const

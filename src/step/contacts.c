@@ -56,5 +56,4 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	return carom_events_create_list(world, ROLE_PUSHES, false, n, error);
 }
 
-const carom_step carom_step_contacts = {
-	"contacts", false, prepare, run, carom_events_begin, carom_events_finish, carom_events_unload, memory};
+const carom_step carom_step_contacts = {"contacts", false, prepare, run, carom_events_begin, carom_events_finish, carom_events_unload, memory};

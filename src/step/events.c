@@ -15,8 +15,8 @@
 #define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
 #define MOST_ROUNDS 64
 #define LAST_NUMBER (1 << 30) /* of a round, or of an iteration of the step contacts */
-#define MOST_IDLE 256 /* batches that end no step: something is wrong */
-#define GOOD_LISTS 4  /* made in a row that were good to the end: the next may be used a step longer */
+#define MOST_IDLE 256         /* batches that end no step: something is wrong */
+#define GOOD_LISTS 4          /* made in a row that were good to the end: the next may be used a step longer */
 #define MOST_MOVERS 4096
 #define MENDERS 64 /* work-items that look for new neighbours */
 #define SHARE 16   /* slots for one work-item of those that share what is active */

@@ -118,7 +118,8 @@ template <typename T> static bool iterate_one(const Rests<T> &rests, Load<T> *lo
 		const Vec<T> n = rest.n();
 		for (int32_t i = 0; i < rest.count(); i++) {
 			auto &point = rest.at[i];
-			T along = load.along(n, point.arm), gives = load.points * (slot.mass[MASS_INVERSE] + slot.mass[MASS_INVERSE_INERTIA] * (point.arm * point.arm));
+			T along = load.along(n, point.arm),
+			  gives = load.points * (slot.mass[MASS_INVERSE] + slot.mass[MASS_INVERSE_INERTIA] * (point.arm * point.arm));
 			if (moves) {
 				const Slot<T> &other = rests.slots[rest.other()];
 				const Load<T> &other_load = loads[LOADS_WIDTH * rest.other() + now];
