@@ -234,7 +234,8 @@
 #define FOUND_TIME 1    /* float bits; the sign: it is only a pause of the search */
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
-/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first; four records each */
+/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first; four records
+ * each */
 #define CONTACTS_MOST 12 /* a slot; a body with more has none */
 #define CONTACT_WIDTH 4
 #define CONTACT_PAIR 0  /* record */
@@ -320,9 +321,9 @@
 #define CROWD_DOUBLINGS 10
 #define HOLD_LIMIT 4096
 
-/* Rules of contacts. Bodies of which one is pushed (a, the stronger push, is what it makes in a step) and whose gap is not larger than |a| are in contact at the points that
- * approach more slowly than CONTACT_FAST |a|; forces let them come nearer by EASE of the gap in a step, down to CUSHION slops, or to |a| / 2 if that is less. They are found within
- * a CONTACT_PART of what EASE leaves of that, or by CONTACT_ITERATIONS iterations. */
+/* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,
+ * at the points that approach more slowly than CONTACT_FAST |a|. Forces let them come nearer by EASE of the gap in a step, down to CUSHION slops, or to
+ * |a| / 2 if that is less. They are found within a CONTACT_PART of what EASE leaves of that, or by CONTACT_ITERATIONS iterations. */
 #define CONTACT_FAST 4.0f
 #define EASE 0.5f
 #define CUSHION 32.0f

@@ -4,7 +4,7 @@
 
 #include "cpu/clusters.hpp"
 
-#include <array>
+#include <algorithm>
 
 namespace carom::cpu {
 
@@ -51,7 +51,7 @@ public:
 		});
 		if (count > CONTACTS_MOST)
 			return -1;
-		std::copy(found.begin(), found.begin() + count, to);
+		std::copy(found, found + count, to);
 		return count;
 	}
 
@@ -165,8 +165,8 @@ private:
 
 	const Clusters<T> &clusters;
 	int32_t count = 0;
-	std::array<int32_t, CONTACTS_MOST + 1> keys{};
-	std::array<Resting<T>, CONTACTS_MOST + 1> found{};
+	int32_t keys[CONTACTS_MOST + 1]{};
+	Resting<T> found[CONTACTS_MOST + 1]{};
 };
 
 }

@@ -1,8 +1,9 @@
 /* The step contacts: events, and forces between bodies that rest on each other, so that they need not hit each other without end.
  *
- * What bears what is found as a step begins: bodies that are nearer than what gravity and forces move them in a step, and do not come together much faster than that.
- * Iterations then find the forces that let none of them come too near by the end of the step; for as long they are a part of what pushes each body. All else is the step events', which
- * answers whatever the forces leave at its exact time: nothing passes through anything, and nothing is pushed apart. Iterations that one handing over has no room for go on in the next. */
+ * What bears what is found as a step begins: bodies that are nearer than what gravity and forces move them in a step, and do not come together much
+ * faster than that. Iterations then find the forces that let none of them come too near by the end of the step; for as long they are a part of what
+ * pushes each body. All else is the step events', which answers whatever the forces leave at its exact time: nothing passes through anything, and
+ * nothing is pushed apart. Iterations that one handing over has no room for go on in the next. */
 #include "layout.h"
 #include "status.h"
 #include "step/events.h"
