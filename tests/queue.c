@@ -68,6 +68,7 @@ queue *queue_of(carom_world *world)
 		take_body(&q->bodies[i], world, i);
 	q->room = (touch_room){def->has_room, {(double)def->room_min.x, (double)def->room_min.y}, {(double)def->room_max.x, (double)def->room_max.y},
 		(double)def->restitution};
+	q->gravity = hypot((double)def->gravity.x, (double)def->gravity.y);
 	queue_follow(q, world);
 	return q;
 }
@@ -362,7 +363,7 @@ static void answer(queue *q, queue_hit hit)
 	const double approach = t.count > 1 ? fmax(-t.rate[0], -t.rate[1]) : -t.rate[0];
 	if (how.rapid && !(how.micro > 0.0 && approach > how.micro / (double)MICRO))
 		how.restitution = 1.0;
-	how.micro = fmax(how.micro, fmax(how.crowd * fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay)), how.shake * still));
+	how.micro = fmax(how.micro, fmax(how.crowd * fmax(q->weight, fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay))), how.shake * still));
 	solve(&t, reference, incident, &how, j);
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);
@@ -378,6 +379,7 @@ void queue_step(queue *q, double length, size_t most)
 {
 	size_t events = 0;
 	q->hit_count = q->held = 0;
+	q->weight = q->gravity * length * length;
 	for (size_t i = 0; i < q->count; i++)
 		begin(&q->bodies[i], length);
 	for (int i = 0; i < (int)q->count; i++) {

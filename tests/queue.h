@@ -27,8 +27,9 @@ typedef struct queue {
 	size_t count;
 	queue_body *bodies;
 	touch_room room;
-	double *next;    /* the hit of row and column; a body's hits with walls come before, from column -4 on */
-	queue_hit *hits; /* of the last step */
+	double gravity, weight; /* its size, and what that makes of a speed in the step */
+	double *next;           /* the hit of row and column; a body's hits with walls come before, from column -4 on */
+	queue_hit *hits;        /* of the last step */
 	size_t hit_count, hit_room;
 	size_t held;               /* bodies that were, in the last step */
 	scenery_random *shaken_by; /* NULL: nobody; else each event shakes its bodies by `rounding` */

@@ -184,7 +184,7 @@ static void any_number_of_iterations(void **unused)
 /* What a step could not compute with is refused by it, and by nothing else; the state stays. */
 static void assert_no_start(carom_world_def def, carom_body_def body, const char *said)
 {
-	static const char *const steps[] = {"events", "first_impact"};
+	static const char *const steps[] = {"events", "contacts", "first_impact"};
 	for (size_t i = 0; i < COUNT(steps); i++) {
 		carom_world *world = NULL;
 		carom_body_state state;

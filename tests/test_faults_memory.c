@@ -45,6 +45,8 @@ static void worlds_that_run(void **unused)
 	(void)unused;
 	SCENERY_EACH_DEVICE(device) {
 		walk_running(device, "events", FAULTS_MEMORY, there_is_no_memory);
+		if (device->storage != CAROM_STORAGE_IMAGE)
+			walk_running(device, "contacts", FAULTS_MEMORY, there_is_no_memory);
 		walk_running(device, "first_impact", FAULTS_MEMORY, there_is_no_memory);
 	}
 }
