@@ -145,6 +145,41 @@ static void slopes_only_turn_gravity(void **unused)
 	}
 }
 
+/* A force on one of two bodies moves both alike, and no more is hit. */
+static void a_push_is_handed_on(void **unused)
+{
+	enum { COUNT = 2 };
+	(void)unused;
+	for (uint32_t sides = 0; sides <= 4; sides += 4) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = resting("contacts", 10.0f, 20.0f);
+			const float pitch = sides ? sqrtf(0.5f) : 1.0f;
+			carom_body_def bodies[COUNT];
+			double mass = 0.0;
+			def.gravity.y = 0.0f;
+			for (int i = 0; i < COUNT; i++) {
+				bodies[i] = body_at(sides, -8.0f + (pitch + 1e-4f) * (float)i, 10.0f);
+				bodies[i].angle = sides ? 0.78539816f : 0.0f;
+				bodies[i].mass = (float)(1 + i % 2);
+				mass += 1 + i % 2;
+			}
+			bodies[0].force.x = 6.0f;
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			runs_step(world, runs_affordable(60));
+			runs_enough(runs_step(world, runs_affordable(30)).hits == 0);
+			const double expected = 6.0 / mass * carom_world_time(world);
+			for (uint32_t i = 0; i < COUNT; i++)
+				runs_near((double)runs_state(world, i).velocity.x, expected, 1e-3);
+			runs_near(runs_measure(world).momentum_x, mass * expected, 1e-5 * mass * expected);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* What comes fast bounces, as it does by events. */
 static void what_falls_bounces(void **unused)
 {
@@ -215,7 +250,7 @@ static void too_many_on_one_are_events(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(heaps_lie_still), cmocka_unit_test(columns_stand_without_a_hit),
-		cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(what_falls_bounces), cmocka_unit_test(without_rest_it_is_events),
-		cmocka_unit_test(too_many_on_one_are_events)};
+		cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(a_push_is_handed_on), cmocka_unit_test(what_falls_bounces),
+		cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(too_many_on_one_are_events)};
 	return cmocka_run_group_tests_name("contacts", tests, NULL, NULL);
 }

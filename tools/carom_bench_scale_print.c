@@ -115,7 +115,7 @@ static void print_reading(const struct scale_result *result)
 		   "kept: the kinetic energy ought to stay and nothing to overlap; the overlap is looked for every %d steps, also with\n"
 		   "walls. Both are measured by Carom, in double precision, from each engine's states.\n",
 		result->runs, SCALE_FLOOR_BYTES, SCALE_SLOW, SCALE_KEPT_EVERY);
-	if (strcmp(result->step, "events") != 0)
+	if (!strcmp(result->step, "first_impact"))
 		printf("A step of %s may end before 1/60 s: its figures can't be compared with the others'.\n", result->step);
 }
 
