@@ -4,6 +4,7 @@
 
 #include "layout.h"
 #include "runs.h"
+#include "wild.h"
 
 #define GRAVITY 10.0f
 #define SETTLED 240 /* steps after which a small heap lies */
@@ -247,10 +248,42 @@ static void too_many_on_one_are_events(void **unused)
 	}
 }
 
+/* Made-up worlds that lose energy and that nothing but gravity pushes: whatever is borne, squeezed or thrown, nothing gains any. */
+static void forces_add_no_energy(void **unused)
+{
+	static wild_world wild;
+	uint64_t hits = 0;
+	double most = 0.0;
+	(void)unused;
+	for (uint64_t seed = 1; seed <= 24; seed++) {
+		carom_error error;
+		wild_make_wider(seed, &wild);
+		if (!(wild.def.restitution < 1.0f) || !(wild.def.gravity.y < 0.0f))
+			continue;
+		scenery_check(carom_pipeline_set(&wild.def.pipeline, "step", "contacts", &error), &error);
+		for (uint32_t i = 0; i < wild.count; i++) {
+			wild.bodies[i].force = (carom_vec2){0.0f, 0.0f};
+			wild.bodies[i].torque = 0.0f;
+		}
+		carom_world *world = runs_world(&wild.def, &scenery_devices[0], wild.bodies, wild.count);
+		const carom_measure before = runs_measure(world);
+		for (int part = 0; part < 5; part++) {
+			hits += runs_step(world, runs_affordable(20)).hits;
+			const carom_measure after = runs_measure(world);
+			const double gained = (after.kinetic_energy - before.kinetic_energy) + (after.potential_energy - before.potential_energy);
+			most = fmax(most, gained / (before.kinetic_energy + 1e-3));
+		}
+		carom_world_destroy(world);
+	}
+	print_message("%llu hits, at most %.2g of the kinetic energy gained\n", (unsigned long long)hits, most);
+	runs_enough(hits > 10000);
+	assert_true(most < 1e-4);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(heaps_lie_still), cmocka_unit_test(columns_stand_without_a_hit),
 		cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(a_push_is_handed_on), cmocka_unit_test(what_falls_bounces),
-		cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(too_many_on_one_are_events)};
+		cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(too_many_on_one_are_events), cmocka_unit_test(forces_add_no_energy)};
 	return cmocka_run_group_tests_name("contacts", tests, NULL, NULL);
 }
