@@ -292,7 +292,8 @@
 #define STATUS_WANTED 23 /* the last iteration that is wanted; if that is after STATUS_HANDED, the step waits for its forces */
 #define STATUS_FIRST 24  /* the first of those now */
 #define STATUS_HANDED 25 /* the last that was handed over */
-#define STATUS_WAITS 26  /* since the host asked: steps not done since they needed more iterations */
+#define STATUS_BORNE 26  /* 1: pushes are changed */
+#define STATUS_WAITS 27  /* since the host asked: steps not done since they needed more iterations */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */

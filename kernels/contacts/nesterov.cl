@@ -11,7 +11,7 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
-	status[STATUS_TOUCHING] = 0;
+	status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
 }
 
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
@@ -87,6 +87,8 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 	float length = step_length(TEX(uniforms), TEX(clock));
 	if (status[STATUS_HANDED] != domain.w || forces_are_wanted(status))
 		return;
+	if (get_global_id(0) == 0)
+		status[STATUS_BORNE] = 1;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		float4 sum = rests_sum(slots, contacts, touching, s), push = SLOT_LOAD(slots, s, SLOT_PUSH);
@@ -100,7 +102,7 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 __kernel void contacts_release(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), LIST_IN(touching), RECORD_IN(pushes), RECORD_OUT(reach),
 	LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
 {
-	if (forces_are_wanted(status) || (status[STATUS_UNDER_WAY] && !domain.w))
+	if (!status[STATUS_BORNE] || (status[STATUS_UNDER_WAY] && !domain.w))
 		return;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0))
 		push_set(TEX(uniforms), slots, status, reach, wakes, movers, touching[TOUCH(i, TOUCHING_SLOT)], pushes[touching[TOUCH(i, TOUCHING_SLOT)]],

@@ -60,7 +60,7 @@ template <typename T> static void begin(const Job<T> &job)
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
-	status[STATUS_TOUCHING] = 0;
+	status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
 }
 
 template <typename T> static void find(const Job<T> &job)
@@ -160,6 +160,7 @@ template <typename T> static void apply(const Job<T> &job)
 	T(*pushes)[4] = reinterpret_cast<T(*)[4]>(job.records(6));
 	if (rests.status[STATUS_HANDED] != job.domain[3] || rests.status[STATUS_WANTED] > rests.status[STATUS_HANDED])
 		return;
+	rests.status[STATUS_BORNE] = 1;
 	Wake *wakes = reinterpret_cast<Wake *>(job.list(8));
 	const ReachKeeper<T> keeper(slots, job.records(7), rests.status, job.list(8), job.list(9), job.domain[2], job.texels(0));
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
@@ -187,7 +188,7 @@ template <typename T> static void release(const Job<T> &job)
 	int32_t *status = job.list(2);
 	const Touching *touching = reinterpret_cast<const Touching *>(job.list(3));
 	const T(*pushes)[4] = reinterpret_cast<const T(*)[4]>(job.records(4));
-	if (status[STATUS_WANTED] > status[STATUS_HANDED] || (status[STATUS_UNDER_WAY] && !job.domain[3]))
+	if (!status[STATUS_BORNE] || (status[STATUS_UNDER_WAY] && !job.domain[3]))
 		return;
 	Wake *wakes = reinterpret_cast<Wake *>(job.list(6));
 	const ReachKeeper<T> keeper(slots, job.records(5), status, job.list(6), job.list(7), job.domain[2], job.texels(0));

@@ -33,8 +33,9 @@ template <typename T> static void pace(const Job<T> &job)
 	radius /= many;
 	const float way = (std::sqrt(squares / many) + push / many * window) * window * speed_margin;
 	const float side = 1.01f * (radius + std::max(cell_part * way, 0.1f * radius));
-	for (int field : {STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS,
-			 STATUS_PLACED, STATUS_HITS, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING, STATUS_WANTED})
+	for (int field :
+		{STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS, STATUS_PLACED,
+			STATUS_HITS, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING, STATUS_WANTED, STATUS_BORNE})
 		status[field] = 0;
 	status[STATUS_EXTRA] = count;
 	status[STATUS_BUILDS]++;
