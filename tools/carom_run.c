@@ -246,9 +246,9 @@ const struct command run_command = {
 	.most_arguments = 1,
 	.summary = "Simulates a scene and writes states, pictures and tables",
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
-			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first hit, so --steps\n"
-			   "counts those, and --time counts simulated seconds. With --time, the step before the end or before a\n"
-			   "frame is cut short to end there.\n"
+			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first\n"
+			   "hit, so --steps counts those, and --time counts simulated seconds. With --time, the step before the end\n"
+			   "or before a frame is cut short to end there.\n"
 			   "With --steps no step is cut short, and a frame shows the end of the step that its time falls into.\n"
 			   "\nOutputs are written when the run ends, also when a step fails: they then show the last good state, and\n"
 			   "the exit code is 1. An interruption (SIGINT, SIGTERM) ends the run after the steps at hand: all that was\n"

@@ -54,10 +54,7 @@ public:
 	/* In the next step, whoever else says so, too. */
 	void rouse(int32_t s) const { __atomic_store_n(&wakes[s].next, status[STATUS_AGE] + 1, __ATOMIC_RELAXED); }
 
-	bool ready() const
-	{
-		return this->length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL] && status[STATUS_WANTED] <= status[STATUS_HANDED];
-	}
+	bool ready() const { return this->length > 0 && lists_are_good(status) && !forces_are_wanted(status); }
 
 	int32_t root_of(int32_t s) const
 	{

@@ -18,6 +18,17 @@ inline int32_t fetch_add(int32_t *number, int32_t by)
 	return __atomic_fetch_add(number, by, __ATOMIC_RELAXED);
 }
 
+inline bool lists_are_good(const int32_t *status)
+{
+	return !status[STATUS_STALE] && !status[STATUS_SMALL];
+}
+
+/* Does a step of contacts wait for its forces? */
+inline bool forces_are_wanted(const int32_t *status)
+{
+	return status[STATUS_WANTED] > status[STATUS_HANDED];
+}
+
 inline float as_float(int32_t bits)
 {
 	float number;
@@ -148,7 +159,16 @@ public:
 			move(s);
 	}
 
+	/* Of a body whose push is another one: all around looks at it again. */
+	void pushed(int32_t s) const
+	{
+		rouse(s);
+		keep(s);
+	}
+
 private:
+	void rouse(int32_t s) const { wakes[s].changed = wakes[s].next = status[STATUS_AGE]; }
+
 	[[gnu::always_inline]] bool may_leave(const Slot<T> &slot, const Box<T> &box) const
 	{
 		const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
@@ -168,7 +188,7 @@ private:
 		}
 		movers[k] = s;
 		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>{T(as_float(status[STATUS_WINDOW])), T(as_float(status[STATUS_PACE]))});
-		wakes[s].changed = wakes[s].next = status[STATUS_AGE];
+		rouse(s);
 	}
 
 	const Slot<T> *const slots;

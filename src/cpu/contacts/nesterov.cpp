@@ -34,7 +34,7 @@ template <typename T> struct Rests {
 
 	bool moves(int32_t other) const { return other >= 0 && !slots[other].is_static(); }
 
-	/* Calls `visit(slot, its contact)` for all the contacts of a slot, in order. */
+	/* Calls `visit(contact)` for all the contacts of a slot, in order. */
 	template <typename Visit> void each(int32_t s, const Visit &visit) const
 	{
 		for (Resting<T> *rest = contacts + CONTACTS_MOST * s, *end = rest + touching[s].count; rest != end; rest++)
@@ -53,8 +53,8 @@ template <typename T> static void begin(const Job<T> &job)
 {
 	int32_t *status = job.list(2);
 	const int32_t first = job.domain[2], last = job.domain[3];
-	const bool waits = status[STATUS_WANTED] > status[STATUS_HANDED];
-	if (!(step_length(job.texels(1), job.texels(0)) > 0) || status[STATUS_STALE] || status[STATUS_SMALL] || status[STATUS_UNDER_WAY])
+	const bool waits = forces_are_wanted(status);
+	if (!(step_length(job.texels(1), job.texels(0)) > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	status[STATUS_HANDED] = last;
 	if (waits)
@@ -158,10 +158,9 @@ template <typename T> static void apply(const Job<T> &job)
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	T(*pushes)[4] = reinterpret_cast<T(*)[4]>(job.records(6));
-	if (rests.status[STATUS_HANDED] != job.domain[3] || rests.status[STATUS_WANTED] > rests.status[STATUS_HANDED])
+	if (rests.status[STATUS_HANDED] != job.domain[3] || forces_are_wanted(rests.status))
 		return;
 	rests.status[STATUS_BORNE] = 1;
-	Wake *wakes = reinterpret_cast<Wake *>(job.list(8));
 	const ReachKeeper<T> keeper(slots, job.records(7), rests.status, job.list(8), job.list(9), job.domain[2], job.texels(0));
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
@@ -175,8 +174,7 @@ template <typename T> static void apply(const Job<T> &job)
 			slots[s].push[PUSH_X] += (sum.x / rests.length) / rests.length;
 			slots[s].push[PUSH_Y] += (sum.y / rests.length) / rests.length;
 			slots[s].push[PUSH_TORQUE] += (sum.torque / rests.length) / rests.length;
-			wakes[s].changed = wakes[s].next = rests.status[STATUS_AGE];
-			keeper.keep(s);
+			keeper.pushed(s);
 		}
 	});
 }
@@ -190,14 +188,12 @@ template <typename T> static void release(const Job<T> &job)
 	const T(*pushes)[4] = reinterpret_cast<const T(*)[4]>(job.records(4));
 	if (!status[STATUS_BORNE] || (status[STATUS_UNDER_WAY] && !job.domain[3]))
 		return;
-	Wake *wakes = reinterpret_cast<Wake *>(job.list(6));
 	const ReachKeeper<T> keeper(slots, job.records(5), status, job.list(6), job.list(7), job.domain[2], job.texels(0));
 	job.pool.run(status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = touching[k].slot;
 			std::copy_n(pushes[s], 4, slots[s].push);
-			wakes[s].changed = wakes[s].next = status[STATUS_AGE];
-			keeper.keep(s);
+			keeper.pushed(s);
 		}
 	});
 }

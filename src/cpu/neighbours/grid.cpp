@@ -320,7 +320,7 @@ template <typename T> static void mend(const Job<T> &job)
 {
 	const Mender<T> mender(job);
 	const int32_t *status = job.list(1), *movers = job.list(5), first = status[STATUS_MENDED];
-	if (status[STATUS_STALE] || status[STATUS_SMALL])
+	if (!lists_are_good(status))
 		return;
 	job.pool.run(status[STATUS_MOVERS] - first, 16, [&](int32_t begin, int32_t end) {
 		for (int32_t k = first + begin; k < first + end; k++)

@@ -1,4 +1,4 @@
-#include "cpu/body.hpp"
+#include "cpu/reach.hpp"
 
 namespace carom::cpu {
 
@@ -8,7 +8,7 @@ template <typename T> static void settle(const Job<T> &job)
 	const Texels<T> uniforms = job.texels(0), clock = job.texels(1), now = job.texels(3);
 	int32_t *status = job.list(2);
 	const T length = step_length(clock, uniforms);
-	const bool begins = length > 0 && !status[STATUS_STALE] && !status[STATUS_SMALL], waits = begins && status[STATUS_WANTED] > status[STATUS_HANDED];
+	const bool begins = length > 0 && lists_are_good(status), waits = begins && forces_are_wanted(status);
 	const bool good = begins && !waits, left = good && status[STATUS_LEFT];
 	const bool again = good && !left && status[STATUS_ROUND] > job.domain[2], done = good && !left && !again;
 	for (int32_t texel = 0; texel < CLOCK_WIDTH; texel++) {
