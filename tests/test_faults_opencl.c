@@ -56,17 +56,20 @@ static void empty_cache_failed(const char *call, carom_status status, const caro
 	empty_cache();
 }
 
-/* With a cache that is empty each time, then with one that has all. For each of two programs two calls ask for the platform and five for the device, and two
- * get the program from the cache or into it. */
+/* With a cache that is empty each time, then with one that has all; what programs do not need is the same then. For each of two programs two calls ask
+ * for the platform and five for the device, and two get the program from the cache or into it. */
 static void worlds_that_open(void **unused)
 {
 	(void)unused;
-	static walk_judge *const judges[] = {empty_cache_failed, cache_failed};
+	static const struct {
+		faults_kind kind;
+		walk_judge *judge;
+	} walks[] = {{FAULTS_PROGRAMS, empty_cache_failed}, {FAULTS_OPENCL, cache_failed}};
 	assert_non_null(mkdtemp(cache));
 	setenv("CAROM_CACHE", cache, 1);
 	for (int i = 0; i < 2; i++) {
 		spared = 0;
-		if (walk_opening(&scenery_devices[2], "events", FAULTS_OPENCL, judges[i])) /* with images it is the same */
+		if (walk_opening(&scenery_devices[2], "events", walks[i].kind, walks[i].judge)) /* with images it is the same */
 			assert_true(drivers > 1 ? spared >= 2 * (2 + 5 + 2) : spared == 2 * (2 + 5 + 2));
 	}
 	unsetenv("CAROM_CACHE");

@@ -13,8 +13,9 @@ extern "C" {
 
 typedef enum faults_kind {
 	FAULTS_NONE,
-	FAULTS_MEMORY, /* allocations, on any thread, and threads */
-	FAULTS_OPENCL, /* calls of OpenCL: those that create or tell give `code` and nothing else, those that release do so and say `code` */
+	FAULTS_MEMORY,   /* allocations, on any thread, and threads */
+	FAULTS_OPENCL,   /* calls of OpenCL: those that create or tell give `code` and nothing else, those that release do so and say `code` */
+	FAULTS_PROGRAMS, /* of these the ones that programs need, and that tell what they are made for */
 } faults_kind;
 
 /* From now on calls of this kind are counted, and the n-th of them, from 1 on, fails. */

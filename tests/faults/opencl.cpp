@@ -83,6 +83,12 @@ static bool starts(const char *text, const char *part)
 	return std::strncmp(text, part, std::strlen(part)) == 0;
 }
 
+static bool fails_now(const char *call)
+{
+	const bool is_of_programs = std::strstr(call, "Program") || starts(call, "clGetPlatform") || starts(call, "clGetDevice");
+	return faults_strike(FAULTS_OPENCL, call) || (is_of_programs && faults_strike(FAULTS_PROGRAMS, call));
+}
+
 template <typename Value> static const void *handle_of(Value value)
 {
 	if constexpr (std::is_pointer_v<Value>)
@@ -99,7 +105,7 @@ template <int function, typename Result, typename... Arguments> struct Call<func
 		const std::tuple<Arguments...> all(arguments...);
 		const auto first = std::get<0>(all);
 		const bool releases = starts(names[function], "clRelease") || function == number_clEnqueueUnmapMemObject;
-		const bool fails = faults_strike(FAULTS_OPENCL, names[function]);
+		const bool fails = fails_now(names[function]);
 		if (fails && !releases)
 			return failure(std::get<sizeof...(Arguments) - 1>(all));
 		if constexpr (function == number_clEnqueueUnmapMemObject)
