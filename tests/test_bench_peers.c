@@ -46,12 +46,13 @@ static void check_scale_row(size_t row, const char *step)
 		check_kept(row);
 		return;
 	}
+	assert_true(!strstr(csv.at[row][PART], ", a picture") || (ours && number(row, REPETITIONS) == 1));
 	assert_true(number(row, BODIES) == 8 || number(row, BODIES) == 12);
 	assert_true(number(row, SECONDS) > 0 && number(row, REPETITIONS) >= 1 && number(row, RUN) >= 1 && number(row, RUN) <= 2);
 	assert_true(!*csv.at[row][DRIFT] && !*csv.at[row][OVERLAP]);
 }
 
-/* Two shapes, two sizes, two runs, and a row of what is kept. */
+/* Two shapes, two sizes, two runs, with a picture of Carom's behind each, and a row of what is kept. */
 static void check_scale(const char *options, const char *step, size_t devices)
 {
 	char line[256];
@@ -59,13 +60,14 @@ static void check_scale(const char *options, const char *step, size_t devices)
 	check(line, 0, NULL);
 	assert_string_equal(call.err, "");
 	read_csv("t.csv");
-	assert_int_equal(csv.rows, 1 + 2 * (devices + count_peers()) * (2 * 2 + 1));
+	assert_int_equal(csv.rows, 1 + 2 * devices * (2 * 2 * 2 + 1) + 2 * count_peers() * (2 * 2 + 1));
 	assert_int_equal(count(TABLE, "scale"), csv.rows - 1);
 	assert_int_equal(count(VERSION, carom_version()), csv.rows - 1);
 	for (size_t row = 1; row < csv.rows; row++)
 		check_scale_row(row, step);
-	assert_int_equal(count(ALTERNATIVE, "Carom, CPU fallback"), 2 * 5);
-	assert_int_equal(count(ALTERNATIVE, "Carom, OpenCL"), (devices - 1) * 2 * 5);
+	assert_int_equal(count(ALTERNATIVE, "Carom, CPU fallback"), 2 * 9);
+	assert_int_equal(count(ALTERNATIVE, "Carom, OpenCL"), (devices - 1) * 2 * 9);
+	assert_int_equal(count(PART, "circles, a picture"), devices * 2 * 2);
 	assert_non_null(strstr(call.out, "kept in 1000 steps of 12 bodies"));
 }
 
@@ -85,7 +87,7 @@ static void scale_is_measured(void **state)
 	assert_non_null(strstr(call.out, "can't be compared"));
 	if (has_opencl()) {
 		check_scale("--device opencl --storage buffer --set step=first_impact", "first_impact", 2);
-		assert_int_equal(count(STORAGE, "buffer"), 2 * 5);
+		assert_int_equal(count(STORAGE, "buffer"), 2 * 9);
 	}
 	if (!has_events())
 		return;

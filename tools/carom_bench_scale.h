@@ -13,6 +13,8 @@
 #define SCALE_KEPT_STEPS 1000
 #define SCALE_KEPT_EVERY 10  /* steps between two looks at the overlap */
 #define SCALE_FLOOR_BYTES 64 /* of a body and step: 32 of state read, 32 written */
+#define SCALE_WIDTH 1920     /* pixels of a picture */
+#define SCALE_HEIGHT 1080
 #define SCALE_SHAPES 2
 #define SCALE_ENGINES 4
 
@@ -37,6 +39,7 @@ extern const struct scale_shape scale_shapes[SCALE_SHAPES];
 struct scale_cell {
 	uint64_t steps;           /* of a batch; 0: not measured */
 	double seconds[MAX_RUNS]; /* of a batch */
+	double picture[MAX_RUNS]; /* s: of one, behind each batch; 0 where nothing is drawn */
 	char why[256];            /* it was not measured */
 };
 
@@ -98,12 +101,15 @@ struct scale_runner {
 	const struct scale_engine *engine;
 	carom_world *world; /* Carom's, or */
 	void *peer;         /* the peer's; NULL both: there is none */
+	uint8_t *pixels;    /* of the last picture; NULL before the first */
 };
 
 carom_status scale_runner_create(const struct scale_engine *engine, const struct scale_start *start, const struct bench_options *options,
 	struct scale_runner *runner, carom_error *error);
 void scale_runner_destroy(struct scale_runner *runner);
 carom_status scale_runner_step(struct scale_runner *runner, uint64_t steps, carom_error *error);
+/* Draws its bodies; of a peer nothing. */
+carom_status scale_runner_draw(struct scale_runner *runner, carom_error *error);
 carom_status scale_runner_get_states(struct scale_runner *runner, size_t count, carom_body_state *states, carom_error *error);
 
 /* ---- carom_bench_scale_kept.c */

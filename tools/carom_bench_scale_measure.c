@@ -101,6 +101,8 @@ static carom_status prepare(struct scale_result *result, size_t shape, size_t ro
 	carom_status status = scale_runner_create(&scale_engines[engine], start, options, runner, error);
 	if (status == CAROM_OK)
 		status = warm_up(runner, WARM_BATCHES * options->seconds, &seconds, error);
+	if (status == CAROM_OK)
+		status = scale_runner_draw(runner, error);
 	if (status == CAROM_OK) {
 		cell->steps = choose_steps(options->seconds / seconds);
 		return CAROM_OK;
@@ -116,6 +118,11 @@ static carom_status measure_batch(struct scale_runner *runner, struct scale_cell
 	if (status == CAROM_OK)
 		status = scale_runner_step(runner, cell->steps, error);
 	cell->seconds[run] = wall_seconds() - begun;
+	if (status != CAROM_OK || !runner->world)
+		return status;
+	begun = wall_seconds();
+	status = scale_runner_draw(runner, error);
+	cell->picture[run] = wall_seconds() - begun;
 	return status;
 }
 

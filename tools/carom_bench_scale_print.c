@@ -41,7 +41,7 @@ static double best_peer(const struct scale_result *result, const struct scale_ro
 
 static void print_cell(const struct scale_result *result, const struct scale_row *row, size_t engine)
 {
-	char median[32], least[32], most[32], spread[72], speed[32], ratio[32] = "", share[32] = "";
+	char median[32], least[32], most[32], spread[72], speed[32], ratio[32] = "", share[32] = "", picture[32] = "";
 	const struct scale_cell *cell = &row->cells[engine];
 	const struct bench_spread seconds = scale_spread(result, cell);
 	const double rate = scale_rate(result, row, engine), peer = best_peer(result, row);
@@ -55,15 +55,17 @@ static void print_cell(const struct scale_result *result, const struct scale_row
 		bench_format_ratio(rate / peer, ratio, sizeof ratio);
 	if (result->copy_rate > 0)
 		snprintf(share, sizeof share, "%.2g %%", 100 * 1e6 * rate * SCALE_FLOOR_BYTES / result->copy_rate);
-	printf("%8u  %-20s%11s  %-20s%12s%14s%10s  %zu x %" PRIu64 "\n", (unsigned)row->bodies, scale_engines[engine].label,
-		bench_format(1e3 * seconds.median, median, sizeof median), spread, bench_format(rate, speed, sizeof speed), ratio, share, result->runs,
-		cell->steps);
+	if (cell->picture[0] > 0)
+		bench_format(1e3 * bench_spread(cell->picture, result->runs, 1).median, picture, sizeof picture);
+	printf("%8u  %-20s%11s  %-20s%12s%14s%10s%14s  %zu x %" PRIu64 "\n", (unsigned)row->bodies, scale_engines[engine].label,
+		bench_format(1e3 * seconds.median, median, sizeof median), spread, bench_format(rate, speed, sizeof speed), ratio, share, picture,
+		result->runs, cell->steps);
 }
 
 static void print_shape(const struct scale_result *result, size_t shape)
 {
-	printf("\n%s\n%8s  %-20s%11s  %-20s%12s%14s%10s  %s\n", scale_shapes[shape].title, "bodies", "", "ms a step", "least - most", "million/s",
-		"to best peer", "of floor", "steps");
+	printf("\n%s\n%8s  %-20s%11s  %-20s%12s%14s%10s%14s  %s\n", scale_shapes[shape].title, "bodies", "", "ms a step", "least - most", "million/s",
+		"to best peer", "of floor", "ms a picture", "steps");
 	for (size_t i = 0; i < result->row_count; i++) {
 		for (size_t k = 0; k < SCALE_ENGINES; k++) {
 			if (!scale_absence(result, k))
@@ -110,11 +112,12 @@ static void print_reading(const struct scale_result *result)
 		   "to best peer: Carom's body-steps a second / those of the faster of the others, above 1 where Carom is faster.\n"
 		   "of floor: what a step takes at least, %d bytes a body at the memory's rate above, as a part of what it took. A GPU\n"
 		   "with a memory of its own is not bound by that.\n"
+		   "ms a picture: the median of as many, of %d x %d pixels, the bodies' states read and drawn, but not written as PNG.\n"
 		   "Carom takes all cores, the others one; they are the system's packages (Debian's Chipmunk has its assertions compiled\n"
 		   "in). Where a step of one took more than %.0f s, it is left out of the larger sizes.\n"
 		   "kept: the kinetic energy ought to stay and nothing to overlap; the overlap is looked for every %d steps, also with\n"
 		   "walls. Both are measured by Carom, in double precision, from each engine's states.\n",
-		result->runs, SCALE_FLOOR_BYTES, SCALE_SLOW, SCALE_KEPT_EVERY);
+		result->runs, SCALE_FLOOR_BYTES, SCALE_WIDTH, SCALE_HEIGHT, SCALE_SLOW, SCALE_KEPT_EVERY);
 	if (!strcmp(result->step, "first_impact"))
 		printf("A step of %s may end before 1/60 s: its figures can't be compared with the others'.\n", result->step);
 }
@@ -147,11 +150,11 @@ void scale_put_engine(FILE *stream, const struct scale_engine *engine, const car
 	fputs("0,", stream);
 }
 
-/* Up to the run's number. */
-static void put_start(FILE *stream, const struct scale_result *result, size_t shape, const char *kept, uint32_t bodies, size_t engine)
+/* Up to the run's number; `what` is measured, if not steps. */
+static void put_start(FILE *stream, const struct scale_result *result, size_t shape, const char *what, uint32_t bodies, size_t engine)
 {
 	const carom_device_info *device = scale_engines[engine].place == PLACE_CPU ? &result->fallback : &result->device;
-	fprintf(stream, "%s,scale,\"%s%s\",", carom_version(), scale_shapes[shape].title, kept);
+	fprintf(stream, "%s,scale,\"%s%s\",", carom_version(), scale_shapes[shape].title, what);
 	scale_put_engine(stream, &scale_engines[engine], device, bodies, scale_shapes[shape].name, result->settings[engine]);
 }
 
@@ -162,6 +165,10 @@ static void write_cell(FILE *stream, const struct scale_result *result, size_t s
 		put_start(stream, result, shape, "", row->bodies, engine);
 		fprintf(stream, "%zu,%" PRIu64 ",0,%.9g,%.9g,,,,%.6g,,,\n", run + 1, cell->steps, cell->seconds[run],
 			REPETITIONS * cell->seconds[run] / (double)cell->steps, result->copy_rate);
+	}
+	for (size_t run = 0; cell->picture[0] > 0 && run < result->runs; run++) {
+		put_start(stream, result, shape, ", a picture", row->bodies, engine);
+		fprintf(stream, "%zu,1,0,%.9g,%.9g,,,,%.6g,,,\n", run + 1, cell->picture[run], REPETITIONS * cell->picture[run], result->copy_rate);
 	}
 }
 

@@ -141,8 +141,8 @@ void scale_runner_destroy(struct scale_runner *runner)
 	carom_world_destroy(runner->world);
 	if (runner->peer)
 		runner->engine->peer->destroy(runner->peer);
-	runner->world = NULL;
-	runner->peer = NULL;
+	free(runner->pixels);
+	*runner = (struct scale_runner){0};
 }
 
 carom_status scale_runner_step(struct scale_runner *runner, uint64_t steps, carom_error *error)
@@ -152,6 +152,20 @@ carom_status scale_runner_step(struct scale_runner *runner, uint64_t steps, caro
 	for (uint64_t k = 0; k < steps; k++)
 		runner->engine->peer->step(runner->peer);
 	return CAROM_OK;
+}
+
+carom_status scale_runner_draw(struct scale_runner *runner, carom_error *error)
+{
+	carom_render_def def = carom_default_render_def();
+	if (!runner->world)
+		return CAROM_OK;
+	def.width = SCALE_WIDTH;
+	def.height = SCALE_HEIGHT;
+	if (!runner->pixels)
+		runner->pixels = malloc((size_t)4 * SCALE_WIDTH * SCALE_HEIGHT);
+	if (!runner->pixels)
+		return no_memory("the picture", error);
+	return carom_world_render(runner->world, &def, runner->pixels, error);
 }
 
 carom_status scale_runner_get_states(struct scale_runner *runner, size_t count, carom_body_state *states, carom_error *error)
