@@ -294,6 +294,7 @@
 #define STATUS_HANDED 25 /* the last that was handed over */
 #define STATUS_BORNE 26  /* 1: pushes are changed */
 #define STATUS_WAITS 27  /* since the host asked: steps not done since they needed more iterations */
+#define STATUS_BUSTLE 28 /* hits of the last step that is done: where there are many, shorter lists are better */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */

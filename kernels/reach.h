@@ -5,6 +5,8 @@
 #define CELL_FACTOR 2.5f   /* of the mean speed: few bodies are too fast for the cells of their size */
 #define NEAR_LEVELS 2      /* a body looks for smaller ones so many levels below; those farther below look for it */
 #define DRIFT_FACTOR 1.34f /* of the pace, a part of it that bodies can go in a step by a hit */
+#define HIT_FACTOR 4.0f    /* of the hits a body and step: lists of so many bodies are looked at, and do not last as long */
+#define LEAST_STEPS 1.5f   /* for lists to last */
 
 /* Lists begin of so many slots. */
 void status_begin(LIST_OUT(status), int count)
@@ -18,9 +20,10 @@ void status_begin(LIST_OUT(status), int count)
 	status[STATUS_BUILDS]++;
 }
 
-/* How far bodies go, from a sample of them. None of this changes a result: it only decides how long lists last. */
-void pace_choose(RECORD_IN(slots), int count, float window, LIST_OUT(status))
+/* How far bodies go, from a sample of them, in so many time steps at most. None of this changes a result: it only decides how long lists last. */
+void pace_choose(RECORD_IN(slots), int count, float time_step, float most_steps, LIST_OUT(status))
 {
+	float window = time_step * larger(most_steps / (1.0f + HIT_FACTOR * ((float)status[STATUS_BUSTLE] / (float)count)), LEAST_STEPS);
 	int step = count / 256 + 1, n = 0;
 	float square = 0.0f, push = 0.0f, radius = 0.0f;
 	for (int s = 0; s < count; s += step) {

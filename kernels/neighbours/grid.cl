@@ -4,9 +4,8 @@ __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(statu
 {
 	if (get_global_id(0) > 0)
 		return;
-	float window = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP) * ((float)domain.w / 256.0f);
 	status_begin(status, domain.z);
-	pace_choose(slots, domain.z, window, status);
+	pace_choose(slots, domain.z, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP), (float)domain.w / 256.0f, status);
 }
 
 __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST_OUT(status), LIST_OUT(spans), LIST_OUT(cells), int4 domain)

@@ -22,6 +22,7 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 		time = (float4)(elapsed.x, elapsed.y, remaining.x, remaining.y);
 		counts = (float4)(CHANNEL(counts, COUNTS_STEPS) + 1.0f, hits.x, CHANNEL(counts, COUNTS_HELD) + (float)status[STATUS_HELD], hits.y);
 		status[STATUS_STEPS]++;
+		status[STATUS_BUSTLE] = status[STATUS_HITS];
 		bool busy = status[STATUS_ACTIVE] > domain.w / BUSY;
 		status[STATUS_AGE] = busy || status[STATUS_AHEAD] == 0 ? 0 : status[STATUS_AGE] + 1;
 		status[STATUS_AHEAD] = busy ? 0 : HORIZON - 1;

@@ -11,7 +11,7 @@
 #include "layout.h"
 #include "status.h"
 
-#define WINDOW 1536         /* 1/256 of a time step: longer lists are longer, too */
+#define WINDOW 1536         /* 1/256 of a time step, that lists are to last at most: those are longer, too */
 #define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
 #define MOST_ROUNDS 64
 #define LAST_NUMBER (1 << 30) /* of a round, or of an iteration of the step contacts */

@@ -18,7 +18,9 @@ template <typename T> static void pace(const Job<T> &job)
 	const Slot<T> *slots = slots_of(job, 1);
 	int32_t *status = job.list(2);
 	const int32_t count = job.domain[2], step = count / 256 + 1;
-	const float window = static_cast<float>(job.texels(0).fact(UNIFORMS_WORLD, WORLD_TIME_STEP)) * (static_cast<float>(job.domain[3]) / 256.0f);
+	const float bustle = static_cast<float>(status[STATUS_BUSTLE]) / static_cast<float>(count);
+	const float steps = std::max((static_cast<float>(job.domain[3]) / 256.0f) / (1 + hit_part * bustle), least_steps);
+	const float window = static_cast<float>(job.texels(0).fact(UNIFORMS_WORLD, WORLD_TIME_STEP)) * steps;
 	float squares = 0, push = 0, radius = 0, many = 0;
 	for (int32_t s = 0; s < count; s += step) {
 		if (slots[s].is_static())
