@@ -5,8 +5,8 @@
 #define CELL_FACTOR 2.5f   /* of the mean speed: few bodies are too fast for the cells of their size */
 #define NEAR_LEVELS 2      /* a body looks for smaller ones so many levels below; those farther below look for it */
 #define DRIFT_FACTOR 1.34f /* of the pace, a part of it that bodies can go in a step by a hit */
-#define HIT_FACTOR 4.0f    /* of the hits a body and step: lists of so many bodies are looked at, and do not last as long */
-#define LEAST_STEPS 1.5f   /* for lists to last */
+#define HIT_FACTOR 4.0f    /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
+#define LEAST_STEPS 1.5f   /* that lists are made for: more than DRIFT_FACTOR, or they are too old as soon as they are made */
 
 /* Lists begin of so many slots. */
 void status_begin(LIST_OUT(status), int count)
