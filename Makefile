@@ -27,6 +27,7 @@ SANITIZERS := -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-
 export ASAN_OPTIONS ?= $(LEAKS):detect_stack_use_after_return=1:strict_string_checks=1
 export LSAN_OPTIONS ?= suppressions=tests/lsan.supp:print_suppressions=0
 export UBSAN_OPTIONS ?= print_stacktrace=1
+LOADED := $(BUILD)/tests/sanitize/loaded.o
 endif
 
 # As many jobs as there are cores, unless the user or a make above says otherwise.
@@ -241,6 +242,12 @@ $(TEST_PROGRAMS): %: %.o $(HELPER_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/helpers.
 
 $(FUZZ_PROGRAMS): %: %.o $(FUZZ_OBJECTS) $(BUILD)/libcarom.a $(BUILD)/fuzz.list
 	$(call say,LINK) $(LINK) $(LIBFUZZER) -o $@ $(filter %.o %.a,$^) $(LIBRARIES)
+
+# Under the address sanitizer
+ifdef LOADED
+$(BUILD)/carom $(TEST_PROGRAMS) $(FUZZ_PROGRAMS): $(LOADED)
+$(BUILD)/carom $(TEST_PROGRAMS) $(FUZZ_PROGRAMS): private LDFLAGS += -rdynamic
+endif
 
 check: all $(TEST_PROGRAMS) $(FUZZ_PROGRAMS)
 	$(if $(filter Darwin,$(SYSTEM)),@echo 'SKIPPED tests/test_faults_*: the linker of macOS has no --wrap')
