@@ -69,7 +69,7 @@ static int set_up(void **state)
 	format(line, sizeof line, "ln -s \"$PWD/include\" \"$PWD/scenes\" \"$PWD/tests\" $D && ln -s '%s' $D/build", path);
 	check(line, 0, NULL);
 	setenv("CAROM_DEVICE", "cpu", 1);
-	setenv("CAROM_SANITIZERS", strstr(path, "/sanitize") ? "-fsanitize=address,undefined" : "", 1);
+	setenv("CAROM_SANITIZERS", strstr(path, "/sanitize") ? "-fsanitize=address,undefined build/tests/sanitize/loaded.o -rdynamic" : "", 1);
 	read_text("README.md", readme, sizeof readme);
 	read_text("tools/carom.1", manual, sizeof manual);
 	read_text("tools/bootstrap", bootstrap, sizeof bootstrap);
