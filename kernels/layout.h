@@ -288,13 +288,13 @@
 #define STATUS_EXTRA_ROOM 20 /* ints there are in Extra */
 #define STATUS_MENDED 21     /* of Movers: those that are with their new neighbours */
 #define STATUS_AHEAD 22      /* steps after this one that a look is good for */
+#define STATUS_BUSTLE 28     /* hits of the last step that is done: where there are many, shorter lists are better */
 /* Of the step contacts, whose iterations are numbered on and on: */
 #define STATUS_WANTED 23 /* the last iteration that is wanted; if that is after STATUS_HANDED, the step waits for its forces */
 #define STATUS_FIRST 24  /* the first of those now */
 #define STATUS_HANDED 25 /* the last that was handed over */
 #define STATUS_BORNE 26  /* 1: pushes are changed */
 #define STATUS_WAITS 27  /* since the host asked: steps not done since they needed more iterations */
-#define STATUS_BUSTLE 28 /* hits of the last step that is done: where there are many, shorter lists are better */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */
