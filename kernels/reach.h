@@ -245,25 +245,31 @@ void near_write(const near_list *list, int start, int half_end, int end, LIST_OU
 		neighbours[k] = list->found[NEAR_MOST - 1 - (k - half_end)];
 }
 
+/* How far the body may go in the next step. */
+float way_ahead(RECORD_IN(slots), int s, float step)
+{
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	float speed = norm((float2)(CHANNEL(at, LINEAR_VX), CHANNEL(at, LINEAR_VY)));
+	return (speed + norm((float2)(CHANNEL(push, PUSH_X), CHANNEL(push, PUSH_Y))) * step) * step;
+}
+
 /* Might the body leave its reach in the next step? */
 bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(status), float4 box, int s)
 {
 	float step = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP);
-	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), push = SLOT_LOAD(slots, s, SLOT_PUSH);
-	float speed = norm((float2)(CHANNEL(at, LINEAR_VX), CHANNEL(at, LINEAR_VY)))
-		+ norm((float2)(CHANNEL(push, PUSH_X), CHANNEL(push, PUSH_Y))) * step;
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE);
 	float common = as_float(status[STATUS_PACE]) * (step / as_float(status[STATUS_WINDOW]));
-	float way = larger(REACH_FACTOR * speed * step, DRIFT_FACTOR * common) + CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
+	float way = larger(REACH_FACTOR * way_ahead(slots, s, step), DRIFT_FACTOR * common) + CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 	float x = CHANNEL(at, LINEAR_X), y = CHANNEL(at, LINEAR_Y);
 	return x - way < CHANNEL(box, AABB_MIN_X) || y - way < CHANNEL(box, AABB_MIN_Y) || x + way > CHANNEL(box, AABB_MAX_X)
 		|| y + way > CHANNEL(box, AABB_MAX_Y);
 }
 
-/* A body that might gets another reach, and new neighbours before that step. */
-void reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
+/* A body that might gets another reach, and new neighbours before that step. True if it does. */
+bool reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
 {
 	if (!leaves_reach(TEX(uniforms), slots, status, reach[s], s))
-		return;
+		return false;
 	int mover = atomic_inc(&status[STATUS_MOVERS]);
 	if (mover < room)
 		movers[mover] = s;
@@ -271,4 +277,5 @@ void reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(
 		atomic_or(&status[STATUS_STALE], 1);
 	reach[s] = reach_about(slots, s, 0.0f, status);
 	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
+	return true;
 }

@@ -200,11 +200,11 @@ float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s
 	return sum;
 }
 
-/* A slot's push is another one: all around looks at it again, and it may get farther. */
-void push_set(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, float4 push,
+/* A slot's push is another one: all around looks at it again, and it may get farther. True if that is where it was not looked for. */
+bool push_set(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, float4 push,
 	int room)
 {
 	slots[SLOT_WIDTH * s + SLOT_PUSH] = push;
 	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
-	reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
+	return reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
 }

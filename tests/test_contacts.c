@@ -181,6 +181,37 @@ static void a_push_is_handed_on(void **unused)
 	}
 }
 
+/* What pushes one of two bodies lets the other get where it was not looked for: among more others than lists take while they last. */
+static void a_push_is_handed_on_beside_many(void **unused)
+{
+	enum { COLUMNS = 30, ROWS = 30, COUNT = 2 + COLUMNS * ROWS };
+	static carom_body_def bodies[COUNT];
+	const double force = 720.0; /* 0.1 m in a step */
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world_def def = resting("contacts", 10.0f, 20.0f);
+		def.gravity.y = 0.0f;
+		for (int i = 0; i < COUNT; i++) {
+			const int k = i - 2;
+			bodies[i] = scenery_circle(2.0f + 0.15f * (float)(k % COLUMNS), 10.0f + 0.15f * (float)(k / COLUMNS - ROWS / 2), 0.0f, 0.0f, 0.05f);
+		}
+		for (int i = 0; i < 2; i++) {
+			bodies[i].position = (carom_vec2){0.10001f * (float)i, 10.0f};
+			bodies[i].mass = 1.0f;
+		}
+		bodies[0].force.x = (float)force;
+		carom_world *world = runs_world(&def, device, bodies, COUNT);
+		if (!world)
+			continue;
+		assert_true(runs_step(world, 4).hits == 0);
+		for (uint32_t i = 0; i < 2; i++)
+			runs_near((double)runs_state(world, i).velocity.x, 0.5 * force * carom_world_time(world), 1e-3);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
 /* What comes fast bounces, as it does by events. */
 static void what_falls_bounces(void **unused)
 {
@@ -283,7 +314,8 @@ static void forces_add_no_energy(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(heaps_lie_still), cmocka_unit_test(columns_stand_without_a_hit),
-		cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(a_push_is_handed_on), cmocka_unit_test(what_falls_bounces),
-		cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(too_many_on_one_are_events), cmocka_unit_test(forces_add_no_energy)};
+		cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(a_push_is_handed_on), cmocka_unit_test(a_push_is_handed_on_beside_many),
+		cmocka_unit_test(what_falls_bounces), cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(too_many_on_one_are_events),
+		cmocka_unit_test(forces_add_no_energy)};
 	return cmocka_run_group_tests_name("contacts", tests, NULL, NULL);
 }

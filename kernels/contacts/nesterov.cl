@@ -82,7 +82,7 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 }
 
 __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
-	RECORD_OUT(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
+	RECORD_OUT(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
 	if (status[STATUS_HANDED] != domain.w || forces_are_wanted(status))
@@ -94,7 +94,8 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 		float4 sum = rests_sum(slots, contacts, touching, s), push = SLOT_LOAD(slots, s, SLOT_PUSH);
 		pushes[s] = push;
 		push = (float4)(push.x + (sum.x / length) / length, push.y + (sum.y / length) / length, push.z + (sum.z / length) / length, push.w);
-		push_set(TEX(uniforms), slots, status, reach, wakes, movers, s, push, domain.z);
+		if (push_set(TEX(uniforms), slots, status, reach, wakes, movers, s, push, domain.z)) /* lists made anew for this step know no forces */
+			need[s] = as_int(way_ahead(slots, s, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)));
 	}
 }
 

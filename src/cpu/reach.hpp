@@ -157,17 +157,28 @@ public:
 	{
 	}
 
-	[[gnu::always_inline]] void keep(int32_t s) const
+	/* True if it got another. */
+	[[gnu::always_inline]] bool keep(int32_t s) const
 	{
-		if (may_leave(slots[s], boxes[s]))
+		const bool leaves = may_leave(slots[s], boxes[s]);
+		if (leaves)
 			move(s);
+		return leaves;
 	}
 
 	/* Of a body whose push is another one: all around looks at it again. */
-	void pushed(int32_t s) const
+	bool pushed(int32_t s) const
 	{
 		rouse(s);
-		keep(s);
+		return keep(s);
+	}
+
+	/* How far the body may go in the next step. */
+	[[gnu::always_inline]] T way_of(const Slot<T> &slot) const
+	{
+		const T speed = std::sqrt(slot.place[LINEAR_VX] * slot.place[LINEAR_VX] + slot.place[LINEAR_VY] * slot.place[LINEAR_VY])
+			+ (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * step;
+		return speed * step;
 	}
 
 private:
@@ -176,9 +187,7 @@ private:
 	[[gnu::always_inline]] bool may_leave(const Slot<T> &slot, const Box<T> &box) const
 	{
 		const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
-		const T speed = std::sqrt(slot.place[LINEAR_VX] * slot.place[LINEAR_VX] + slot.place[LINEAR_VY] * slot.place[LINEAR_VY])
-			+ (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * step;
-		const T way = std::max(speed_margin * speed * step, common) + slot.radius();
+		const T way = std::max(speed_margin * way_of(slot), common) + slot.radius();
 		return (x - way < box.min_x) | (y - way < box.min_y) | (x + way > box.max_x) | (y + way > box.max_y);
 	}
 

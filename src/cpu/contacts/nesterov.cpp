@@ -158,6 +158,7 @@ template <typename T> static void apply(const Job<T> &job)
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	T(*pushes)[4] = reinterpret_cast<T(*)[4]>(job.records(6));
+	int32_t *need = job.list(10);
 	if (rests.status[STATUS_HANDED] != job.domain[3] || forces_are_wanted(rests.status))
 		return;
 	rests.status[STATUS_BORNE] = 1;
@@ -174,7 +175,8 @@ template <typename T> static void apply(const Job<T> &job)
 			slots[s].push[PUSH_X] += (sum.x / rests.length) / rests.length;
 			slots[s].push[PUSH_Y] += (sum.y / rests.length) / rests.length;
 			slots[s].push[PUSH_TORQUE] += (sum.torque / rests.length) / rests.length;
-			keeper.pushed(s);
+			if (keeper.pushed(s)) /* lists that are made anew for this step, without the forces, have to be long enough */
+				need[s] = as_bits(static_cast<float>(keeper.way_of(slots[s])));
 		}
 	});
 }
