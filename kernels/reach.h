@@ -6,7 +6,8 @@
 #define NEAR_LEVELS 2      /* a body looks for smaller ones so many levels below; those farther below look for it */
 #define DRIFT_FACTOR 1.34f /* of the pace, a part of it that bodies can go in a step by a hit */
 #define HIT_FACTOR 4.0f    /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
-#define LEAST_STEPS 1.5f   /* that lists are made for: more than DRIFT_FACTOR, or they are too old as soon as they are made */
+#define MOST_STEPS 6.0f    /* that lists are made for */
+#define LEAST_STEPS 1.5f   /* more than DRIFT_FACTOR, or they are too old as soon as they are made */
 
 /* Lists begin of so many slots. */
 void status_begin(LIST_OUT(status), int count)
@@ -20,10 +21,10 @@ void status_begin(LIST_OUT(status), int count)
 	status[STATUS_BUILDS]++;
 }
 
-/* How far bodies go, from a sample of them, in so many time steps at most. None of this changes a result: it only decides how long lists last. */
-void pace_choose(RECORD_IN(slots), int count, float time_step, float most_steps, LIST_OUT(status))
+/* How far bodies go, from a sample of them; that is taken so many times. None of this changes a result: it only decides how long lists last. */
+void pace_choose(RECORD_IN(slots), int count, float time_step, float times, LIST_OUT(status))
 {
-	float window = time_step * larger(most_steps / (1.0f + HIT_FACTOR * ((float)status[STATUS_BUSTLE] / (float)count)), LEAST_STEPS);
+	float window = time_step * larger(MOST_STEPS / (1.0f + HIT_FACTOR * ((float)status[STATUS_BUSTLE] / (float)count)), LEAST_STEPS);
 	int step = count / 256 + 1, n = 0;
 	float square = 0.0f, push = 0.0f, radius = 0.0f;
 	for (int s = 0; s < count; s += step) {
@@ -36,8 +37,8 @@ void pace_choose(RECORD_IN(slots), int count, float time_step, float most_steps,
 		n++;
 	}
 	float many = n > 0 ? (float)n : 1.0f, speed = sqrt(square / many) + (push / many) * window;
-	float pace = larger(REACH_FACTOR * PACE_FACTOR * speed * window, 0.1f * (radius / many));
-	float side = 1.01f * ((radius / many) + larger(pace, REACH_FACTOR * CELL_FACTOR * speed * window));
+	float pace = times * larger(REACH_FACTOR * PACE_FACTOR * speed * window, 0.1f * (radius / many));
+	float side = 1.01f * ((radius / many) + larger(pace, times * (REACH_FACTOR * CELL_FACTOR * speed * window)));
 	status[STATUS_PACE] = as_int(pace);
 	status[STATUS_CELL] = as_int(side > 0.0f && side < 1e30f ? side : 1.0f);
 	status[STATUS_WINDOW] = as_int(window);

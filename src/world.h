@@ -54,7 +54,8 @@ typedef struct carom_events {
 	uint32_t good;            /* makings since one died before its time */
 	int32_t round, iteration; /* numbers of the last ones handed over */
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */
-	uint32_t idle;            /* batches in a row that ended no step */
+	uint32_t idle;            /* batches in a row that ended no step, */
+	uint32_t stale;           /* and of these those that ended with lists that were too old, or too short */
 } carom_events;
 
 /* What there is on the device for pictures; all zero while none has been drawn. */

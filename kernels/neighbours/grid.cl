@@ -5,7 +5,7 @@ __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(statu
 	if (get_global_id(0) > 0)
 		return;
 	status_begin(status, domain.z);
-	pace_choose(slots, domain.z, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP), (float)domain.w / 256.0f, status);
+	pace_choose(slots, domain.z, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP), (float)domain.w, status);
 }
 
 __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST_OUT(status), LIST_OUT(spans), LIST_OUT(cells), int4 domain)

@@ -67,10 +67,8 @@ private:
 				return true;
 			}
 		}
-		if (!answer(id, other_id)) {
+		if (!answer(id, other_id)) /* the step begins again, but goes on as long as it tells what others need, too */
 			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
-			return false;
-		}
 		with_partner.reset();
 		look_again(id, other_id);
 		if (other_id >= 0)

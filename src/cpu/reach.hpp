@@ -12,7 +12,8 @@ constexpr float pace_part = 1.6f;     /* of the mean speed, which counts for bod
 constexpr float cell_part = 2.5f;     /* of the mean speed: few bodies are too fast for the cells of their size */
 constexpr float drift_part = 1.34f;   /* of what the pace is for a step */
 constexpr float hit_part = 4.0f;      /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
-constexpr float least_steps = 1.5f;   /* that lists are made for */
+constexpr float most_steps = 6.0f;    /* that lists are made for, */
+constexpr float least_steps = 1.5f;   /* and least */
 constexpr int32_t levels_below = 2;   /* a body looks for others so many levels below its own; those farther below look for it */
 
 static_assert(least_steps > drift_part, "else lists are too old as soon as they are made");

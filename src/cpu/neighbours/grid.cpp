@@ -19,7 +19,7 @@ template <typename T> static void pace(const Job<T> &job)
 	int32_t *status = job.list(2);
 	const int32_t count = job.domain[2], step = count / 256 + 1;
 	const float bustle = static_cast<float>(status[STATUS_BUSTLE]) / static_cast<float>(count);
-	const float steps = std::max((static_cast<float>(job.domain[3]) / 256.0f) / (1 + hit_part * bustle), least_steps);
+	const float steps = std::max(most_steps / (1 + hit_part * bustle), least_steps), times = static_cast<float>(job.domain[3]);
 	const float window = static_cast<float>(job.texels(0).fact(UNIFORMS_WORLD, WORLD_TIME_STEP)) * steps;
 	float squares = 0, push = 0, radius = 0, many = 0;
 	for (int32_t s = 0; s < count; s += step) {
@@ -34,14 +34,14 @@ template <typename T> static void pace(const Job<T> &job)
 	many = std::max(many, 1.0f);
 	radius /= many;
 	const float way = (std::sqrt(squares / many) + push / many * window) * window * speed_margin;
-	const float side = 1.01f * (radius + std::max(cell_part * way, 0.1f * radius));
+	const float side = 1.01f * (radius + times * std::max(cell_part * way, 0.1f * radius));
 	for (int field :
 		{STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS, STATUS_PLACED,
 			STATUS_HITS, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING, STATUS_WANTED, STATUS_BORNE})
 		status[field] = 0;
 	status[STATUS_EXTRA] = count;
 	status[STATUS_BUILDS]++;
-	status[STATUS_PACE] = as_bits(std::max(pace_part * way, 0.1f * radius));
+	status[STATUS_PACE] = as_bits(times * std::max(pace_part * way, 0.1f * radius));
 	status[STATUS_CELL] = as_bits(side > 0 && side < 1e30f ? side : 1.0f);
 	status[STATUS_WINDOW] = as_bits(window);
 }
