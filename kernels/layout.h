@@ -289,6 +289,7 @@
 #define STATUS_MENDED 21     /* of Movers: those that are with their new neighbours */
 #define STATUS_AHEAD 22      /* steps after this one that a look is good for */
 #define STATUS_BUSTLE 28     /* hits of the last step that is done: where there are many, shorter lists are better */
+#define STATUS_BRIEF 29      /* float bits, s: how long the lists of bodies are to last that are far faster than most */
 /* Of the step contacts, whose iterations are numbered on and on: */
 #define STATUS_WANTED 23 /* the last iteration that is wanted; if that is after STATUS_HANDED, the step waits for its forces */
 #define STATUS_FIRST 24  /* the first of those now */

@@ -1,13 +1,15 @@
 /* Where a body may get while the lists of neighbours are good, and the cells in which it is looked for. */
 
-#define REACH_FACTOR 1.25f /* of a body's speed: hits may make it faster */
-#define PACE_FACTOR 1.6f   /* of the mean speed, which counts for bodies that are slower */
-#define CELL_FACTOR 2.5f   /* of the mean speed: few bodies are too fast for the cells of their size */
-#define NEAR_LEVELS 2      /* a body looks for smaller ones so many levels below; those farther below look for it */
-#define DRIFT_FACTOR 1.34f /* of the pace, a part of it that bodies can go in a step by a hit */
-#define HIT_FACTOR 4.0f    /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
-#define MOST_STEPS 6.0f    /* that lists are made for */
-#define LEAST_STEPS 1.5f   /* more than DRIFT_FACTOR, or they are too old as soon as they are made */
+#define REACH_FACTOR 1.25f  /* of a body's speed: hits may make it faster */
+#define PACE_FACTOR 1.6f    /* of the mean speed, which counts for bodies that are slower */
+#define CELL_FACTOR 2.5f    /* of the mean speed: few bodies are too fast for the cells of their size */
+#define TYPICAL_FACTOR 1.8f /* of the mean of the speeds' roots, squared: more than the mean speed, but where a few are far faster than most */
+#define NEAR_LEVELS 2       /* a body looks for smaller ones so many levels below; those farther below look for it */
+#define FAST_FACTOR 4.0f    /* of the pace: bodies that get farther are not looked for so long, for they would know too many */
+#define DRIFT_FACTOR 1.34f  /* of the pace, a part of it that bodies can go in a step by a hit */
+#define HIT_FACTOR 4.0f     /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
+#define MOST_STEPS 6.0f     /* that lists are made for */
+#define LEAST_STEPS 1.5f    /* more than DRIFT_FACTOR, or they are too old as soon as they are made */
 
 /* Lists begin of so many slots. */
 void status_begin(LIST_OUT(status), int count)
@@ -21,27 +23,29 @@ void status_begin(LIST_OUT(status), int count)
 	status[STATUS_BUILDS]++;
 }
 
-/* How far bodies go, from a sample of them; that is taken so many times. None of this changes a result: it only decides how long lists last. */
-void pace_choose(RECORD_IN(slots), int count, float time_step, float times, LIST_OUT(status))
+/* How far bodies go, from a sample of them, but so many tenths of a radius at least. None of this changes a result: it only decides how long lists last. */
+void pace_choose(RECORD_IN(slots), int count, float time_step, float tenths, LIST_OUT(status))
 {
 	float window = time_step * larger(MOST_STEPS / (1.0f + HIT_FACTOR * ((float)status[STATUS_BUSTLE] / (float)count)), LEAST_STEPS);
 	int step = count / 256 + 1, n = 0;
-	float square = 0.0f, push = 0.0f, radius = 0.0f;
+	float square = 0.0f, root = 0.0f, radius = 0.0f;
 	for (int s = 0; s < count; s += step) {
 		float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), acceleration = SLOT_LOAD(slots, s, SLOT_PUSH);
 		if (slot_is_static(slots, s))
 			continue;
-		square += at.z * at.z + at.w * at.w;
-		push += norm((float2)(acceleration.x, acceleration.y));
+		float speed = norm((float2)(at.z, at.w)) + norm((float2)(acceleration.x, acceleration.y)) * window;
+		square += speed * speed;
+		root += sqrt(speed);
 		radius += CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 		n++;
 	}
-	float many = n > 0 ? (float)n : 1.0f, speed = sqrt(square / many) + (push / many) * window;
-	float pace = times * larger(REACH_FACTOR * PACE_FACTOR * speed * window, 0.1f * (radius / many));
-	float side = 1.01f * ((radius / many) + larger(pace, times * (REACH_FACTOR * CELL_FACTOR * speed * window)));
+	float many = n > 0 ? (float)n : 1.0f, size = radius / many, typical = TYPICAL_FACTOR * (root / many) * (root / many);
+	float way = smaller(REACH_FACTOR * window * sqrt(square / many), larger(REACH_FACTOR * window * typical, size));
+	float pace = larger(PACE_FACTOR * way, tenths * 0.1f * size), side = 1.01f * (size + larger(pace, CELL_FACTOR * way));
 	status[STATUS_PACE] = as_int(pace);
 	status[STATUS_CELL] = as_int(side > 0.0f && side < 1e30f ? side : 1.0f);
 	status[STATUS_WINDOW] = as_int(window);
+	status[STATUS_BRIEF] = as_int(LEAST_STEPS * time_step);
 }
 
 /* A static body's box is tight. */
@@ -63,9 +67,12 @@ float4 static_box(VERTICES_IN, RECORD_IN(slots), int s)
 float4 reach_about(RECORD_IN(slots), int s, float need, LIST_IN(status))
 {
 	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), push = SLOT_LOAD(slots, s, SLOT_PUSH);
-	float window = as_float(status[STATUS_WINDOW]), radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
+	float window = as_float(status[STATUS_WINDOW]), pace = as_float(status[STATUS_PACE]),
+		  radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 	float speed = norm((float2)(at.z, at.w)) + norm((float2)(push.x, push.y)) * window;
-	float way = larger(larger(as_float(status[STATUS_PACE]), REACH_FACTOR * speed * window), REACH_FACTOR * need);
+	if (REACH_FACTOR * speed * window > FAST_FACTOR * pace)
+		window = as_float(status[STATUS_BRIEF]);
+	float way = larger(larger(pace, REACH_FACTOR * speed * window), REACH_FACTOR * need);
 	way += radius + ((magnitude(at.x) + magnitude(at.y)) + radius) * (8.0f * SLOP);
 	return (float4)(at.x - way, at.y - way, at.x + way, at.y + way);
 }

@@ -86,7 +86,7 @@ typedef enum carom_stage {
 	STAGE_COLLISION,    /* (bodies) */
 	/* the step events; "share": work-items that share what is active, `round` being the number of the round */
 	STAGE_LOAD,    /* (slots): the state into slots */
-	STAGE_PACE,    /* (1, 1, slots, times as far as usual) */
+	STAGE_PACE,    /* (1, 1, slots, tenths of a radius that all get at least) */
 	STAGE_REACH,   /* (slots, 1, cells a row, rows) */
 	STAGE_CELLS,   /* (rows, 1, cells a row) */
 	STAGE_SORT,    /* (slots) */

@@ -56,6 +56,7 @@ typedef struct carom_events {
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */
 	uint32_t idle;            /* batches in a row that ended no step, */
 	uint32_t stale;           /* and of these those that ended with lists that were too old, or too short */
+	uint32_t doublings;       /* of how far the slowest bodies are taken to get, until such a step has come to its end */
 } carom_events;
 
 /* What there is on the device for pictures; all zero while none has been drawn. */

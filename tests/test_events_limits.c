@@ -69,6 +69,33 @@ static void a_blow_goes_through_a_row(void **unused)
 	}
 }
 
+/* A ball at 100 m/s among 6,400 that rest and are a ten-thousandth of its mass: those it hits are twice as fast, and hit others. */
+static void a_shot_scatters_many(void **unused)
+{
+	enum { SIDE = 80, COUNT = SIDE * SIDE + 1 };
+	static carom_body_def bodies[COUNT];
+	const carom_world_def def = runs_room(25.0f, 25.0f);
+	uint64_t first = 0;
+	(void)unused;
+	bodies[0] = weighing(scenery_circle(-16.5f, 0.0f, 100.0f, 0.0f, 1.0f), 10.0f);
+	for (int i = 1; i < COUNT; i++) {
+		const int column = (i - 1) % SIDE, row = (i - 1) / SIDE;
+		bodies[i] = weighing(scenery_circle(-15.0f + 0.3f * (float)column, 0.3f * (float)(row - SIDE / 2), 0.0f, 0.0f, 0.1f), 0.001f);
+	}
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = runs_world(&def, device, bodies, COUNT);
+		if (!world)
+			continue;
+		const carom_measure before = runs_measure(world);
+		assert_true(runs_step(world, 3).hits > 500);
+		runs_near(runs_measure(world).kinetic_energy, before.kinetic_energy, 1e-5 * before.kinetic_energy);
+		runs_near(runs_measure(world).momentum_x, before.momentum_x, 1e-5 * before.momentum_x);
+		nothing_overlaps(world, 40.0);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
 /* Many times in one step between two walls of 1 mm: 0.95 m to the first, then 1.9 m each. A disc, and for a shorter time a box:
  * what rounding turns it by, every hit multiplies. */
 static void fast_body_between_walls(void **unused)
@@ -307,8 +334,8 @@ static void bodies_on_top_of_one_another(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(fast_bodies_hit), cmocka_unit_test(a_blow_goes_through_a_row),
-		cmocka_unit_test(fast_body_between_walls), cmocka_unit_test(spinning_bars), cmocka_unit_test(galperin_counts_pi),
-		cmocka_unit_test(newtons_cradle), cmocka_unit_test(sizes_from_one_to_a_thousand), cmocka_unit_test(bodies_fly_apart),
-		cmocka_unit_test(bodies_on_top_of_one_another)};
+		cmocka_unit_test(a_shot_scatters_many), cmocka_unit_test(fast_body_between_walls), cmocka_unit_test(spinning_bars),
+		cmocka_unit_test(galperin_counts_pi), cmocka_unit_test(newtons_cradle), cmocka_unit_test(sizes_from_one_to_a_thousand),
+		cmocka_unit_test(bodies_fly_apart), cmocka_unit_test(bodies_on_top_of_one_another)};
 	return cmocka_run_group_tests_name("events_limits", tests, NULL, NULL);
 }

@@ -10,11 +10,14 @@ namespace carom::cpu {
 constexpr float speed_margin = 1.25f; /* of a body's speed: hits may make it faster */
 constexpr float pace_part = 1.6f;     /* of the mean speed, which counts for bodies that are slower */
 constexpr float cell_part = 2.5f;     /* of the mean speed: few bodies are too fast for the cells of their size */
-constexpr float drift_part = 1.34f;   /* of what the pace is for a step */
-constexpr float hit_part = 4.0f;      /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
-constexpr float most_steps = 6.0f;    /* that lists are made for, */
-constexpr float least_steps = 1.5f;   /* and least */
-constexpr int32_t levels_below = 2;   /* a body looks for others so many levels below its own; those farther below look for it */
+constexpr float typical_part =
+	1.8f;                         /* of the mean of the speeds' roots, squared: more than the mean speed, but where a few are far faster than most */
+constexpr float fast_part = 4.0f; /* of the pace: bodies that get farther are not looked for so long, for they would know too many */
+constexpr float drift_part = 1.34f; /* of what the pace is for a step */
+constexpr float hit_part = 4.0f;    /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
+constexpr float most_steps = 6.0f;  /* that lists are made for, */
+constexpr float least_steps = 1.5f; /* and least */
+constexpr int32_t levels_below = 2; /* a body looks for others so many levels below its own; those farther below look for it */
 
 static_assert(least_steps > drift_part, "else lists are too old as soon as they are made");
 
@@ -119,7 +122,12 @@ private:
 };
 
 template <typename T> struct ReachRules {
-	T window, pace;
+	T window, brief, pace;
+
+	explicit ReachRules(const int32_t *status)
+		: window(T(as_float(status[STATUS_WINDOW]))), brief(T(as_float(status[STATUS_BRIEF]))), pace(T(as_float(status[STATUS_PACE])))
+	{
+	}
 };
 
 template <typename T> Box<T> static_box(const Slot<T> &slot, const Corner<T> *corners)
@@ -141,8 +149,9 @@ template <typename T> Box<T> reach_about(const Slot<T> &slot, T need, const Reac
 {
 	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
 	const Vec<T> v(slot.place[LINEAR_VX], slot.place[LINEAR_VY]), push(slot.push[PUSH_X], slot.push[PUSH_Y]);
-	const T speed = norm(v) + norm(push) * rules.window;
-	T way = std::max(std::max(rules.pace, speed_margin * speed * rules.window), speed_margin * need);
+	const T speed = norm(v) + norm(push) * rules.window, far = speed_margin * speed * rules.window;
+	const T ahead = far > fast_part * rules.pace ? speed_margin * speed * rules.brief : far;
+	T way = std::max(std::max(rules.pace, ahead), speed_margin * need);
 	way += slot.radius() + (std::abs(x) + std::abs(y) + slot.radius()) * T(8 * SLOP);
 	return {x - way, y - way, x + way, y + way};
 }
@@ -201,7 +210,7 @@ private:
 			return;
 		}
 		movers[k] = s;
-		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>{T(as_float(status[STATUS_WINDOW])), T(as_float(status[STATUS_PACE]))});
+		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>(status));
 		rouse(s);
 	}
 

@@ -15,8 +15,10 @@
 #define MOST_ROUNDS 64
 #define LAST_NUMBER (1 << 30) /* of a round, or of an iteration of the step contacts */
 #define MOST_IDLE 256         /* batches that end no step: something is wrong */
-#define PATIENCE 6            /* of them, with lists too short: after these each making has the slower bodies get twice as far */
-#define GOOD_LISTS 4          /* made in a row that were good to the end: the next may be used a step longer */
+#define PATIENCE 4            /* of them, with lists that were too short: from then on each making has the slowest bodies get twice as far */
+#define MOST_DOUBLINGS 20
+#define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
+#define GOOD_LISTS 4       /* made in a row that were good to the end: the next may be used a step longer */
 #define MOST_MOVERS 4096
 #define MENDERS 64 /* work-items that look for new neighbours */
 #define SHARE 16   /* slots for one work-item of those that share what is active */
@@ -48,18 +50,12 @@ bool carom_events_lists_are_due(const carom_world *world)
 	return world->events.since >= world->events.steps_a_list;
 }
 
-/* How many times as far as usual the slower bodies may get: more where a step comes to no end since each that is hit gets farther than its list. */
-static int32_t times_as_far(const carom_events *events)
-{
-	const uint32_t doublings = events->stale > PATIENCE ? events->stale - PATIENCE : 0;
-	return 1 << (doublings < 24 ? doublings : 24);
-}
-
 carom_status carom_events_find_neighbours(carom_world *world, carom_error *error)
 {
 	carom_events *events = &world->events;
 	const int32_t count = (int32_t)world->body_count, columns = (int32_t)events->columns, rows = (int32_t)events->rows;
-	TRY(carom_run(world, STAGE_PACE, 1, 1, count, times_as_far(events), error));
+	const int32_t tenths = events->doublings > 0 ? 4 << events->doublings : 1; /* of a radius, that all are taken to get */
+	TRY(carom_run(world, STAGE_PACE, 1, 1, count, tenths, error));
 	TRY(carom_run(world, STAGE_REACH, count, 1, columns, rows, error));
 	TRY(carom_run(world, STAGE_CELLS, rows, 1, columns, 0, error));
 	TRY(carom_run(world, STAGE_SORT, count, 1, 0, 0, error));
@@ -189,15 +185,27 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 	return CAROM_OK;
 }
 
+/* Where each body that is hit gets farther than its list, and there is no end of it, all are to know more of the others. */
+static void adapt_reach(carom_world *world, const int32_t *status)
+{
+	carom_events *events = &world->events;
+	if (status[STATUS_STEPS] > 0) {
+		if (events->doublings > 0)
+			events->since = UINT32_MAX / 2; /* those lists are too long for other steps */
+		events->stale = events->doublings = 0;
+	} else if (status[STATUS_STALE]) {
+		const bool more = ++events->stale > PATIENCE && events->doublings < MOST_DOUBLINGS;
+		events->doublings += more && (uint64_t)status[STATUS_NEIGHBOURS] < MANY_NEIGHBOURS * (uint64_t)world->body_count;
+	}
+}
+
 /* How many steps are handed over to one making of the lists, and with how many rounds, follows from how it went. */
 static carom_status adapt(carom_world *world, const int32_t *status, carom_error *error)
 {
 	carom_events *events = &world->events;
 	const int32_t steps = status[STATUS_STEPS], builds = status[STATUS_BUILDS];
-	if (steps > 0 && events->stale > PATIENCE)
-		events->since = UINT32_MAX / 2; /* those lists are too long for other steps */
 	events->idle = steps > 0 ? 0 : events->idle + 1;
-	events->stale = steps > 0 ? 0 : events->stale + (status[STATUS_STALE] != 0);
+	adapt_reach(world, status);
 	if (events->idle > MOST_IDLE)
 		return carom_fail(error, CAROM_DEVICE, "'%s' ends no step of events any more", world->device->info.name);
 	if (status[STATUS_AGAIN] > steps / 8 && events->rounds < MOST_ROUNDS)

@@ -19,36 +19,36 @@ template <typename T> static void pace(const Job<T> &job)
 	int32_t *status = job.list(2);
 	const int32_t count = job.domain[2], step = count / 256 + 1;
 	const float bustle = static_cast<float>(status[STATUS_BUSTLE]) / static_cast<float>(count);
-	const float steps = std::max(most_steps / (1 + hit_part * bustle), least_steps), times = static_cast<float>(job.domain[3]);
-	const float window = static_cast<float>(job.texels(0).fact(UNIFORMS_WORLD, WORLD_TIME_STEP)) * steps;
-	float squares = 0, push = 0, radius = 0, many = 0;
+	const float step_time = static_cast<float>(job.texels(0).fact(UNIFORMS_WORLD, WORLD_TIME_STEP));
+	const float window = step_time * std::max(most_steps / (1 + hit_part * bustle), least_steps);
+	float squares = 0, roots = 0, radius = 0, many = 0;
 	for (int32_t s = 0; s < count; s += step) {
 		if (slots[s].is_static())
 			continue;
 		const float vx = static_cast<float>(slots[s].place[LINEAR_VX]), vy = static_cast<float>(slots[s].place[LINEAR_VY]);
-		squares += vx * vx + vy * vy;
-		push += static_cast<float>(std::hypot(slots[s].push[PUSH_X], slots[s].push[PUSH_Y]));
+		const float speed = std::hypot(vx, vy) + static_cast<float>(std::hypot(slots[s].push[PUSH_X], slots[s].push[PUSH_Y])) * window;
+		squares += speed * speed;
+		roots += std::sqrt(speed);
 		radius += static_cast<float>(slots[s].radius());
 		many++;
 	}
 	many = std::max(many, 1.0f);
 	radius /= many;
-	const float way = (std::sqrt(squares / many) + push / many * window) * window * speed_margin;
-	const float side = 1.01f * (radius + times * std::max(cell_part * way, 0.1f * radius));
+	const float mean = std::sqrt(squares / many) * window * speed_margin;
+	const float typical = typical_part * (roots / many) * (roots / many) * window * speed_margin;
+	const float way = std::min(mean, std::max(typical, radius)); /* a few fast bodies among many at rest are none that these should be known for */
+	const float distance = std::max(pace_part * way, static_cast<float>(job.domain[3]) * 0.1f * radius);
+	const float side = 1.01f * (radius + std::max(distance, cell_part * way));
 	for (int field :
 		{STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS, STATUS_PLACED,
 			STATUS_HITS, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING, STATUS_WANTED, STATUS_BORNE})
 		status[field] = 0;
 	status[STATUS_EXTRA] = count;
 	status[STATUS_BUILDS]++;
-	status[STATUS_PACE] = as_bits(times * std::max(pace_part * way, 0.1f * radius));
+	status[STATUS_PACE] = as_bits(distance);
+	status[STATUS_BRIEF] = as_bits(least_steps * step_time);
 	status[STATUS_CELL] = as_bits(side > 0 && side < 1e30f ? side : 1.0f);
 	status[STATUS_WINDOW] = as_bits(window);
-}
-
-template <typename T> static ReachRules<T> reach_rules(const int32_t *status)
-{
-	return {T(as_float(status[STATUS_WINDOW])), T(as_float(status[STATUS_PACE]))};
 }
 
 template <typename T> static void reach(const Job<T> &job)
@@ -59,7 +59,7 @@ template <typename T> static void reach(const Job<T> &job)
 	int32_t *status = job.list(3), *cells = job.list(5);
 	Span *spans = reinterpret_cast<Span *>(job.list(4));
 	const Grid grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]};
-	const ReachRules<T> rules = reach_rules<T>(status);
+	const ReachRules<T> rules(status);
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		int32_t levels = 0;
 		for (int32_t s = begin; s < end; s++) {
@@ -103,7 +103,7 @@ template <typename T> static void sort(const Job<T> &job)
 	const Span *spans = reinterpret_cast<const Span *>(job.list(4));
 	const int32_t *need = job.list(2), *status = job.list(3);
 	int32_t *all = job.list(5), *new_need = job.list(7), *owners = job.list(10), *parents = job.list(11);
-	const ReachRules<T> rules = reach_rules<T>(status);
+	const ReachRules<T> rules(status);
 	const bool forget = status[STATUS_COMMIT] != 0;
 	for (int32_t id = job.domain[0]; id < status[STATUS_NUMBERS]; id++)
 		members[id].reset();
