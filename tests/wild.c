@@ -104,6 +104,20 @@ static void add_large(scenery_random *random, wild_world *world)
 	world->bodies[world->count++] = large;
 }
 
+/* All rest but one, which is heavy, and hits many of them in a step: each then is twice as fast. */
+static void make_shot(scenery_random *random, wild_world *world)
+{
+	for (uint32_t i = 0; i < world->count; i++) {
+		world->bodies[i].velocity = (carom_vec2){0.0f, 0.0f};
+		world->bodies[i].angular_velocity = 0.0f;
+	}
+	carom_body_def *shot = &world->bodies[below(random, world->count)];
+	shot->is_static = false;
+	shot->mass = 1000.0f;
+	const float speed = 1.5f / world->def.time_step;
+	shot->velocity = (carom_vec2){scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed)};
+}
+
 void wild_make_wider(uint64_t seed, wild_world *world)
 {
 	static const char *const tois[] = {"circle_quadratic", "separating"}, *const impulses[] = {"pair_exact", "accumulate"};
@@ -131,4 +145,6 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 		add_large(&random, world);
 	if (one_in(&random, 2))
 		scenery_check(carom_pipeline_set(&world->def.pipeline, "step", "contacts", &error), &error);
+	if (one_in(&random, 12))
+		make_shot(&random, world);
 }
