@@ -3,13 +3,13 @@
 #define REACH_FACTOR 1.25f  /* of a body's speed: hits may make it faster */
 #define PACE_FACTOR 1.6f    /* of the mean speed, which counts for bodies that are slower */
 #define CELL_FACTOR 2.5f    /* of the mean speed: few bodies are too fast for the cells of their size */
-#define TYPICAL_FACTOR 1.8f /* of the mean of the speeds' roots, squared: more than the mean speed, but where a few are far faster than most */
+#define TYPICAL_FACTOR 1.8f /* of the mean of the speeds' roots, squared, which a few fast bodies change little */
 #define NEAR_LEVELS 2       /* a body looks for smaller ones so many levels below; those farther below look for it */
 #define FAST_FACTOR 4.0f    /* of the pace: bodies that get farther are not looked for so long, for they would know too many */
 #define DRIFT_FACTOR 1.34f  /* of the pace, a part of it that bodies can go in a step by a hit */
 #define HIT_FACTOR 4.0f     /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
-#define MOST_STEPS 6.0f     /* that lists are made for */
-#define LEAST_STEPS 1.5f    /* more than DRIFT_FACTOR, or they are too old as soon as they are made */
+#define MOST_STEPS 6.0f     /* that lists are made for at most, */
+#define LEAST_STEPS 1.5f    /* and at least: more than DRIFT_FACTOR, or they are too old as soon as they are made */
 
 /* Lists begin of so many slots. */
 void status_begin(LIST_OUT(status), int count)

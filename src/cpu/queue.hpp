@@ -67,8 +67,7 @@ private:
 				return true;
 			}
 		}
-		if (!answer(id, other_id)) /* the step begins again, but goes on as long as it tells what others need, too */
-			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
+		answer(id, other_id);
 		with_partner.reset();
 		look_again(id, other_id);
 		if (other_id >= 0)
@@ -235,15 +234,14 @@ private:
 		return members[id].rapid++ >= RAPID_MOST;
 	}
 
-	/* Answers the member's event; false if a body would leave its box. */
-	bool answer(int32_t id, int32_t other_id)
+	/* Answers the member's event. */
+	void answer(int32_t id, int32_t other_id)
 	{
 		const int32_t s = clusters.active[id], other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]);
 		const T u = work[id].next[NEXT_TIME];
 		Trajectory<T> way = work[id].trajectory(slots[s]);
 		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
 		Past<T> past{!pause && is_rapid(id, way, u), members[id].events};
-		bool stays = true;
 		clusters.move(slots[s], way, u);
 		Impact hit{};
 		if (other < 0) {
@@ -259,14 +257,13 @@ private:
 			if (!pause)
 				hit = is_row ? pair_impact(s, way, other, other_way, past) : pair_impact(other, other_way, s, way, past);
 			if (other_changes)
-				stays = push(other, other_id, other_way, hit, !is_row);
+				push(other, other_id, other_way, hit, !is_row);
 			if (changes)
-				stays = push(s, id, way, hit, is_row) && stays;
+				push(s, id, way, hit, is_row);
 		}
 		if (other < 0 && changes)
-			stays = push(s, id, way, hit, true);
+			push(s, id, way, hit, true);
 		members[id].hits += hit.total > 0;
-		return stays;
 	}
 
 	static constexpr T found_loose = T(0.5);
@@ -317,7 +314,7 @@ private:
 		return impact(collision);
 	}
 
-	bool push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row)
+	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row)
 	{
 		const T sign = is_row ? T(1) : T(-1);
 		way.place[LINEAR_VX] += (sign * hit.x) * slots[s].mass[MASS_INVERSE];
@@ -326,11 +323,12 @@ private:
 		if (++members[id].events > HOLD_LIMIT)
 			way.held = 1;
 		work[id].keep(way);
-		return stays_in_reach(s, id, way);
+		widen(s, id, way);
 	}
 
-	/* Adds the way that is left to the box of all of it. */
-	bool stays_in_reach(int32_t s, int32_t id, const Trajectory<T> &way)
+	/* Adds the way that is left to the box of all of it. If that leaves the reach the step begins again, but goes on as long as it tells what others
+	 * need, too. */
+	void widen(int32_t s, int32_t id, const Trajectory<T> &way)
 	{
 		const Body<T> body = clusters.body(slots[s], way);
 		const T rest = 1 - way.time, size = std::abs(body.x.x()) + std::abs(body.x.y()) + body.radius;
@@ -344,9 +342,9 @@ private:
 		const Box<T> &most = boxes[s];
 		if (left.min_x - body.radius >= most.min_x && left.min_y - body.radius >= most.min_y && left.max_x + body.radius <= most.max_x
 			&& left.max_y + body.radius <= most.max_y)
-			return true;
+			return;
 		need[s] = as_bits(static_cast<float>(left.half(slots[s].place)));
-		return false;
+		__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
 	}
 
 	/* What a finished cluster did; one that is given up did nothing. */

@@ -10,14 +10,13 @@ namespace carom::cpu {
 constexpr float speed_margin = 1.25f; /* of a body's speed: hits may make it faster */
 constexpr float pace_part = 1.6f;     /* of the mean speed, which counts for bodies that are slower */
 constexpr float cell_part = 2.5f;     /* of the mean speed: few bodies are too fast for the cells of their size */
-constexpr float typical_part =
-	1.8f;                         /* of the mean of the speeds' roots, squared: more than the mean speed, but where a few are far faster than most */
-constexpr float fast_part = 4.0f; /* of the pace: bodies that get farther are not looked for so long, for they would know too many */
-constexpr float drift_part = 1.34f; /* of what the pace is for a step */
-constexpr float hit_part = 4.0f;    /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
-constexpr float most_steps = 6.0f;  /* that lists are made for, */
-constexpr float least_steps = 1.5f; /* and least */
-constexpr int32_t levels_below = 2; /* a body looks for others so many levels below its own; those farther below look for it */
+constexpr float typical_part = 1.8f;  /* of the mean of the speeds' roots, squared, which a few fast bodies change little */
+constexpr float fast_part = 4.0f;     /* of the pace: bodies that get farther are not looked for so long, for they would know too many */
+constexpr float drift_part = 1.34f;   /* of what the pace is for a step */
+constexpr float hit_part = 4.0f;      /* of the hits a body and step: lists are made for 1 / (1 + that) of the time, for each hit looks through two */
+constexpr float most_steps = 6.0f;    /* that lists are made for at most */
+constexpr float least_steps = 1.5f;   /* and at least */
+constexpr int32_t levels_below = 2;   /* a body looks for others so many levels below its own; those farther below look for it */
 
 static_assert(least_steps > drift_part, "else lists are too old as soon as they are made");
 

@@ -36,7 +36,7 @@ template <typename T> static void pace(const Job<T> &job)
 	radius /= many;
 	const float mean = std::sqrt(squares / many) * window * speed_margin;
 	const float typical = typical_part * (roots / many) * (roots / many) * window * speed_margin;
-	const float way = std::min(mean, std::max(typical, radius)); /* a few fast bodies among many at rest are none that these should be known for */
+	const float way = std::min(mean, std::max(typical, radius)); /* those at rest need not know all that a few fast ones could hit */
 	const float distance = std::max(pace_part * way, static_cast<float>(job.domain[3]) * 0.1f * radius);
 	const float side = 1.01f * (radius + std::max(distance, cell_part * way));
 	for (int field :
