@@ -7,7 +7,7 @@ void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, in
 	work_store(work, id, trajectory_start(slots, s));
 	work[WORK_WIDTH * id + WORK_NEXT] = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	work[WORK_WIDTH * id + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
-	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_HITS)] = 0;
+	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_STUCK)] = members[MEMBER(id, MEMBER_HITS)] = 0;
 }
 
 /* The box of the way grows by that to where the body would be at the step's end; false if it leaves its reach. */
@@ -28,25 +28,32 @@ bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(nee
 	return false;
 }
 
-/* A party's new trajectory, by the impulse `sign` j and the torque on it. */
-trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque)
+/* A party's new trajectory, by the impulse `sign` j and the torque on it, and what is counted of the event. */
+trajectory pushed(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque, bool rapid,
+	bool slow)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	int stuck = rapid && slow ? members[MEMBER(id, MEMBER_STUCK)] + 1 : 0;
 	CHANNEL(k.place, LINEAR_VX) += (sign * CHANNEL(j, IMPULSE_X)) * CHANNEL(mass, MASS_INVERSE);
 	CHANNEL(k.place, LINEAR_VY) += (sign * CHANNEL(j, IMPULSE_Y)) * CHANNEL(mass, MASS_INVERSE);
 	k.velocity += torque * CHANNEL(mass, MASS_INVERSE_INERTIA);
 	members[MEMBER(id, MEMBER_EVENTS)]++;
-	if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT)
+	members[MEMBER(id, MEMBER_RAPID)] += rapid ? 1 : 0;
+	members[MEMBER(id, MEMBER_STUCK)] = stuck;
+	if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT || stuck > (status[STATUS_BORNE] ? STUCK_BORNE : STUCK_MOST))
 		k.held = 1.0f;
 	return k;
 }
 
-/* Is this event, at time u, a rapid one of the body, after RAPID_MOST others? */
+/* Is an event at time u a rapid one of the body? */
 bool is_rapid(LIST_OUT(members), int id, trajectory k, float u)
 {
-	if (id < 0 || k.held > 0.0f || members[MEMBER(id, MEMBER_EVENTS)] == 0 || !(u - k.time < RAPID))
-		return false;
-	return members[MEMBER(id, MEMBER_RAPID)]++ >= RAPID_MOST;
+	return id >= 0 && !(k.held > 0.0f) && members[MEMBER(id, MEMBER_EVENTS)] > 0 && u - k.time < RAPID;
+}
+
+bool had_enough(LIST_OUT(members), int id, bool rapid)
+{
+	return rapid && members[MEMBER(id, MEMBER_RAPID)] >= RAPID_MOST;
 }
 
 /* Is it one that events change? */
@@ -72,23 +79,25 @@ rules_of_hit event_rules(float restitution, bool rapid, int events, float weight
 	return rules;
 }
 
-/* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. False if a body leaves its reach. */
-bool answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need), float4 rules,
-	int s, int id, int other_id, float4 next, float length)
+/* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. If a body leaves its reach the step begins again, but
+ * goes on as long as it tells what others need, too. */
+void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need),
+	float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
 	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
 	float weight = norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
-	float u = CHANNEL(next, NEXT_TIME), total = 0.0f;
+	float u = CHANNEL(next, NEXT_TIME);
+	impact hit = {0.0f, false};
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
 	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
 	float4 j = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	bool pause = CHANNEL(next, NEXT_PARTNER) != (float)other;
+	bool pause = CHANNEL(next, NEXT_PARTNER) != (float)other, rapid = !pause && is_rapid(members, id, was, u), other_rapid = false;
 	k = moved(slots, s, k, u, length);
 	body b = body_of(slots, s, k, length);
 	if (wall && !pause) {
-		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), is_rapid(members, id, was, u), events, weight);
-		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &total);
+		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), had_enough(members, id, rapid), events, weight);
+		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &hit);
 	} else if (!wall) {
 		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
 		o = moved(slots, other, o, u, length);
@@ -96,21 +105,25 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 	if (!wall && !pause) {
 		body c = body_of(slots, other, o, length);
 		events = other_id >= 0 ? max(events, members[MEMBER(other_id, MEMBER_EVENTS)]) : events;
-		bool rapid = is_rapid(members, id, was, u), other_rapid = is_rapid(members, other_id, other_was, u);
-		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rapid || other_rapid, events, weight);
-		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &total) : pair_push(VERTICES, c, b, 0.0f, how, length, &total);
+		other_rapid = is_rapid(members, other_id, other_was, u);
+		bool enough = had_enough(members, id, rapid) || had_enough(members, other_id, other_rapid);
+		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), enough, events, weight);
+		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &hit) : pair_push(VERTICES, c, b, 0.0f, how, length, &hit);
 	}
-	if (total > 0.0f)
+	if (hit.total > 0.0f)
 		members[MEMBER(id, MEMBER_HITS)]++;
 	if (can_change(slots, s, was)) {
-		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B));
+		k = pushed(slots, status, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B),
+			rapid, hit.slow);
 		work_store(work, id, k);
 		stays = way_grow(slots, reach, work, need, s, id, k, length);
 	}
 	if (!wall && can_change(slots, other, other_was)) {
-		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A));
+		o = pushed(slots, status, members, other, other_id, o, j, first ? -1.0f : 1.0f,
+			first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A), other_rapid, hit.slow);
 		work_store(work, other_id, o);
 		stays = way_grow(slots, reach, work, need, other, other_id, o, length) && stays;
 	}
-	return stays;
+	if (!stays)
+		atomic_or(&status[STATUS_LEFT], 1);
 }

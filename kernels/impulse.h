@@ -33,12 +33,23 @@ typedef struct rules_of_hit {
 	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
 
+/* What a hit did. */
+typedef struct impact {
+	float total; /* impulse of the two points together */
+	bool slow;   /* it was lossy, and slower than what the stronger push makes of a speed in a step */
+} impact;
+
+/* Of the faster point. */
+float rate_of(contact c)
+{
+	return c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
+}
+
 /* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step: what falls on a
  * body at rest, which is in many rapid hits, is no collapse. */
 float restitution_of(rules_of_hit rules, contact c, float micro)
 {
-	float rate = c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
-	bool fast = micro > 0.0f && -rate > micro * (1.0f / MICRO);
+	bool fast = micro > 0.0f && -rate_of(c) > micro * (1.0f / MICRO);
 	return rules.rapid && !fast ? 1.0f : rules.restitution;
 }
 
@@ -59,8 +70,14 @@ rules_of_hit first_impact_rules(float restitution)
 	return rules;
 }
 
-/* Of body k's contact with a wall at time t of its step; *total: of the two points together. */
-float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_hit rules, float length, float *total)
+impact impact_of(rules_of_hit rules, contact c, float push, float2 j)
+{
+	impact hit = {j.x + j.y, rules.restitution < 1.0f && -rate_of(c) < larger(push, rules.weight)};
+	return hit;
+}
+
+/* Of body k's contact with a wall at time t of its step. */
+float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_hit rules, float length, impact *hit)
 {
 	float offset;
 	body walls = k;
@@ -71,13 +88,13 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), still, rules.part);
 	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, least_speed(rules, micro, norm(k.a), still, h.mended),
 		rules.event);
-	*total = j.x + j.y;
+	*hit = impact_of(rules, c, norm(k.a), j);
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
-	return (float4)((*total * n.x) / length, (*total * n.y) / length, torque / length, 0.0f);
+	return (float4)((hit->total * n.x) / length, (hit->total * n.y) / length, torque / length, 0.0f);
 }
 
 /* Of the contact of bodies a and b, the row's and the column's, at time t of their step. */
-float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float length, float *total)
+float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float length, impact *hit)
 {
 	pose p = pose_at(a, b, t);
 	float slop = pair_slop(a, b), still = pair_stillness(a, b);
@@ -85,27 +102,29 @@ float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float
 	contact c = contact_at(VERTICES, a, b, p, k, slop);
 	threshold h = threshold_of(k.gap, slop, still, rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, larger(norm(a.a), norm(b.a)), still, h.mended);
+	float push = larger(norm(a.a), norm(b.a)), restitution = restitution_of(rules, c, micro),
+		  least = least_speed(rules, micro, push, still, h.mended);
 	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, least, rules.event)
 						 : contact_impulses(a, b, c, restitution, h.rate, least, rules.event);
-	*total = j.x + j.y;
+	*hit = impact_of(rules, c, push, j);
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;
-	float2 push = (float2)((*total * c.n.x) / length, (*total * c.n.y) / length);
-	return c.swapped ? (float4)(push.x, push.y, inc, ref) : (float4)(-push.x, -push.y, ref, inc);
+	float2 along = (float2)((hit->total * c.n.x) / length, (hit->total * c.n.y) / length);
+	return c.swapped ? (float4)(along.x, along.y, inc, ref) : (float4)(-along.x, -along.y, ref, inc);
 }
 
 float4 hit_push(STATE_IN, VERTICES_IN, float4 hit, float length)
 {
 	int column = (int)CHANNEL(hit, HIT_COLUMN);
-	float t = CHANNEL(hit, HIT_TIME), total;
+	float t = CHANNEL(hit, HIT_TIME);
+	impact done;
 	body a = body_load(STATE, (int)CHANNEL(hit, HIT_ROW), length);
 	if (column >= 0) {
 		body b = body_load(STATE, column, length);
-		return pair_push(VERTICES, a, b, t, first_impact_rules(larger(a.restitution, b.restitution)), length, &total);
+		return pair_push(VERTICES, a, b, t, first_impact_rules(larger(a.restitution, b.restitution)), length, &done);
 	}
 	return wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), a, -1 - column, t,
-		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION))), length, &total);
+		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION))), length, &done);
 }
 
 __kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(impulse), int4 domain)

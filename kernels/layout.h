@@ -181,6 +181,7 @@
 
 /* Members: twelve ints a number */
 #define MEMBER_WIDTH 12
+#define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
 #define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
 #define MEMBER_HEAD 3     /* of a leader: the first member; -1 if it leads none */
@@ -313,7 +314,9 @@
  * Bodies that are pushed together, and meet more slowly than MICRO of what the push makes of their speed in a step, part with that speed
  * (microcollisions). So do bodies in a crowd, pushed together or not: beyond CROWD events that one of them had in the step, this speed grows by CROWD_PART
  * with each, up to CROWD_MOST of what the stronger push makes of a speed in a step; and by the
- * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end. */
+ * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end;
+ * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step. Where
+ * forces bear what rests there are hardly ever so many else, and STUCK_BORNE are enough. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -323,6 +326,8 @@
 #define CROWD_DOUBLING 8
 #define CROWD_DOUBLINGS 10
 #define HOLD_LIMIT 4096
+#define STUCK_MOST 1024
+#define STUCK_BORNE 128
 
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,
  * at the points that approach more slowly than CONTACT_FAST |a|. Forces let them come nearer by EASE of the gap in a step, down to CUSHION slops, or to
@@ -446,8 +451,10 @@
 #define SLOP 9.5367431640625e-7f /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
 #define SUNK_MOST 16.0f          /* slops: what overlaps by more than one and less than so many, rounding has sunk; that is a hit unless it parts */
 #define SUNK_RATE 0.125f         /* slops a step, a unit in the last place, or faster */
-#define APPROACH 9.5367431640625e-7f     /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
-#define SEARCH_LIMIT 64                  /* steps of one search for a hit; what is not found by then pauses */
+#define APPROACH 9.5367431640625e-7f /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
+#define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
+#define MARGIN \
+	0.5f /* slops: a search goes on to where so much is left; from a contact that does not approach, to where the bodies overlap by so much */
 #define CREEP_MOST 0.000244140625f       /* 2^-12 and 2^-20 of a step: from a contact that does not approach a search goes on for */
 #define CREEP_LEAST 9.5367431640625e-7f  /* the time in which the bodies move by no more than the slop, between these two */
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */

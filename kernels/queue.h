@@ -184,8 +184,7 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 				continue;
 			}
 		}
-		if (!answer(VERTICES, TEX(uniforms), slots, reach, members, work, need, rules, active[id], id, other_id, next, length))
-			atomic_or(&status[STATUS_LEFT], 1); /* the step begins again, but goes on as long as it tells what others need, too */
+		answer(VERTICES, TEX(uniforms), slots, reach, status, members, work, need, rules, active[id], id, other_id, next, length);
 		found_with = (float2)(0.0f, -1.0f);
 		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length, other_id, &found_with);
 		first = heap_update(members, work, first, id);

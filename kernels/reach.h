@@ -138,7 +138,7 @@ void member_reset(LIST_OUT(members), int id)
 {
 	__global int *m = members + MEMBER(id, 0);
 	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
-	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
+	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
 }
 
 /* All that a group wants; what each of its work-items wants becomes what those before it do. To be done by one of them. */

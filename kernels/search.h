@@ -16,9 +16,9 @@ float4 hit_pause(float t)
 	return (float4)(t, t, 0.0f, t);
 }
 
-/* How long from time t on the bodies surely stay apart: each vertex of the incident body has a distance from the axis
+/* How long from time t on the bodies surely stay apart by a margin: each vertex of the incident body has a distance from the axis
  * that is at least gap + rate s - bend s^2 / 2. */
-float safe_time(VERTICES_IN, body a, body b, pose p, axis k, float t, float slop)
+float safe_time(VERTICES_IN, body a, body b, pose p, axis k, float t, float margin)
 {
 	float2 acceleration = (float2)(b.a.x - a.a.x, b.a.y - a.a.y);
 	float rest = 1.0f - t;
@@ -35,11 +35,11 @@ float safe_time(VERTICES_IN, body a, body b, pose p, axis k, float t, float slop
 		+ ((push + magnitude(a.b) * reach) + magnitude(a.b - b.b) * b.radius);
 	float base = inner(n, p.d) - k.offset, rate = inner(n, p.v) + p.wa * cross2(n, p.d);
 	if (b.count == 1)
-		return first_root(larger((base - b.radius) - 0.5f * slop, 0.0f), rate, bend);
+		return first_root(larger((base - b.radius) - margin, 0.0f), rate, bend);
 	float least = INFINITY;
 	for (int j = 0; j < b.count; j++) {
 		float2 v = vertex_load(VERTICES, b.first, j);
-		float gap = larger((base + inner(m, v)) - 0.5f * slop, 0.0f);
+		float gap = larger((base + inner(m, v)) - margin, 0.0f);
 		least = smaller(least, first_root(gap, rate + (p.wa - p.wb) * cross2(m, v), bend));
 	}
 	return least;
@@ -92,7 +92,7 @@ float4 search_separating(VERTICES_IN, body a, body b, float until)
 		bool touching = k.gap <= slop;
 		if (touching && contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), threshold_of(k.gap, slop, stillness, 1.0f).rate))
 			return hit_at(t);
-		float safe = safe_time(VERTICES, a, b, p, k, t, slop);
+		float safe = safe_time(VERTICES, a, b, p, k, t, (touching ? -MARGIN : MARGIN) * slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	return hit_pause(smaller(t, 1.0f));

@@ -138,7 +138,7 @@ static void begin(queue_body *k, double length)
 	k->at.ay = k->push[1] * length * length;
 	k->at.b = k->push[2] * length * length;
 	k->time = 0.0;
-	k->events = k->rapid = 0;
+	k->events = k->rapid = k->stuck = 0;
 	k->held = false;
 }
 
@@ -298,12 +298,13 @@ static bool is_rapid(const queue_body *k, double time)
 	return k && !is_still(k) && k->events > 0 && time - k->time < (double)RAPID;
 }
 
-static void count_event(queue *q, queue_body *k, bool rapid)
+static void count_event(queue *q, queue_body *k, bool rapid, bool slow)
 {
 	if (!k || is_still(k))
 		return;
 	k->rapid += rapid;
-	if (++k->events > HOLD_LIMIT) {
+	k->stuck = rapid && slow ? k->stuck + 1 : 0;
+	if (++k->events > HOLD_LIMIT || k->stuck > STUCK_MOST) {
 		k->held = true;
 		q->held++;
 	}
@@ -327,9 +328,7 @@ static rules rules_of(const queue *q, const queue_body *a, const queue_body *b, 
 	const bool rapid = (is_rapid(a, time) && a->rapid >= RAPID_MOST) || (is_rapid(b, time) && b->rapid >= RAPID_MOST);
 	const double events = fmax(a->events, b ? b->events : 0), crowd = fmin(fmax(events - CROWD, 0.0) * (double)CROWD_PART, (double)CROWD_MOST);
 	const double shake = events > CROWD ? exp2(fmin(floor((events - CROWD) / CROWD_DOUBLING), CROWD_DOUBLINGS)) : 0.0;
-	if (!(restitution < 1.0))
-		return (rules){restitution, 0.0, 0.0, 0.0, 0.5, rapid};
-	return (rules){restitution, (double)MICRO, crowd, shake, 0.5, rapid};
+	return restitution < 1.0 ? (rules){restitution, (double)MICRO, crowd, shake, 0.5, rapid} : (rules){restitution, 0.0, 0.0, 0.0, 0.5, rapid};
 }
 
 /* How fast a push makes of them what it will, in a step; 0 where it parts them. */
@@ -357,13 +356,14 @@ static void answer(queue *q, queue_hit hit)
 	const exact_body first = seen_at(a, hit.time), second = b ? seen_at(b, hit.time) : first;
 	const touch t = b ? touch_pair(&first, &second) : touch_wall(&first, &q->room, -1 - hit.column);
 	const party pa = party_of(a), pb = party_of(b), *reference = b && !t.swapped ? &pa : &pb, *incident = reference == &pa ? &pb : &pa;
-	const double still = touch_stillness(&first, b ? &second : NULL);
+	const double still = touch_stillness(&first, b ? &second : NULL), approach = t.count > 1 ? fmax(-t.rate[0], -t.rate[1]) : -t.rate[0];
 	how.stillness *= still;
 	how.micro *= pull_of(&t, &first, b ? &second : NULL);
-	const double approach = t.count > 1 ? fmax(-t.rate[0], -t.rate[1]) : -t.rate[0];
+	const double pushed = fmax(q->weight, fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay)));
+	const bool slow = how.restitution < 1.0 && approach < pushed;
 	if (how.rapid && !(how.micro > 0.0 && approach > how.micro / (double)MICRO))
 		how.restitution = 1.0;
-	how.micro = fmax(how.micro, fmax(how.crowd * fmax(q->weight, fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay))), how.shake * still));
+	how.micro = fmax(how.micro, fmax(how.crowd * pushed, how.shake * still));
 	solve(&t, reference, incident, &how, j);
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);
@@ -371,8 +371,8 @@ static void answer(queue *q, queue_hit hit)
 		record(q, hit);
 	shake_party(q, a);
 	shake_party(q, b);
-	count_event(q, a, rapid[0]);
-	count_event(q, b, rapid[1]);
+	count_event(q, a, rapid[0], slow);
+	count_event(q, b, rapid[1], slow);
 }
 
 void queue_step(queue *q, double length, size_t most)

@@ -14,6 +14,7 @@ typedef struct queue_body {
 	double time;     /* part of the step */
 	uint32_t events; /* of this step, */
 	uint32_t rapid;  /* and of these, which came soon after the one before */
+	uint32_t stuck;  /* of the last ones, rapid and slow */
 	bool held;
 } queue_body;
 

@@ -253,7 +253,7 @@ static void what_turns_together_has_an_end(void **unused)
 }
 
 /* A column of balls or boxes stands on the floor. What is at the bottom bears all the others: without the rule for crowds a ball is in a thousand hits a step, and
- * with it in some hundred. The column hops by less than a millimetre. */
+ * with it in some hundred. The column hops: its top is less than a millimetre too high on average, and hardly ever more. */
 static void column_stands(void **unused)
 {
 	(void)unused;
@@ -273,13 +273,17 @@ static void column_stands(void **unused)
 			carom_world *world = runs_world(&def, device, bodies, count);
 			if (!world)
 				continue;
+			double height = 0.0;
 			runs_step(world, 20);
 			for (int k = 0; k < 10; k++) {
 				const carom_report report = runs_step(world, 2);
 				assert_true(report.hits > 0 && report.hits < (uint64_t)2 * 150 * count && report.held == 0);
-				runs_near((double)runs_state(world, count - 1).position.y, -49.5 + (double)(count - 1), 1e-3);
+				const double top = (double)runs_state(world, count - 1).position.y;
+				runs_near(top, -49.5 + (double)(count - 1), 2e-3);
+				height += 0.1 * top;
 				nothing_overlaps(world, 50.0);
 			}
+			runs_near(height, -49.5 + (double)(count - 1), 1e-3);
 			runs_same_hash(&first, runs_hash(world), device);
 			carom_world_destroy(world);
 		}

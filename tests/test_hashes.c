@@ -18,12 +18,12 @@ static const struct {
 	{"scenes/billiard_break.json", 0x67a2d3b09229d3f4, 0xbe6530f293e25062, 0},
 	{"scenes/circles_1024.json", 0xb407392652c0fb4a, 0xaa3285fdc8f4d50f, 0},
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343, 0},
-	{"scenes/heap.json", 0x7f2a4c3feaca4930, 0xcce87060636217ef, 0x28082da818f5330f},
-	{"scenes/mixed.json", 0xabc67be1b5beed04, 0xc660b0d4ae21193d, 0},
+	{"scenes/heap.json", 0xdd99f8522356ec47, 0x049b4329ba647a4d, 0xd5043100e97eeedb},
+	{"scenes/mixed.json", 0x4699eb0f03bb1cbd, 0xc8c13a2fbb9ccaeb, 0},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
-	{"scenes/thin_wall.json", 0xc9f2ff84907e5b29, 0xf8f9b170a9d515c4, 0},
-	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x16676305296fb123, 0},
-	{"scenes/triangles_256.json", 0x45105d59c465c072, 0x05eaf5355ba74861, 0},
+	{"scenes/thin_wall.json", 0xd95cf8e4f52d91fb, 0x2e5fa5a13daa175b, 0},
+	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x191f59180c97010f, 0},
+	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f, 0},
 };
 
 static carom_world *world_of(const char *path, const char *step, const scenery_device *device, uint32_t threads)
@@ -52,17 +52,17 @@ static const struct {
 	uint64_t steps, hash[2], events[2]; /* after so many steps, and where those are fewer, after STEPS */
 	uint64_t contacts;                  /* after RESTING_STEPS */
 } random_worlds[] = {
-	{1, SCENERY_MIXED, 49, 1.0f, 0.0f, STEPS, {0xf0512c55f480f984}, {0x60ec5a190af84248}, 0x12395c5ef58660df},
-	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, RESTING_STEPS, {0xda8851edef371f53, 0xbd134b025d9f7a8c}, {0x7ac6298bda2aaa03, 0x488f3d963f393594},
-		0x06d0112c7cd1dc6b},
-	{3, SCENERY_POLYGONS, 64, 0.5f, -1.0f, RESTING_STEPS, {0x510c2e562cda538f, 0x613c0045235e8fd6}, {0x7c920fa8160ed5af, 0xa551df82eb308fb0},
-		0xca8d203d1a574021},
-	{4, SCENERY_CIRCLES, 196, 0.875f, -3.0f, RESTING_STEPS, {0x2c0cb69fffe63f90, 0xb62125c1a5365cac}, {0x5222fe046872010e, 0xb9161e724d9135d6},
+	{1, SCENERY_MIXED, 49, 1.0f, 0.0f, STEPS, {0xb34b36d85e722a21}, {0xeaa771d48e0c255d}, 0xb551349ec86cd895},
+	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, RESTING_STEPS, {0xe1c4dc10759de637, 0x99e29902962f0850}, {0xb7d740b1d8135608, 0x18e0bab5ef6aa78d},
+		0x68142bcf28c0cee3},
+	{3, SCENERY_POLYGONS, 64, 0.5f, -1.0f, RESTING_STEPS, {0x8a1cd3f3d3a0750a, 0x82a7e1836c0a4ac7}, {0xea649262e474d3bb, 0x25402183e8503b4c},
+		0xaff8ddf3383437f4},
+	{4, SCENERY_CIRCLES, 196, 0.875f, -3.0f, RESTING_STEPS, {0x2c0cb69fffe63f90, 0xb62125c1a5365cac}, {0x5222fe046872010e, 0x6131f8ab1255f382},
 		0xb3f60849c566ff0c},
-	{5, SCENERY_POLYGONS, 81, 1.0f, -2.0f, STEPS, {0x0939fed0f3b497ef}, {0xfd27677dfc2725eb}, 0x37aec828ccd93d16},
+	{5, SCENERY_POLYGONS, 81, 1.0f, -2.0f, STEPS, {0x7e9d409444ed5fce}, {0x9d27cada1b18f2a2}, 0xc926bdac39c09a20},
 	{6, SCENERY_CIRCLES, 100, 1.0f, -9.81f, STEPS, {0x77c43753b16437fd}, {0xba38d361258b61f1}, 0xb7b80328e6940db0},
-	{7, SCENERY_MIXED, 16, 0.75f, -9.81f, STEPS, {0x5d794e0562485c59}, {0xb812aae3a2ac89d3}, 0x7e91204facaf138d},
-	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, STEPS, {0xbfc1b6f5f82d0607}, {0xa3dab863dd52ccdf}, 0xcbefafcd394858f9},
+	{7, SCENERY_MIXED, 16, 0.75f, -9.81f, STEPS, {0xe9b860448875cc6a}, {0x0ed6bdf80df29ef1}, 0x8318cb1ddc1b8373},
+	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, STEPS, {0xed03ece2bc91b620}, {0x13378613a64cb821}, 0x596bd0e5a062364b},
 	{9, SCENERY_CIRCLES, 36, 0.875f, -3.0f, STEPS, {0x050b36b217d5ff67}, {0x88a992790e483f1c}, 0x2c1d02d5e04ef672},
 };
 

@@ -15,9 +15,9 @@ static const struct reference {
 	bool rests; /* all lose energy, and fall faster */
 	uint64_t state, picture;
 } references[] = {
-	{"events", 60, false, 0x39235d34465dbba0, 0x4140f8c99cb3dca2},
-	{"contacts", 12, true, 0xac08a204cdad8a4d, 0x62143a7240cae4ba},
-	{"first_impact", 60, false, 0x48414e12ae326f87, 0x785a005388d03490},
+	{"events", 60, false, 0xa6f29ac5297f9562, 0xe429b8123bb1518c},
+	{"contacts", 12, true, 0x8a7b4823a02820a0, 0x0bb464e907efcdcd},
+	{"first_impact", 60, false, 0xc211ecd13c4ba726, 0x30920f71e2e5992d},
 };
 
 static const carom_vec2 kite[4] = {{0.375f, 0}, {0, 0.25f}, {-0.25f, 0}, {0, -0.25f}};

@@ -14,16 +14,16 @@ float circle_wall(body k, float2 n, float offset)
 	return t;
 }
 
-float wall_safe_time(VERTICES_IN, body k, float2 n, float offset, float t, float slop)
+float wall_safe_time(VERTICES_IN, body k, float2 n, float offset, float t, float margin)
 {
 	float rest = 1.0f - t, spin = magnitude(k.w + t * k.b) + magnitude(k.b) * rest;
-	float bend = ((spin * spin) * k.radius + norm(k.a)) + magnitude(k.b) * k.radius;
+	float bend = ((spin * spin) * k.radius + larger(-inner(n, k.a), 0.0f)) + magnitude(k.b) * k.radius;
 	float2 x = place(k.x, k.v, k.a, t), m = turn_back(body_rotation(k, t), n);
 	float2 v = (float2)(k.v.x + t * k.a.x, k.v.y + t * k.a.y);
 	float base = inner(n, x) - offset, rate = inner(n, v), w = k.w + t * k.b, least = INFINITY;
 	for (int j = 0; j < k.count; j++) {
 		float2 p = vertex_load(VERTICES, k.first, j);
-		float gap = larger((base + inner(m, p)) - 0.5f * slop, 0.0f);
+		float gap = larger((base + inner(m, p)) - margin, 0.0f);
 		least = smaller(least, first_root(gap, rate - w * cross2(m, p), bend));
 	}
 	return least;
@@ -42,7 +42,7 @@ float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 		bool touching = gap <= slop;
 		if (touching && contact_is_hit(wall_contact(VERTICES, k, n, t, slop), threshold_of(gap, slop, stillness, 1.0f).rate))
 			return t;
-		float safe = wall_safe_time(VERTICES, k, n, offset, t, slop);
+		float safe = wall_safe_time(VERTICES, k, n, offset, t, (touching ? -MARGIN : MARGIN) * slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	*done = 0.0f;

@@ -28,7 +28,8 @@ template <typename T> class Queue
 public:
 	Queue(const Clusters<T> &all, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs), heap(all.members, work_of, room),
-		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE))
+		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)),
+		  patience(all.status[STATUS_BORNE] ? STUCK_BORNE : STUCK_MOST)
 	{
 	}
 
@@ -226,13 +227,13 @@ private:
 		members[id].seen = seen;
 	}
 
-	/* Is the event at time u a rapid one of a body that had enough of them? */
-	bool is_rapid(int32_t id, const Trajectory<T> &way, T u)
+	/* Is an event at time u a rapid one of the body? */
+	bool is_rapid(int32_t id, const Trajectory<T> &way, T u) const
 	{
-		if (id < 0 || way.held > 0 || members[id].events == 0 || !(u - way.time < T(RAPID)))
-			return false;
-		return members[id].rapid++ >= RAPID_MOST;
+		return id >= 0 && !(way.held > 0) && members[id].events > 0 && u - way.time < T(RAPID);
 	}
+
+	bool had_enough(int32_t id) const { return members[id].rapid >= RAPID_MOST; }
 
 	/* Answers the member's event. */
 	void answer(int32_t id, int32_t other_id)
@@ -241,7 +242,9 @@ private:
 		const T u = work[id].next[NEXT_TIME];
 		Trajectory<T> way = work[id].trajectory(slots[s]);
 		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
-		Past<T> past{!pause && is_rapid(id, way, u), members[id].events};
+		const bool rapid = !pause && is_rapid(id, way, u);
+		bool other_rapid = false;
+		Past<T> past{rapid && had_enough(id), members[id].events};
 		clusters.move(slots[s], way, u);
 		Impact hit{};
 		if (other < 0) {
@@ -250,19 +253,20 @@ private:
 		} else {
 			Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
 			const bool other_changes = other_id >= 0 && !(other_way.held > 0);
-			past.rapid = (!pause && is_rapid(other_id, other_way, u)) || past.rapid;
+			other_rapid = !pause && is_rapid(other_id, other_way, u);
+			past.rapid |= other_rapid && had_enough(other_id);
 			past.events = other_id >= 0 ? std::max(past.events, members[other_id].events) : past.events;
 			clusters.move(slots[other], other_way, u);
 			const bool is_row = slots[s].body() > slots[other].body();
 			if (!pause)
 				hit = is_row ? pair_impact(s, way, other, other_way, past) : pair_impact(other, other_way, s, way, past);
 			if (other_changes)
-				push(other, other_id, other_way, hit, !is_row);
+				push(other, other_id, other_way, hit, !is_row, other_rapid);
 			if (changes)
-				push(s, id, way, hit, is_row);
+				push(s, id, way, hit, is_row, rapid);
 		}
 		if (other < 0 && changes)
-			push(s, id, way, hit, true);
+			push(s, id, way, hit, true, rapid);
 		members[id].hits += hit.total > 0;
 	}
 
@@ -271,6 +275,7 @@ private:
 	/* What the row body gets; the column body gets the impulse's opposite. */
 	struct Impact {
 		T x, y, row_torque, column_torque, total;
+		bool slow;
 	};
 
 	Impact impact(const Collision<T> &collision) const
@@ -280,8 +285,8 @@ private:
 		const T total = j.at[0] + j.at[1], length = clusters.length, x = (total * c.n.x()) / length, y = (total * c.n.y()) / length;
 		const T on_inc = torque(c, c.inc, j) / length, on_ref = -torque(c, c.ref, j) / length;
 		if (c.from_b)
-			return {x, y, on_inc, on_ref, total};
-		return {-x, -y, on_ref, on_inc, total};
+			return {x, y, on_inc, on_ref, total, collision.slow};
+		return {-x, -y, on_ref, on_inc, total, collision.slow};
 	}
 
 	Impact wall_impact(int32_t s, const Trajectory<T> &way, int32_t k, const Past<T> &past) const
@@ -314,13 +319,15 @@ private:
 		return impact(collision);
 	}
 
-	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row)
+	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row, bool rapid)
 	{
 		const T sign = is_row ? T(1) : T(-1);
 		way.place[LINEAR_VX] += (sign * hit.x) * slots[s].mass[MASS_INVERSE];
 		way.place[LINEAR_VY] += (sign * hit.y) * slots[s].mass[MASS_INVERSE];
 		way.velocity += (is_row ? hit.row_torque : hit.column_torque) * slots[s].mass[MASS_INVERSE_INERTIA];
-		if (++members[id].events > HOLD_LIMIT)
+		members[id].rapid += rapid;
+		members[id].stuck = rapid && hit.slow ? members[id].stuck + 1 : 0;
+		if (++members[id].events > HOLD_LIMIT || members[id].stuck > patience)
 			way.held = 1;
 		work[id].keep(way);
 		widen(s, id, way);
@@ -367,6 +374,7 @@ private:
 	int32_t *const need;
 	Heap<T> heap;
 	const int32_t leader, round, head;
+	const int32_t patience; /* with bodies that are stuck */
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };

@@ -34,6 +34,7 @@ template <typename T> void set_event_rules(Collision<T> &collision, T restitutio
 	const T micro = lossy ? larger(-(T(MICRO) * pull), T(0)) : T(0);
 	const bool fast = micro > 0 && -rate > micro * (1 / T(MICRO));
 	collision.micro = lossy ? larger(micro, past.crowd_speed(push, stillness)) : T(0);
+	collision.slow = lossy && -rate < push;
 	collision.event = true;
 	collision.restitution = past.rapid && !fast ? T(1) : restitution;
 }

@@ -54,11 +54,10 @@ template <typename T> Bounds<T> bounds(const Convex<T> &reference, const Convex<
 }
 
 /* For how long after t the axis surely goes on separating them. */
-template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a, const Axis<T> &axis, T t)
+template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a, const Axis<T> &axis, T t, T margin)
 {
 	const Convex<T> &reference = axis.from_b ? pair.b : pair.a, &incident = axis.from_b ? pair.a : pair.b;
 	const Bounds<T> to = bounds(reference, incident, axis.from_b ? pose_of_a.swapped() : pose_of_a, axis, t);
-	T margin = T(0.5) * pair.slop;
 	if (incident.is_circle())
 		return first_root(larger((to.base - incident.radius) - margin, T(0)), to.rate, to.bend);
 	T least = infinite<T>;
@@ -90,7 +89,7 @@ template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 		bool touching = axis.gap <= pair.slop;
 		if (touching && pair.is_hit(pose_at_t, axis))
 			return hit_at(t);
-		T safe = safe_time(pair, pose_at_t, axis, t);
+		T safe = safe_time(pair, pose_at_t, axis, t, (touching ? T(-MARGIN) : T(MARGIN)) * pair.slop);
 		t = t + (touching ? larger(safe, creep_time(pair.slop, pair.stillness)) : safe);
 	}
 	return pause_at(smaller(t, T(1)));

@@ -50,14 +50,16 @@ static_assert(sizeof(Slot<float>) == SLOT_WIDTH * 4 * sizeof(float) && sizeof(Wo
 
 /* The numbers of a member. */
 struct Member {
+	int32_t stuck, owner, link, head, events, rapid, seen, round, hits;
 	int32_t place; /* in the cluster's heap */
-	int32_t owner, link, head, events, rapid, seen, round, hits, unused[3];
+	int32_t unused[2];
 
-	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, {0, 0, 0}}; }
+	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, 0, {0, 0}}; }
 };
 
 static_assert(sizeof(Member) == MEMBER_WIDTH * sizeof(int32_t) && offsetof(Member, hits) == MEMBER_HITS * sizeof(int32_t)
-		&& offsetof(Member, round) == MEMBER_ROUND * sizeof(int32_t) && offsetof(Member, rapid) == MEMBER_RAPID * sizeof(int32_t),
+		&& offsetof(Member, round) == MEMBER_ROUND * sizeof(int32_t) && offsetof(Member, rapid) == MEMBER_RAPID * sizeof(int32_t)
+		&& offsetof(Member, stuck) == MEMBER_STUCK * sizeof(int32_t),
 	"members");
 
 struct Span {

@@ -23,15 +23,15 @@ template <typename T> static WallHit<T> circle_hit(const Body<T> &body, const Wa
 }
 
 /* For how long after t no vertex surely reaches the wall. */
-template <typename T> static T safe_time(const Convex<T> &convex, const Wall<T> &wall, const Vec<T> &m, T base, T t, T slop)
+template <typename T> static T safe_time(const Convex<T> &convex, const Wall<T> &wall, const Vec<T> &m, T base, T t, T margin)
 {
 	T rate = inner(wall.n, convex.velocity_at(t)), w = convex.angular_velocity_at(t), rest = 1 - t;
 	T spin = std::abs(w) + std::abs(convex.b) * rest;
-	T bend = ((spin * spin) * convex.radius + norm(convex.a)) + std::abs(convex.b) * convex.radius;
+	T bend = ((spin * spin) * convex.radius + larger(-inner(wall.n, convex.a), T(0))) + std::abs(convex.b) * convex.radius;
 	T least = infinite<T>;
 	for (int32_t k = 0; k < convex.count; k++) {
 		Vec<T> vertex = convex.vertex(k);
-		T gap = larger((base + inner(m, vertex)) - T(0.5) * slop, T(0));
+		T gap = larger((base + inner(m, vertex)) - margin, T(0));
 		least = smaller(least, first_root(gap, rate - w * cross(m, vertex), bend));
 	}
 	return least;
@@ -52,7 +52,7 @@ template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, con
 		const bool touching = gap <= slop;
 		if (touching && wall_contact(convex, wall, t, slop).is_below(Threshold<T>(gap, slop, stillness).rate))
 			return {t, 1};
-		T safe = safe_time(convex, wall, m, base, t, slop);
+		T safe = safe_time(convex, wall, m, base, t, (touching ? T(-MARGIN) : T(MARGIN)) * slop);
 		t = t + (touching ? larger(safe, creep_time(slop, stillness)) : safe);
 	}
 	return {smaller(t, T(1)), 0};

@@ -1,0 +1,129 @@
+/* Bodies that exactly fill the room they lie or fall in: nothing can move aside, and hits of what is wedged have no end. On every device.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+
+#include "layout.h"
+#include "runs.h"
+
+#define GRAVITY 10.0f
+
+static const char *const steps[] = {"events", "contacts"};
+
+static carom_world_def room_of(const char *step, float width)
+{
+	carom_world_def def = runs_def();
+	carom_error error;
+	scenery_check(carom_pipeline_set(&def.pipeline, "step", step, &error), &error);
+	def.gravity.y = -GRAVITY;
+	def.restitution = 0.3f;
+	def.has_room = true;
+	def.room_min = (carom_vec2){0.0f, 0.0f};
+	def.room_max = (carom_vec2){width, 40.0f};
+	return def;
+}
+
+static carom_body_def body_at(bool box, float x, float y)
+{
+	static const carom_vec2 corners[4] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
+	carom_body_def def = scenery_circle(x, y, 0.0f, 0.0f, 0.5f);
+	if (box) {
+		def.shape = CAROM_POLYGON;
+		def.vertices = corners;
+		def.vertex_count = 4;
+	}
+	return def;
+}
+
+/* Rows of bodies of 1 m, each one shorter than that below, on which they fall: what falls between two drives them apart, and cannot. What is hit as often as that is
+ * held, and only that: a step takes no more hits than these do. Nothing sinks in, and nobody is thrown up. */
+static void wedges_have_an_end(void **unused)
+{
+	(void)unused;
+	enum { WIDTH = 4, ROWS = 3, MOST = WIDTH * ROWS };
+	static const struct {
+		int rows;
+		bool boxes;
+	} cases[] = {{1, false}, {1, true}, {2, false}, {3, false}, {3, true}};
+	for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+		const bool borne = i % 2;
+		const carom_world_def def = room_of(steps[borne], (float)WIDTH);
+		carom_body_def bodies[MOST];
+		uint32_t count = 0;
+		uint64_t first = 0;
+		for (int row = 0; row < cases[i / 2].rows; row++)
+			for (int k = 0; k < WIDTH - row; k++)
+				bodies[count++] = body_at(cases[i / 2].boxes, 0.5f + (float)k + 0.5f * (float)row, 0.5f + 1.2f * (float)row);
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = runs_world(&def, device, bodies, count);
+			if (!world)
+				continue;
+			const double begun = runs_seconds();
+			const carom_report report = runs_step(world, runs_affordable(60));
+			if (device == scenery_devices)
+				print_message("%s: %u bodies in %d rows, %llu hits in %llu steps, held %llu times, %.3g J left, %.2f s\n", steps[borne], count,
+					cases[i / 2].rows, (unsigned long long)report.hits, (unsigned long long)report.steps, (unsigned long long)report.held,
+					runs_measure(world).kinetic_energy, runs_seconds() - begun);
+			assert_true(report.hits <= report.steps * count * (borne ? STUCK_BORNE : STUCK_MOST));
+			assert_true(runs_seconds() - begun < RUNS_SECONDS_MOST);
+			for (uint32_t k = 0; k < count; k++)
+				assert_true(runs_state(world, k).position.y < bodies[k].position.y + 0.01f);
+			runs_near(runs_measure(world).max_penetration, 0.0, 40.0 * (double)SLOP);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* How long boxes take that fall in a pipe `gap` wider than they are, between the room's walls or static bodies. */
+static double seconds_of_pipe(const carom_world_def *room, bool walls, float gap, const scenery_device *device, uint64_t *hash)
+{
+	enum { COUNT = 10 };
+	carom_world_def def = *room;
+	carom_body_def bodies[COUNT + 2];
+	def.room_max.x = walls ? 1.0f + 2.0f * gap : 4.0f;
+	const float middle = 0.5f * def.room_max.x;
+	for (int k = 0; k < COUNT; k++)
+		bodies[k] = body_at(true, middle, 0.75f + 1.5f * (float)k);
+	for (int k = 0; k < 2; k++) {
+		bodies[COUNT + k] = scenery_box(middle + (k ? 1.0f + gap : -1.0f - gap), 20.0f, 0.0f, 0.0f, 1.0f, 39.0f);
+		bodies[COUNT + k].is_static = true;
+	}
+	carom_world *world = runs_world(&def, device, bodies, walls ? COUNT : COUNT + 2);
+	if (!world)
+		return 0.0;
+	const double begun = runs_seconds();
+	runs_step(world, runs_affordable(60));
+	const double seconds = runs_seconds() - begun;
+	*hash = runs_hash(world);
+	runs_near(runs_measure(world).max_penetration, 0.0, 40.0 * (double)SLOP);
+	for (uint32_t k = 0; k < COUNT; k++)
+		runs_near((double)runs_state(world, k).position.x, (double)middle, 1.1 * (double)gap + 40.0 * (double)SLOP);
+	carom_world_destroy(world);
+	return seconds;
+}
+
+/* What slides along two walls at once is at both all the way, and not looked at all the way. */
+static void what_fills_a_pipe_falls(void **unused)
+{
+	(void)unused;
+	for (int i = 0; i < 4; i++) {
+		const carom_world_def def = room_of(steps[i / 2], 1.0f);
+		const bool walls = i % 2;
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			uint64_t hash = 0;
+			const double wide = seconds_of_pipe(&def, walls, 0.1f, device, &hash), tight = seconds_of_pipe(&def, walls, 0.0f, device, &hash);
+			if (!hash)
+				continue;
+			print_message("%s, %s: %.4f s, in a wide pipe %.4f s\n", steps[i / 2], walls ? "walls" : "static bodies", tight, wide);
+			assert_true(tight < 20.0 * wide);
+			runs_same_hash(&first, hash, device);
+		}
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {cmocka_unit_test(wedges_have_an_end), cmocka_unit_test(what_fills_a_pipe_falls)};
+	return cmocka_run_group_tests_name("tight", tests, NULL, NULL);
+}
