@@ -371,6 +371,7 @@
 #define VIEW_FIRST 3  /* texel */
 #define FIRST_SHAPE 0 /* where this view's shapes and edges begin */
 #define FIRST_EDGE 1
+#define FIRST_LINES 2 /* 1: each circle has a second shape, its radius line; 0: none is large enough */
 
 /* Placed: one texel a vertex, in the stream's order; pixels, y down */
 #define PLACED_X 0 /* from the body's centre */
@@ -384,7 +385,7 @@
 #define PARTS_VERTEX 0 /* the first in Stream and Placed */
 #define PARTS_COUNT 1  /* of vertices */
 #define PARTS_EDGE 2   /* the first in Edges: a polygon has all but one there, a circle LINE_REST of its radius line */
-#define PARTS_SHAPE 3  /* a polygon has one, a circle two */
+#define PARTS_SHAPE 3  /* a polygon has one, a circle one or two */
 #define DRAW_INK 1     /* texel, the channels of SHAPE_INK */
 
 /* Marks: what is drawn below the bodies: boxes of whole pixels, and lines; two texels a mark */

@@ -14,7 +14,7 @@
 
 /* Of a pass: indices of its vertices, edges and texels of shapes are floats. */
 #define MOST_TEXELS (1ull << 24)
-/* What a pass takes: some 200,000 circles. More at once would take memory, and no less time. */
+/* What a pass takes: some 400,000 bodies without radius lines. More at once would take memory, and no less time. */
 #define PASS_TEXELS (3ull << 19)
 /* Room for all marks of a layer, and the smallest block. */
 #define LEAST_TEXELS 512u
@@ -48,10 +48,12 @@ static bool has_room(uint64_t most, uint64_t shapes, uint64_t edges)
 /* Room for the shapes of all layers, if one pass can draw them `at_once`, else for those of any pass. */
 static carom_status hold_shapes(carom_world *world, const carom_picture *picture, uint64_t most, bool *at_once, carom_error *error)
 {
+	const carom_canvas *canvas = &world->canvas;
+	const uint64_t lines = canvas->has_lines ? canvas->all_circles : 0;
 	uint64_t shapes = 0, edges = 0;
 	for (size_t i = 0; i < picture->layer_count; i++) {
-		shapes += picture->layers[i].mark_count + world->canvas.all_shapes;
-		edges += LINE_REST * picture->layers[i].mark_count + world->canvas.all_edges;
+		shapes += picture->layers[i].mark_count + canvas->body_count + lines;
+		edges += LINE_REST * (picture->layers[i].mark_count + lines) + canvas->all_sides;
 	}
 	*at_once = has_room(most, shapes, edges);
 	TRY(carom_canvas_hold(world, ROLE_BOXES, *at_once ? shapes : most / SHAPES_WIDTH, error));
@@ -214,7 +216,7 @@ carom_status carom_canvas_draw(carom_world *world, const carom_picture *picture,
 	bool at_once;
 	TRY(carom_textures_hold(world, error));
 	TRY(carom_canvas_send_transforms(world, error));
-	carom_canvas_count(world);
+	carom_canvas_count(world, picture);
 	TRY(hold_shapes(world, picture, of_pass, &at_once, error));
 	while (!at_once && (uint64_t)side * (uint64_t)side > most)
 		side /= 2;

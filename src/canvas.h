@@ -42,8 +42,8 @@ int32_t carom_parts_of(uint32_t whole, uint32_t part); /* how many there are, th
 carom_status carom_canvas_no_memory(const carom_world *world, carom_error *error);
 /* Makes room for texels, or the ints of a list, folded into rows; what they held is lost where there was none. */
 carom_status carom_canvas_hold(carom_world *world, carom_role role, uint64_t items, carom_error *error);
-/* Counts what all bodies have. */
-void carom_canvas_count(carom_world *world);
+/* Counts what all bodies have, and finds whether any circle is large enough in the picture for its radius line. */
+void carom_canvas_count(carom_world *world, const carom_picture *picture);
 /* Stream and Draws: of the bodies from `first` on in the order of drawing those that have no more than `most` edges, or texels of shapes. */
 carom_status carom_canvas_send_bodies(carom_world *world, uint64_t first, uint64_t most, carom_error *error);
 /* What a picture needs: where bodies are if the pipeline has that sent, the views and their marks, the block to draw. */

@@ -86,29 +86,46 @@ static void fill_draw(const carom_body *body, uint32_t index, const carom_canvas
 }
 
 /* In Edges. */
-static uint32_t edges_of(const carom_body *body)
+static uint32_t edges_of(const carom_canvas *canvas, const carom_body *body)
 {
-	return body->vertex_count == 1 ? LINE_REST : body->vertex_count - 1;
+	const uint32_t of_line = canvas->has_lines ? LINE_REST : 0;
+	return body->vertex_count == 1 ? of_line : body->vertex_count - 1;
 }
 
-static uint32_t shapes_of(const carom_body *body)
+static uint32_t shapes_of(const carom_canvas *canvas, const carom_body *body)
 {
-	return body->vertex_count == 1 ? 2 : 1;
+	return body->vertex_count == 1 && canvas->has_lines ? 2 : 1;
 }
 
-void carom_canvas_count(carom_world *world)
+static void count_bodies(carom_world *world)
 {
 	carom_canvas *canvas = &world->canvas;
-	if (canvas->body_count == world->body_count)
-		return;
 	canvas->body_count = world->body_count;
-	canvas->all_vertices = canvas->all_edges = canvas->all_shapes = canvas->end = 0;
+	canvas->all_vertices = canvas->all_sides = canvas->all_circles = canvas->end = 0;
+	canvas->largest_circle = 0;
 	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
+		const bool is_circle = body->vertex_count == 1;
 		canvas->all_vertices += body->vertex_count;
-		canvas->all_edges += edges_of(body);
-		canvas->all_shapes += shapes_of(body);
+		canvas->all_sides += body->vertex_count - 1;
+		canvas->all_circles += is_circle;
+		canvas->largest_circle = is_circle && body->radius > canvas->largest_circle ? body->radius : canvas->largest_circle;
 	}
+}
+
+void carom_canvas_count(carom_world *world, const carom_picture *picture)
+{
+	carom_canvas *canvas = &world->canvas;
+	double scale = 0;
+	bool has_lines;
+	if (canvas->body_count != world->body_count)
+		count_bodies(world);
+	for (size_t i = 0; i < picture->layer_count; i++)
+		scale = picture->layers[i].scale > scale ? picture->layers[i].scale : scale;
+	has_lines = (double)canvas->largest_circle * scale > 0.99 * (double)SHOW_ANGLE; /* the device rounds */
+	if (has_lines != canvas->has_lines)
+		canvas->end = 0;
+	canvas->has_lines = has_lines;
 }
 
 /* Fills in what there is room for, from `next->first` on in the order of drawing: static bodies first, what moves lies over them. */
@@ -123,13 +140,13 @@ static void fill_bodies(const carom_world *world, uint64_t most, carom_canvas *n
 		const uint32_t texel = body->vertex_count == 1 ? circle++ : body->vertex_first / 2;
 		if (next->end < next->first || body->is_static != (next->end < count))
 			continue;
-		if (next->edges + edges_of(body) > most || SHAPES_WIDTH * (next->shapes + shapes_of(body)) > most)
+		if (next->edges + edges_of(next, body) > most || SHAPES_WIDTH * (next->shapes + shapes_of(next, body)) > most)
 			break;
 		fill_draw(body, i, next, draws + 4 * DRAWS_WIDTH * (size_t)next->bodies++);
 		for (uint32_t k = 0; k < body->vertex_count; k++)
 			fill_stream(world, i, texel, k, stream + 4 * (size_t)next->vertices++);
-		next->edges += edges_of(body);
-		next->shapes += shapes_of(body);
+		next->edges += edges_of(next, body);
+		next->shapes += shapes_of(next, body);
 	}
 }
 
@@ -227,6 +244,7 @@ carom_status carom_canvas_send_view(carom_world *world, const carom_picture *pic
 	fill_box(layer->clip, texels + 4 * VIEW_CLIP);
 	first[FIRST_SHAPE] = (float)first_shape;
 	first[FIRST_EDGE] = (float)first_edge;
+	first[FIRST_LINES] = world->canvas.has_lines ? 1 : 0;
 	TRY(carom_canvas_hold(world, ROLE_VIEW, VIEW_WIDTH, error));
 	return upload(world, ROLE_VIEW, VIEW_WIDTH, texels, error);
 }

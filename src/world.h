@@ -61,12 +61,14 @@ typedef struct carom_events {
 
 /* What there is on the device for pictures; all zero while none has been drawn. */
 typedef struct carom_canvas {
-	uint32_t room[ROLE_COUNT];                    /* texels or ints that a texture of rendering holds */
-	uint32_t width, height;                       /* of Picture */
-	size_t body_count;                            /* of the world when these were counted: */
-	uint64_t all_vertices, all_edges, all_shapes; /* of all bodies */
-	uint64_t first, end;                          /* of the bodies that Stream and Draws are of, in the order in which they are drawn */
-	uint32_t bodies, vertices, edges, shapes;     /* that these have */
+	uint32_t room[ROLE_COUNT];                     /* texels or ints that a texture of rendering holds */
+	uint32_t width, height;                        /* of Picture */
+	size_t body_count;                             /* of the world when these were counted: */
+	uint64_t all_vertices, all_sides, all_circles; /* of all bodies; the sides of polygons, but one of each */
+	float largest_circle;                          /* m, a radius */
+	bool has_lines;                                /* circles have a shape more for their radius line */
+	uint64_t first, end;                           /* of the bodies that Stream and Draws are of, in the order in which they are drawn */
+	uint32_t bodies, vertices, edges, shapes;      /* that these have */
 } carom_canvas;
 
 struct carom_world {

@@ -86,6 +86,7 @@ static bool try_device(const scenery_device *device, const char *option, trial *
 	carom_render_def render = sized(407, 301);
 	render.has_camera = true;
 	render.camera = (carom_camera){{-2, -1}, 9}; /* some bodies are cut, some not seen */
+	picture first, again;
 	memset(t, 0, sizeof *t);
 	t->device = scenery_world(&def, device);
 	if (!t->device)
@@ -96,8 +97,18 @@ static bool try_device(const scenery_device *device, const char *option, trial *
 	fill(t->oracle);
 	fill(t->device);
 	compare_pictures(t, with_inset(203, 150));
+	first = picture_of(t->device, with_inset(203, 150));
 	compare_pictures(t, render);
 	compare_stages(t, 2, 407, 301); /* of the room this camera sees the left wall and the ground */
+	assert_true(t->reference->canvas.has_lines);
+	render.camera.height = 1000;
+	compare_pictures(t, render);
+	compare_stages(t, 4, 407, 301);
+	assert_false(t->reference->canvas.has_lines); /* from so far no circle is large enough */
+	again = picture_of(t->device, with_inset(203, 150));
+	assert_memory_equal(first.pixels, again.pixels, bytes_of(first));
+	free(first.pixels);
+	free(again.pixels);
 	carom_world_destroy(t->reference);
 	carom_world_destroy(t->oracle);
 	carom_world_destroy(t->device);

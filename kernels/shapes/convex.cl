@@ -25,7 +25,7 @@ void put_mark(TEX_IN(marks), TEX_IN(view), SHAPES_OUT, int i, int shape, int res
 	put_line(SHAPES, shape, rest, from, (float2)(way.x / reach, way.y / reach), reach, breadth, color, 1.0f, picture);
 }
 
-void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape, int rest, float4 ink)
+void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape, int rest, float4 ink, bool has_line)
 {
 	float4 p = ROW_LOAD(placed, vertex), clip = TEX_LOAD(view, VIEW_CLIP, 0);
 	float line = CHANNEL(TEX_LOAD(view, VIEW_SCALE, 0), SCALE_LINE), outline = CHANNEL(ink, INK_OUTLINE);
@@ -34,9 +34,9 @@ void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape,
 	float r = radius + growth(breadth);
 	float4 box = touched_box((float2)(c.x - r, c.y - r), (float2)(c.x + r, c.y + r), 0.0f, clip);
 	bool seen = put_shape(SHAPES, shape, box, ink_of(CHANNEL(ink, INK_FILL), outline, line, 1.0f, breadth, 2.0f * radius), rest, 1);
-	if (!seen || !(radius >= SHOW_ANGLE)) {
+	if (has_line && !(seen && radius >= SHOW_ANGLE)) {
 		boxes[shape + 1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	} else {
+	} else if (has_line) {
 		float2 along = (float2)(to_rim.x / radius, to_rim.y / radius);
 		float opacity = (radius - SHOW_ANGLE) * (1.0f / SHOW_ANGLE);
 		put_line(SHAPES, shape + 1, rest, c, along, radius - 0.5f * line, line, outline, opacity, clip);
@@ -96,7 +96,7 @@ __kernel void shapes(TEX_IN(draws), TEX_IN(marks), TEX_IN(placed), TEX_IN(view),
 	shape += mark_count + (int)CHANNEL(parts, PARTS_SHAPE);
 	rest += LINE_REST * mark_count + (int)CHANNEL(parts, PARTS_EDGE);
 	if (count == 1)
-		put_circle(TEX(placed), TEX(view), SHAPES, vertex, shape, rest, ink);
+		put_circle(TEX(placed), TEX(view), SHAPES, vertex, shape, rest, ink, CHANNEL(start, FIRST_LINES) > 0.0f);
 	else
 		put_polygon(TEX(placed), TEX(view), SHAPES, vertex, count, shape, rest, ink);
 }

@@ -11,12 +11,13 @@ template <typename T> struct Scene {
 	const Texels<T> draws, marks, placed;
 	const ShapeWriter<T> to;
 	const T line;
+	const bool has_lines; /* of circles' radii */
 	const PixelBox<T> picture, clip;
 
 	Scene(const Job<T> &job, const Texels<T> &view)
 		: draws(job.texels(FROM_DRAWS)), marks(job.texels(FROM_MARKS)), placed(job.texels(FROM_PLACED)),
-		  to(job.records(TO_BOXES), job.records(TO_SHAPES), job.records(TO_EDGES)),
-		  line(view.fact(VIEW_SCALE, SCALE_LINE)), picture{0, 0, view.fact(VIEW_SCALE, SCALE_WIDTH), view.fact(VIEW_SCALE, SCALE_HEIGHT)},
+		  to(job.records(TO_BOXES), job.records(TO_SHAPES), job.records(TO_EDGES)), line(view.fact(VIEW_SCALE, SCALE_LINE)),
+		  has_lines(view.fact(VIEW_FIRST, FIRST_LINES) > 0), picture{0, 0, view.fact(VIEW_SCALE, SCALE_WIDTH), view.fact(VIEW_SCALE, SCALE_HEIGHT)},
 		  clip{view.fact(VIEW_CLIP, BOX_X0), view.fact(VIEW_CLIP, BOX_Y0), view.fact(VIEW_CLIP, BOX_X1), view.fact(VIEW_CLIP, BOX_Y1)}
 	{
 	}
@@ -73,13 +74,15 @@ template <typename T> struct Circles {
 		}
 	}
 
-	/* Circle i as that shape, and its radius line as the next. */
+	/* Circle i as that shape, and its radius line, where circles have them, as the next. */
 	void write(int32_t i, const Scene<T> &scene, int32_t shape, int32_t rest) const
 	{
 		const PixelBox<T> box{x0[i], y0[i], x1[i], y1[i]};
 		const bool is_seen = scene.to.shape(shape, box, {fill[i], outline[i], width[i], opacity[i]}, rest, 1);
 		if (is_seen)
 			scene.to.edge(shape, rest, 0, {slope_x[i], slope_y[i]}, at[i], bend[i]);
+		if (!scene.has_lines)
+			return;
 		if (!is_seen || !(radius[i] >= SHOW_ANGLE)) {
 			scene.to.hide(shape + 1);
 			return;
