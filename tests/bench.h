@@ -8,7 +8,7 @@
 #include <math.h>
 #include <png.h>
 
-#define FIELDS 22
+#define FIELDS 23
 #define FAST "--runs 2 --seconds 0.0001 --quiet"
 
 enum field {
@@ -33,7 +33,8 @@ enum field {
 	COPY_RATE,
 	SPEED,
 	PASSED,
-	OFF
+	OFF,
+	HITS
 };
 
 /* ---- CSV ---- */

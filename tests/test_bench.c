@@ -28,7 +28,7 @@ static void all_tables_are_measured(void **state)
 	assert_string_equal(call.err, "");
 	read_csv("t.csv");
 	assert_int_equal(count(VERSION, carom_version()), csv.rows - 1);
-	assert_int_equal(count(TABLE, "scale") + count(TABLE, "tunnel"), 0);
+	assert_int_equal(count(TABLE, "scale") + count(TABLE, "tunnel") + count(TABLE, "heap"), 0);
 	for (size_t row = 1; row < csv.rows; row++)
 		check_row(row, 12);
 	for (size_t k = 0; k < COUNT(tables); k++) {
@@ -119,7 +119,7 @@ static void wrong_calls_exit_with_2(void **state)
 	static const struct {
 		const char *line, *said;
 	} calls[] = {
-		{"$C bench table6", "table6: no such table; allowed: table1, table2, table3, table4, table5, scale, tunnel, all"},
+		{"$C bench table6", "table6: no such table; allowed: table1, table2, table3, table4, table5, scale, tunnel, heap, all"},
 		{"$C bench table1 table2", "one argument too many"},
 		{"$C bench table1 --runs 0", "--runs: found \"0\"; allowed: a whole number from 1 to 99"},
 		{"$C bench table1 --runs 100", "allowed: a whole number from 1 to 99"},
@@ -134,6 +134,8 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C bench scale --set step=guess", "--set: the slot 'step' has no alternative 'guess'"},
 		{"$C bench tunnel --set step=first_impact", "tunnel can't be measured: --set: found step=first_impact; allowed: step=events"},
 		{"$C bench tunnel --device nowhere", "nowhere"},
+		{"$C bench heap --set step=events", "heap can't be measured: --set: found step=events; it measures contacts and events"},
+		{"$C bench heap --sizes 12 --device nowhere", "nowhere"},
 		{"$C bench scale --runs 0", "--runs: found \"0\""},
 		{"$C bench table1 --set reduce=guess", "--set: the slot 'reduce' has no alternative 'guess'"},
 	};

@@ -1,4 +1,4 @@
-/* carom bench scale and tunnel: Carom beside other engines. The figures themselves are the machine's and theirs.
+/* carom bench scale, tunnel and heap: Carom beside other engines. The figures themselves are the machine's and theirs.
  * SPDX-License-Identifier: MIT */
 #include "bench.h"
 
@@ -159,9 +159,59 @@ static void nothing_of_ours_tunnels(void **state)
 		check("$C bench tunnel --device cpu --plot $D/tunnel.png", 2, "tunnel can't be measured: --plot: it has no chart");
 }
 
+/* ---- heap ---- */
+
+static void check_heap_row(size_t row)
+{
+	const bool ours = strncmp(csv.at[row][ALTERNATIVE], "Carom", 5) == 0, lying = strstr(csv.at[row][PART], ", lying") != NULL;
+	assert_true(number(row, BODIES) == 12 && number(row, REPETITIONS) == (lying ? 120 : 180) && number(row, SECONDS) > 0);
+	assert_true(number(row, RUN) >= 1 && number(row, RUN) <= 2 && *csv.at[row][PIPELINE]);
+	assert_true((*csv.at[row][OVERLAP] != 0) == lying && (*csv.at[row][HITS] != 0) == (lying && ours));
+	if (ours && lying)
+		assert_true(number(row, OVERLAP) < 1e-4);
+}
+
+/* Of the rows lying of an engine. */
+static double hits_of(const char *engine)
+{
+	double sum = 0;
+	for (size_t row = 1; row < csv.rows; row++)
+		sum += *csv.at[row][HITS] && strcmp(csv.at[row][ALTERNATIVE], engine) == 0 ? number(row, HITS) : 0;
+	return sum;
+}
+
+/* Two shapes, two runs, falling and lying. Hits are fewer where forces bear what lies, and the same on both devices. */
+static void check_heap(const char *options, size_t devices)
+{
+	char line[256];
+	snprintf(line, sizeof line, "$C bench heap --sizes 12 --runs 2 --quiet --csv $D/t.csv %s", options);
+	check(line, 0, NULL);
+	assert_string_equal(call.err, "");
+	read_csv("t.csv");
+	assert_int_equal(csv.rows, 1 + 8 * (devices + 1 + count_peers()));
+	assert_int_equal(count(TABLE, "heap"), csv.rows - 1);
+	for (size_t row = 1; row < csv.rows; row++)
+		check_heap_row(row);
+	assert_true(hits_of("Carom, CPU fallback, contacts") < 0.5 * hits_of("Carom, CPU fallback, events"));
+	if (devices > 1)
+		assert_true(hits_of("Carom, OpenCL, contacts") == hits_of("Carom, CPU fallback, contacts"));
+}
+
+static void heaps_are_measured(void **state)
+{
+	(void)state;
+	if (!has_events())
+		return;
+	check_heap("--device cpu", 1);
+	if (has_opencl())
+		check_heap("--device opencl", 2);
+	if (has_charts())
+		check("$C bench heap --device cpu --plot $D/heap.png", 2, "heap can't be measured: --plot: it has no chart");
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(scale_is_measured), cmocka_unit_test(scale_has_a_chart),
-		cmocka_unit_test(scale_goes_on_without_what_does_not_fit), cmocka_unit_test(nothing_of_ours_tunnels)};
+		cmocka_unit_test(scale_goes_on_without_what_does_not_fit), cmocka_unit_test(nothing_of_ours_tunnels), cmocka_unit_test(heaps_are_measured)};
 	return cmocka_run_group_tests_name("bench, beside other engines", tests, make_folder, remove_folder);
 }

@@ -20,6 +20,7 @@ static const struct {
 	{"table5", &bench_table5, NULL, NULL},
 	{"scale", NULL, bench_scale_check, bench_scale},
 	{"tunnel", NULL, bench_tunnel_check, bench_tunnel},
+	{"heap", NULL, bench_heap_check, bench_heap},
 };
 
 #define TABLE_COUNT (sizeof tables / sizeof *tables)
@@ -67,7 +68,7 @@ static const struct option options_table[] = {
 		"default 0.5, for scale 0.2"},
 	{"sizes", "N,N,..", read_sizes, 0,
 		"numbers of bodies, 8 to 1048576; default those of the paper's table: 256 to 2048, for table2 to 4096; for scale 256 to "
-		"1048576"},
+		"1048576, for heap 100 and 400"},
 	{NULL, NULL, NULL, 0, NULL},
 };
 
@@ -199,7 +200,7 @@ static int bench_main(int argc, char **argv)
 
 const struct command bench_command = {
 	.name = "bench",
-	.arguments = "[table1 | table2 | table3 | table4 | table5 | scale | tunnel | all]",
+	.arguments = "[table1 | table2 | table3 | table4 | table5 | scale | tunnel | heap | all]",
 	.least_arguments = 0,
 	.most_arguments = 1,
 	.summary = "Measures the tables of the paper here, its figures beside, and body-steps a second beside other engines",
@@ -214,7 +215,10 @@ const struct command bench_command = {
 			   "          bodies, Box2D and Chipmunk, where this build has them; what each keeps of the energy, and how\n"
 			   "          deep bodies overlap: some minutes\n"
 			   "  tunnel  likewise: how many fast circles pass a wall 1 mm thick, or one another head-on, by the same engines, at\n"
-			   "          1 to 1,000 m/s; it has no chart, and --runs, --seconds and --sizes change nothing in it\n\n"
+			   "          1 to 1,000 m/s; it has no chart, and --runs, --seconds and --sizes change nothing in it\n"
+			   "  heap    likewise: how long a step of circles and squares takes that fall into a room, and then lie there, by\n"
+			   "          the steps contacts and events and by the same engines, and how deep they overlap; no chart, and\n"
+			   "          --seconds changes nothing in it: some ten minutes\n\n"
 			   "Figures are seconds for 1,000 repetitions, as in the paper: the median of the runs, the least and the\n"
 			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"

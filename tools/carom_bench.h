@@ -180,14 +180,16 @@ carom_status bench_draw(const struct bench_result *result, const char *path, car
 /* The devices, in a line. `fallback`: whether it was measured beside. */
 void bench_describe_devices(const carom_device_info *device, const carom_device_info *fallback, char *text, size_t size);
 
-/* ---- carom_bench_scale.c, carom_bench_tunnel.c: no tables of the paper's */
+/* ---- carom_bench_scale.c, carom_bench_tunnel.c, carom_bench_heap.c: no tables of the paper's */
 
 /* Whether the library has the step that is measured; CAROM_UNKNOWN_NAME if not. */
 carom_status bench_scale_check(const struct bench_options *options, carom_error *error);
 /* Measures, prints, writes into `csv` and draws into `plot`, both of which may be NULL. */
 carom_status bench_scale(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
-/* The same; there is no chart. */
+/* The same; these have no chart. */
 carom_status bench_tunnel_check(const struct bench_options *options, carom_error *error);
 carom_status bench_tunnel(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
+carom_status bench_heap_check(const struct bench_options *options, carom_error *error);
+carom_status bench_heap(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
 
 #endif

@@ -126,7 +126,7 @@ void bench_print(const struct bench_result *result)
 void bench_write_csv_header(FILE *stream)
 {
 	fputs("version,table,part,device,storage,bodies,shape,alternative,pipeline,iterations,run,repetitions,launches,seconds,"
-		  "seconds_per_1000,paper_seconds_per_1000,energy_drift,max_overlap_m,copy_bytes_per_s,speed_m_per_s,passed,off_m\n",
+		  "seconds_per_1000,paper_seconds_per_1000,energy_drift,max_overlap_m,copy_bytes_per_s,speed_m_per_s,passed,off_m,hits\n",
 		stream);
 }
 
@@ -181,7 +181,7 @@ static void write_cell(FILE *stream, const struct bench_result *result, size_t p
 			cell->seconds[run] * REPETITIONS / (double)row->repetitions);
 		if (paper > 0)
 			fprintf(stream, "%.9g", paper);
-		fputs(",,,,,,\n", stream); /* what only scale and tunnel have */
+		fputs(",,,,,,,\n", stream); /* what only scale, tunnel and heap have */
 	}
 }
 

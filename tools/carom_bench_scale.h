@@ -1,4 +1,4 @@
-/* What the files of `carom bench scale` share: engines beside each other on the same bodies, over sizes. `carom bench tunnel` runs them, too.
+/* What the files of `carom bench scale` share: engines beside each other on the same bodies, over sizes. `carom bench tunnel` and `heap` run them, too.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_BENCH_SCALE_H
 #define CAROM_BENCH_SCALE_H
@@ -17,6 +17,7 @@
 #define SCALE_HEIGHT 1080
 #define SCALE_SHAPES 2
 #define SCALE_ENGINES 4
+#define SCALE_SETTINGS 512
 
 struct scale_engine {
 	const char *label;
@@ -60,9 +61,9 @@ struct scale_row {
 struct scale_result {
 	size_t runs, row_count;
 	carom_device_info device, fallback;
-	char step[64];                     /* the alternative that Carom's step is */
-	char settings[SCALE_ENGINES][512]; /* Carom's "slot=alternative" of all slots, or what the peer runs with */
-	size_t copy_bytes;                 /* copied to measure the memory */
+	char step[64];                                /* the alternative that Carom's step is */
+	char settings[SCALE_ENGINES][SCALE_SETTINGS]; /* Carom's "slot=alternative" of all slots, or what the peer runs with */
+	size_t copy_bytes;                            /* copied to measure the memory */
 	unsigned copy_threads;
 	double copy_rate; /* bytes/s, read and written together; 0: there was no memory for it */
 	uint32_t kept_bodies;
@@ -90,7 +91,7 @@ struct scale_start {
 /* `most_steps` are done on the CPU fallback, but no more once they have taken `seconds`. */
 carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
 	double seconds, struct scale_start *start, carom_error *error);
-/* The same of bodies at hand: `defs`, which become the start's, and the scene's count and room are set, all else is zero. */
+/* The same of bodies at hand: `defs`, which become the start's, and the scene's count, room, gravity and restitution are set, all else is zero. */
 carom_status scale_start_fill(struct scale_start *start, const struct bench_options *options, carom_error *error);
 void scale_start_destroy(struct scale_start *start);
 /* Carom's world as the options say, but for its room. */
@@ -102,6 +103,7 @@ struct scale_runner {
 	carom_world *world; /* Carom's, or */
 	void *peer;         /* the peer's; NULL both: there is none */
 	uint8_t *pixels;    /* of the last picture; NULL before the first */
+	uint64_t hits;      /* of Carom, so far */
 };
 
 carom_status scale_runner_create(const struct scale_engine *engine, const struct scale_start *start, const struct bench_options *options,
@@ -110,10 +112,18 @@ void scale_runner_destroy(struct scale_runner *runner);
 carom_status scale_runner_step(struct scale_runner *runner, uint64_t steps, carom_error *error);
 /* Draws its bodies; of a peer nothing. */
 carom_status scale_runner_draw(struct scale_runner *runner, carom_error *error);
+/* What it runs with, and on which device, if it is Carom; false if it was to be an OpenCL device, and is none. */
+bool scale_runner_describe(const struct scale_runner *runner, carom_device_info *device, char settings[SCALE_SETTINGS]);
 carom_status scale_runner_get_states(struct scale_runner *runner, size_t count, carom_body_state *states, carom_error *error);
 
 /* ---- carom_bench_scale_kept.c */
 
+/* The same bodies on the CPU fallback, without a room, to measure states by. */
+carom_status scale_judge_create(const struct scale_start *start, carom_world **judge, carom_error *error);
+/* Looks at the runner's bodies; answers their kinetic energy, J, and raises the deepest overlap to what is seen, also with walls. `states` has room
+ * for all. */
+carom_status scale_look(struct scale_runner *runner, const struct peer_scene *scene, carom_world *judge, carom_body_state *states, double *overlap,
+	double *energy, carom_error *error);
 carom_status scale_measure_kept(struct scale_result *result, size_t shape, const struct bench_options *options, carom_error *error);
 
 /* ---- carom_bench_scale_copy.c */

@@ -36,9 +36,8 @@ static double overlap_with_walls(const struct peer_scene *scene, const carom_bod
 	return deepest;
 }
 
-/* Looks at the runner's bodies; answers their kinetic energy, and notes an overlap deeper than those before. */
-static carom_status look(struct scale_runner *runner, const struct peer_scene *scene, carom_world *judge, carom_body_state *states,
-	struct scale_kept *kept, double *energy, carom_error *error)
+carom_status scale_look(struct scale_runner *runner, const struct peer_scene *scene, carom_world *judge, carom_body_state *states, double *overlap,
+	double *energy, carom_error *error)
 {
 	carom_measure measure = {0};
 	carom_status status = scale_runner_get_states(runner, scene->count, states, error);
@@ -49,7 +48,7 @@ static carom_status look(struct scale_runner *runner, const struct peer_scene *s
 	if (status != CAROM_OK)
 		return status;
 	*energy = measure.kinetic_energy;
-	kept->overlap = fmax(kept->overlap, fmax(measure.max_penetration, overlap_with_walls(scene, states)));
+	*overlap = fmax(*overlap, fmax(measure.max_penetration, overlap_with_walls(scene, states)));
 	return CAROM_OK;
 }
 
@@ -57,20 +56,20 @@ static carom_status run(struct scale_runner *runner, const struct peer_scene *sc
 	struct scale_kept *kept, carom_error *error)
 {
 	double first = 0, energy = 0;
-	carom_status status = look(runner, scene, judge, states, kept, &first, error);
+	carom_status status = scale_look(runner, scene, judge, states, &kept->overlap, &first, error);
 	for (int k = 0; status == CAROM_OK && k < SCALE_KEPT_STEPS; k += SCALE_KEPT_EVERY) {
 		double begun = wall_seconds();
 		status = scale_runner_step(runner, SCALE_KEPT_EVERY, error);
 		kept->seconds += wall_seconds() - begun;
 		if (status == CAROM_OK)
-			status = look(runner, scene, judge, states, kept, &energy, error);
+			status = scale_look(runner, scene, judge, states, &kept->overlap, &energy, error);
 	}
 	kept->measured = status == CAROM_OK;
 	kept->drift = energy / first - 1;
 	return status;
 }
 
-static carom_status create_judge(const struct scale_start *start, carom_world **judge, carom_error *error)
+carom_status scale_judge_create(const struct scale_start *start, carom_world **judge, carom_error *error)
 {
 	carom_world_def def = carom_default_world_def();
 	def.device = "cpu";
@@ -86,7 +85,7 @@ carom_status scale_measure_kept(struct scale_result *result, size_t shape, const
 	carom_body_state *states = malloc(result->kept_bodies * sizeof *states);
 	carom_status status = scale_start_create(&scale_shapes[shape], result->kept_bodies, options, 0, 0, &start, error);
 	if (status == CAROM_OK)
-		status = create_judge(&start, &judge, error);
+		status = scale_judge_create(&start, &judge, error);
 	if (status == CAROM_OK && !states) {
 		wrong(error, "there is not enough memory to measure");
 		status = error->status = CAROM_OUT_OF_MEMORY;

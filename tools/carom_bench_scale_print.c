@@ -163,12 +163,12 @@ static void write_cell(FILE *stream, const struct scale_result *result, size_t s
 	const struct scale_cell *cell = &row->cells[engine];
 	for (size_t run = 0; cell->steps && run < result->runs; run++) {
 		put_start(stream, result, shape, "", row->bodies, engine);
-		fprintf(stream, "%zu,%" PRIu64 ",0,%.9g,%.9g,,,,%.6g,,,\n", run + 1, cell->steps, cell->seconds[run],
+		fprintf(stream, "%zu,%" PRIu64 ",0,%.9g,%.9g,,,,%.6g,,,,\n", run + 1, cell->steps, cell->seconds[run],
 			REPETITIONS * cell->seconds[run] / (double)cell->steps, result->copy_rate);
 	}
 	for (size_t run = 0; cell->picture[0] > 0 && run < result->runs; run++) {
 		put_start(stream, result, shape, ", a picture", row->bodies, engine);
-		fprintf(stream, "%zu,1,0,%.9g,%.9g,,,,%.6g,,,\n", run + 1, cell->picture[run], REPETITIONS * cell->picture[run], result->copy_rate);
+		fprintf(stream, "%zu,1,0,%.9g,%.9g,,,,%.6g,,,,\n", run + 1, cell->picture[run], REPETITIONS * cell->picture[run], result->copy_rate);
 	}
 }
 
@@ -178,7 +178,7 @@ static void write_kept(FILE *stream, const struct scale_result *result, size_t s
 	if (!kept->measured)
 		return;
 	put_start(stream, result, shape, ", kept", result->kept_bodies, engine);
-	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,%.9g,%.6g,,,\n", SCALE_KEPT_STEPS, kept->seconds, REPETITIONS * kept->seconds / SCALE_KEPT_STEPS,
+	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,%.9g,%.6g,,,,\n", SCALE_KEPT_STEPS, kept->seconds, REPETITIONS * kept->seconds / SCALE_KEPT_STEPS,
 		kept->drift, kept->overlap, result->copy_rate);
 }
 

@@ -34,6 +34,8 @@ static carom_status create_world(const struct scale_start *start, const struct b
 	def.has_room = true;
 	def.room_min = start->scene.room_min;
 	def.room_max = start->scene.room_max;
+	def.gravity = start->scene.gravity;
+	def.restitution = start->scene.restitution;
 	if (status == CAROM_OK)
 		status = carom_world_create(&def, world, error);
 	if (status == CAROM_OK)
@@ -51,6 +53,7 @@ static carom_status place(const struct scale_shape *shape, uint32_t bodies, stru
 	if (status != CAROM_OK)
 		return status;
 	start->scene.count = bodies;
+	start->scene.restitution = 1;
 	start->scene.room_min = (carom_vec2){-half, -half};
 	start->scene.room_max = (carom_vec2){half, half};
 	return CAROM_OK;
@@ -147,8 +150,12 @@ void scale_runner_destroy(struct scale_runner *runner)
 
 carom_status scale_runner_step(struct scale_runner *runner, uint64_t steps, carom_error *error)
 {
-	if (runner->world)
-		return carom_world_step(runner->world, steps, NULL, error);
+	carom_report report = {0};
+	if (runner->world) {
+		carom_status status = carom_world_step(runner->world, steps, &report, error);
+		runner->hits += report.hits;
+		return status;
+	}
 	for (uint64_t k = 0; k < steps; k++)
 		runner->engine->peer->step(runner->peer);
 	return CAROM_OK;
@@ -166,6 +173,18 @@ carom_status scale_runner_draw(struct scale_runner *runner, carom_error *error)
 	if (!runner->pixels)
 		return no_memory("the picture", error);
 	return carom_world_render(runner->world, &def, runner->pixels, error);
+}
+
+bool scale_runner_describe(const struct scale_runner *runner, carom_device_info *device, char settings[SCALE_SETTINGS])
+{
+	if (!runner->world) {
+		snprintf(settings, SCALE_SETTINGS, "%s", runner->engine->peer->settings);
+		return true;
+	}
+	if (carom_world_get_device(runner->world, device, NULL) != CAROM_OK)
+		return false;
+	bench_describe_pipeline(runner->world, settings, SCALE_SETTINGS);
+	return runner->engine->place != PLACE_OPENCL || device->is_opencl;
 }
 
 carom_status scale_runner_get_states(struct scale_runner *runner, size_t count, carom_body_state *states, carom_error *error)

@@ -40,7 +40,7 @@ struct tunnel_cell {
 
 struct tunnel_result {
 	carom_device_info devices[ENGINES]; /* of Carom's */
-	char settings[ENGINES][512];
+	char settings[ENGINES][SCALE_SETTINGS];
 	struct tunnel_cell cells[BLOCKS][ENGINES][SPEEDS];
 };
 
@@ -144,6 +144,7 @@ static carom_status start_create(size_t block, double speed, const struct bench_
 		return error->status = CAROM_OUT_OF_MEMORY;
 	}
 	start->scene.count = blocks[block].place(start->defs, speed);
+	start->scene.restitution = 1;
 	start->scene.room_min = (carom_vec2){-HALF_WIDTH, -HALF_HEIGHT};
 	start->scene.room_max = (carom_vec2){HALF_WIDTH, HALF_HEIGHT};
 	return scale_start_fill(start, options, error);
@@ -184,20 +185,6 @@ static carom_status run(struct scale_runner *runner, const struct peer_scene *sc
 	return CAROM_OK;
 }
 
-/* Notes what the engine runs with; whether it can run at all. */
-static bool describe(struct tunnel_result *result, size_t engine, const struct scale_runner *runner)
-{
-	const struct peer *peer = engines[engine].engine.peer;
-	if (peer) {
-		snprintf(result->settings[engine], sizeof result->settings[engine], "%s", peer->settings);
-		return true;
-	}
-	if (carom_world_get_device(runner->world, &result->devices[engine], NULL) != CAROM_OK)
-		return false;
-	bench_describe_pipeline(runner->world, result->settings[engine], sizeof result->settings[engine]);
-	return engines[engine].engine.place != PLACE_OPENCL || result->devices[engine].is_opencl;
-}
-
 static carom_status measure_cell(struct tunnel_result *result, size_t block, size_t engine, size_t speed, struct scale_start *start,
 	const struct bench_options *options, carom_error *error)
 {
@@ -208,7 +195,7 @@ static carom_status measure_cell(struct tunnel_result *result, size_t block, siz
 	carom_status status = scale_runner_create(&engines[engine].engine, start, options, &runner, error);
 	if (status != CAROM_OK)
 		return status;
-	if (describe(result, engine, &runner))
+	if (scale_runner_describe(&runner, &result->devices[engine], result->settings[engine]))
 		status = run(&runner, &start->scene, block, &result->cells[block][engine][speed], error);
 	scale_runner_destroy(&runner);
 	return status == CAROM_OK ? fail_interrupted(error) : status;
@@ -306,7 +293,7 @@ static void write_cell(FILE *stream, const struct tunnel_result *result, size_t 
 		snprintf(off, sizeof off, "%.9g", cell->off);
 	fprintf(stream, "%s,tunnel,%s,", carom_version(), blocks[block].name);
 	scale_put_engine(stream, &engines[engine].engine, &result->devices[engine], THROWN, "circle", result->settings[engine]);
-	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,,,%g,%zu,%s\n", STEPS, cell->seconds, REPETITIONS * cell->seconds / STEPS, cell->drift,
+	fprintf(stream, "1,%d,0,%.9g,%.9g,,%.9g,,,%g,%zu,%s,\n", STEPS, cell->seconds, REPETITIONS * cell->seconds / STEPS, cell->drift,
 		(double)speeds[speed], cell->passed, off);
 }
 

@@ -1,4 +1,4 @@
-/* Other engines that `carom bench scale` and `carom bench tunnel` measure beside Carom. Each is known to one file, carom_peer_<name>.c or .cpp; where
+/* Other engines that `carom bench` measures beside Carom, in scale, tunnel and heap. Each is known to one file, carom_peer_<name>.c or .cpp; where
  * its library is not installed, without_<name>.c stands for that file. Only the command is linked with them.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_PEER_H
@@ -10,12 +10,14 @@
 extern "C" {
 #endif
 
-/* Circles and polygons in a room, without gravity. */
+/* Circles and polygons in a room. */
 struct peer_scene {
 	size_t count;
 	const carom_body_info *bodies;  /* `count` of them */
 	const carom_body_state *states; /* as many */
 	carom_vec2 room_min, room_max;  /* m */
+	carom_vec2 gravity;             /* m/s^2 */
+	float restitution;              /* of the walls */
 	float time_step;                /* s */
 	bool bullets;                   /* where the engine can look for hits between moving bodies continuously, it does */
 };

@@ -12,9 +12,11 @@ namespace {
 constexpr int velocity_iterations = 8, position_iterations = 3; /* as its manual and its samples have them */
 
 struct World {
-	b2World world{b2Vec2(0, 0)};
+	b2World world;
 	std::vector<b2Body *> bodies;
-	float time_step = 0;
+	const float time_step;
+
+	explicit World(const peer_scene &scene) : world(b2Vec2(scene.gravity.x, scene.gravity.y)), time_step(scene.time_step) {}
 };
 
 /* The package's: 2.4.1 calls itself 2.4.0. */
@@ -30,11 +32,12 @@ void add_shape(b2Body *body, const b2Shape *shape, float restitution)
 	fixture.density = 1;
 	fixture.friction = 0;
 	fixture.restitution = restitution;
-	fixture.restitutionThreshold = 0; /* else slow hits would lose their speed */
+	if (restitution >= 1)
+		fixture.restitutionThreshold = 0; /* else slow hits would lose their speed */
 	body->CreateFixture(&fixture);
 }
 
-void add_walls(b2World &world, b2Vec2 least, b2Vec2 most)
+void add_walls(b2World &world, b2Vec2 least, b2Vec2 most, float restitution)
 {
 	b2BodyDef def;
 	b2Body *body = world.CreateBody(&def);
@@ -43,9 +46,9 @@ void add_walls(b2World &world, b2Vec2 least, b2Vec2 most)
 	for (float side : {-1.0f, 1.0f}) {
 		b2PolygonShape box;
 		box.SetAsBox(thick, half.y + PEER_WALL, middle + b2Vec2(side * (half.x + thick), 0), 0);
-		add_shape(body, &box, 1);
+		add_shape(body, &box, restitution);
 		box.SetAsBox(half.x + PEER_WALL, thick, middle + b2Vec2(0, side * (half.y + thick)), 0);
-		add_shape(body, &box, 1);
+		add_shape(body, &box, restitution);
 	}
 }
 
@@ -100,15 +103,14 @@ void *create(const peer_scene *scene)
 {
 	World *made = nullptr;
 	try {
-		made = new World;
+		made = new World(*scene);
 		made->bodies.reserve(scene->count);
 	} catch (const std::bad_alloc &) {
 		delete made;
 		return nullptr;
 	}
-	made->time_step = scene->time_step;
 	made->world.SetAllowSleeping(false);
-	add_walls(made->world, {scene->room_min.x, scene->room_min.y}, {scene->room_max.x, scene->room_max.y});
+	add_walls(made->world, {scene->room_min.x, scene->room_min.y}, {scene->room_max.x, scene->room_max.y}, scene->restitution);
 	for (size_t k = 0; k < scene->count; k++)
 		made->bodies.push_back(add_body(made->world, scene->bodies[k], scene->states[k], scene->bullets));
 	return made;
@@ -137,7 +139,7 @@ void destroy(void *world)
 
 const peer peer_box2d = {
 	"Box2D",
-	"8 velocity and 3 position iterations, as in its manual, and no threshold of restitution; else its defaults",
+	"8 velocity and 3 position iterations, as in its manual, and no threshold of a restitution of 1; else its defaults",
 	version,
 	create,
 	step,

@@ -31,6 +31,7 @@ static cpShape *add_shape(cpSpace *space, cpShape *shape, double restitution)
 	return cpSpaceAddShape(space, shape);
 }
 
+/* (Of two restitutions it takes the product: with walls bodies have their own.) */
 static void add_walls(cpSpace *space, const struct peer_scene *scene, cpShape **shapes)
 {
 	const double l = (double)scene->room_min.x, r = (double)scene->room_max.x, thick = (double)PEER_WALL;
@@ -116,6 +117,7 @@ static void *create(const struct peer_scene *scene)
 		return NULL;
 	}
 	made->space = create_space();
+	cpSpaceSetGravity(made->space, cpv((double)scene->gravity.x, (double)scene->gravity.y));
 	for (size_t k = 0; k < scene->count; k++)
 		made->bodies[k] = add_body(made->space, &scene->bodies[k], &scene->states[k], &made->shapes[k]);
 	add_walls(made->space, scene, made->shapes + scene->count);
