@@ -28,21 +28,35 @@ bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(nee
 	return false;
 }
 
+/* No faster than when the step began. */
+trajectory limited(trajectory k, trajectory start)
+{
+	float2 v = (float2)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY));
+	float2 first = (float2)(CHANNEL(start.place, LINEAR_VX), CHANNEL(start.place, LINEAR_VY));
+	if (inner(v, v) > inner(first, first)) {
+		CHANNEL(k.place, LINEAR_VX) = first.x;
+		CHANNEL(k.place, LINEAR_VY) = first.y;
+	}
+	k.velocity = magnitude(k.velocity) > magnitude(start.velocity) ? start.velocity : k.velocity;
+	return k;
+}
+
 /* A party's new trajectory, by the impulse `sign` j and the torque on it, and what is counted of the event. */
 trajectory pushed(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque, bool rapid,
-	bool slow)
+	impact hit)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
-	int stuck = rapid && slow ? members[MEMBER(id, MEMBER_STUCK)] + 1 : 0;
+	int before = members[MEMBER(id, MEMBER_STUCK)], fast = hit.total > 0.0f && !hit.slow ? STUCK_FAST : before & STUCK_FAST;
+	int stuck = rapid && hit.slow ? (before & ~STUCK_FAST) + 1 : 0, most = status[STATUS_BORNE] ? STUCK_BORNE : STUCK_MOST;
 	CHANNEL(k.place, LINEAR_VX) += (sign * CHANNEL(j, IMPULSE_X)) * CHANNEL(mass, MASS_INVERSE);
 	CHANNEL(k.place, LINEAR_VY) += (sign * CHANNEL(j, IMPULSE_Y)) * CHANNEL(mass, MASS_INVERSE);
 	k.velocity += torque * CHANNEL(mass, MASS_INVERSE_INERTIA);
 	members[MEMBER(id, MEMBER_EVENTS)]++;
 	members[MEMBER(id, MEMBER_RAPID)] += rapid ? 1 : 0;
-	members[MEMBER(id, MEMBER_STUCK)] = stuck;
-	if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT || stuck > (status[STATUS_BORNE] ? STUCK_BORNE : STUCK_MOST))
+	members[MEMBER(id, MEMBER_STUCK)] = stuck | fast;
+	if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT || stuck > most)
 		k.held = 1.0f;
-	return k;
+	return stuck > most && !fast ? limited(k, trajectory_start(slots, s)) : k;
 }
 
 /* Is an event at time u a rapid one of the body? */
@@ -114,13 +128,13 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 		members[MEMBER(id, MEMBER_HITS)]++;
 	if (can_change(slots, s, was)) {
 		k = pushed(slots, status, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B),
-			rapid, hit.slow);
+			rapid, hit);
 		work_store(work, id, k);
 		stays = way_grow(slots, reach, work, need, s, id, k, length);
 	}
 	if (!wall && can_change(slots, other, other_was)) {
 		o = pushed(slots, status, members, other, other_id, o, j, first ? -1.0f : 1.0f,
-			first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A), other_rapid, hit.slow);
+			first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A), other_rapid, hit);
 		work_store(work, other_id, o);
 		stays = way_grow(slots, reach, work, need, other, other_id, o, length) && stays;
 	}

@@ -181,7 +181,7 @@
 
 /* Members: twelve ints a number */
 #define MEMBER_WIDTH 12
-#define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits */
+#define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
 #define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
 #define MEMBER_HEAD 3     /* of a leader: the first member; -1 if it leads none */
@@ -316,7 +316,8 @@
  * with each, up to CROWD_MOST of what the stronger push makes of a speed in a step; and by the
  * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end;
  * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step. Where
- * forces bear what rests there are hardly ever so many else, and STUCK_BORNE are enough. */
+ * forces bear what rests there are hardly ever so many else, and STUCK_BORNE are enough. Unless it was in a hit that was not slow, it is no faster then than when the
+ * step began: what holds it may not make it faster from step to step. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -328,6 +329,7 @@
 #define HOLD_LIMIT 4096
 #define STUCK_MOST 1024
 #define STUCK_BORNE 128
+#define STUCK_FAST 65536
 
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,
  * at the points that approach more slowly than CONTACT_FAST |a|. Forces let them come nearer by EASE of the gap in a step, down to CUSHION slops, or to

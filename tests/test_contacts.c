@@ -298,7 +298,7 @@ static void forces_add_no_energy(void **unused)
 		}
 		carom_world *world = runs_world(&wild.def, &scenery_devices[0], wild.bodies, wild.count);
 		const carom_measure before = runs_measure(world);
-		for (int part = 0; part < 5; part++) {
+		for (int part = 0; part < 5 && before.kinetic_energy > 0.0; part++) { /* what rests from the beginning is in test_tight */
 			hits += runs_step(world, runs_affordable(20)).hits;
 			const carom_measure after = runs_measure(world);
 			const double gained = (after.kinetic_energy - before.kinetic_energy) + (after.potential_energy - before.potential_energy);

@@ -118,6 +118,31 @@ static void make_shot(scenery_random *random, wild_world *world)
 	shot->velocity = (carom_vec2){scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed)};
 }
 
+/* Rows that exactly fill the room, on each other or with air between them: nothing can move aside. With restitution 1 that would take minutes. */
+static void make_tight(scenery_random *random, wild_world *world)
+{
+	static const carom_vec2 square[4] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
+	const uint32_t side = 2 + below(random, 5);
+	const float half = 0.5f * (float)side, pitch = one_in(random, 2) ? 1.0f : 1.25f;
+	const bool are_squares = one_in(random, 2);
+	carom_world_def *def = &world->def;
+	def->has_room = true;
+	def->room_min = (carom_vec2){-half, 0.0f};
+	def->room_max = (carom_vec2){half, 4.0f * half};
+	def->gravity = (carom_vec2){0.0f, -10.0f};
+	def->restitution = fminf(def->restitution, 0.9f);
+	world->count = side * side;
+	for (uint32_t i = 0; i < world->count; i++) {
+		carom_body_def *body = &world->bodies[i];
+		*body = scenery_circle((float)(i % side) + 0.5f - half, 0.5f + (float)(i / side) * pitch, 0.0f, 0.0f, 0.5f);
+		if (!are_squares)
+			continue;
+		body->shape = CAROM_POLYGON;
+		body->vertices = square;
+		body->vertex_count = 4;
+	}
+}
+
 void wild_make_wider(uint64_t seed, wild_world *world)
 {
 	static const char *const tois[] = {"circle_quadratic", "separating"}, *const impulses[] = {"pair_exact", "accumulate"};
@@ -147,4 +172,6 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 		scenery_check(carom_pipeline_set(&world->def.pipeline, "step", "contacts", &error), &error);
 	if (one_in(&random, 12))
 		make_shot(&random, world);
+	if (one_in(&random, 12))
+		make_tight(&random, world);
 }

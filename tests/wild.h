@@ -17,7 +17,7 @@ typedef struct wild_world {
 
 /* Up to 64 circles and regular polygons on a lattice in a room, which may be far from the origin. */
 void wild_make(uint64_t seed, wild_world *world);
-/* Of any size, by other rules, among them irregular polygons and one large body, with walls or without, or one fast body among others that rest. */
+/* Of any size, by other rules, among them irregular polygons and one large body, with walls or without, or one fast body among others that rest, or rows that exactly fill their room. */
 void wild_make_wider(uint64_t seed, wild_world *world);
 
 #endif

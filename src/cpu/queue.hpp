@@ -319,15 +319,31 @@ private:
 		return impact(collision);
 	}
 
+	/* To the speeds with which it began. */
+	static void limit(Trajectory<T> &way, const Trajectory<T> &begun)
+	{
+		const Vec<T> v(way.place[LINEAR_VX], way.place[LINEAR_VY]), first(begun.place[LINEAR_VX], begun.place[LINEAR_VY]);
+		if (inner(first, first) < inner(v, v)) {
+			way.place[LINEAR_VX] = first.x();
+			way.place[LINEAR_VY] = first.y();
+		}
+		if (std::abs(begun.velocity) < std::abs(way.velocity))
+			way.velocity = begun.velocity;
+	}
+
 	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row, bool rapid)
 	{
 		const T sign = is_row ? T(1) : T(-1);
 		way.place[LINEAR_VX] += (sign * hit.x) * slots[s].mass[MASS_INVERSE];
 		way.place[LINEAR_VY] += (sign * hit.y) * slots[s].mass[MASS_INVERSE];
 		way.velocity += (is_row ? hit.row_torque : hit.column_torque) * slots[s].mass[MASS_INVERSE_INERTIA];
-		members[id].rapid += rapid;
-		members[id].stuck = rapid && hit.slow ? members[id].stuck + 1 : 0;
-		if (++members[id].events > HOLD_LIMIT || members[id].stuck > patience)
+		Member &member = members[id];
+		member.rapid += rapid;
+		member.stuck = rapid && hit.slow ? member.stuck + 1 : 0;
+		member.fast |= hit.total > 0 && !hit.slow;
+		if (member.stuck > patience && !member.fast)
+			limit(way, Trajectory<T>(slots[s]));
+		if (++member.events > HOLD_LIMIT || member.stuck > patience)
 			way.held = 1;
 		work[id].keep(way);
 		widen(s, id, way);
