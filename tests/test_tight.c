@@ -150,7 +150,7 @@ static void what_fills_a_pipe_falls(void **unused)
 			if (!hash)
 				continue;
 			print_message("%s, %s: %.4f s, in a wide pipe %.4f s\n", steps[i / 2], walls ? "walls" : "static bodies", tight, wide);
-			assert_true(tight < 20.0 * wide);
+			assert_true(tight < 20.0 * wide || tight < 0.025 * RUNS_SECONDS_MOST); /* so short a time is the machine's to say */
 			runs_same_hash(&first, hash, device);
 		}
 	}
