@@ -2,6 +2,17 @@
  * SPDX-License-Identifier: MIT */
 #include "bench.h"
 
+/* Measures the table and reads what it wrote, which is of nothing else. */
+static void read_table(const char *table, const char *options)
+{
+	char line[256];
+	snprintf(line, sizeof line, "$C bench %s --quiet --csv $D/t.csv %s", table, options);
+	check(line, 0, NULL);
+	assert_string_equal(call.err, "");
+	read_csv("t.csv");
+	assert_int_equal(count(TABLE, table), csv.rows - 1);
+}
+
 /* ---- scale ---- */
 
 /* The engines beside Carom that are in this build: what it says of those that are not. */
@@ -56,12 +67,9 @@ static void check_scale_row(size_t row, const char *step)
 static void check_scale(const char *options, const char *step, size_t devices)
 {
 	char line[256];
-	snprintf(line, sizeof line, "$C bench scale --sizes 8,12 " FAST " --csv $D/t.csv %s", options);
-	check(line, 0, NULL);
-	assert_string_equal(call.err, "");
-	read_csv("t.csv");
+	snprintf(line, sizeof line, "--sizes 8,12 " FAST " %s", options);
+	read_table("scale", line);
 	assert_int_equal(csv.rows, 1 + 2 * devices * (2 * 2 * 2 + 1) + 2 * count_peers() * (2 * 2 + 1));
-	assert_int_equal(count(TABLE, "scale"), csv.rows - 1);
 	assert_int_equal(count(VERSION, carom_version()), csv.rows - 1);
 	for (size_t row = 1; row < csv.rows; row++)
 		check_scale_row(row, step);
@@ -133,15 +141,10 @@ static void check_tunnel_row(size_t row)
 
 static void check_tunnel(const char *options, size_t devices)
 {
-	char line[256];
-	snprintf(line, sizeof line, "$C bench tunnel --quiet --csv $D/t.csv %s", options);
-	check(line, 0, NULL);
-	assert_string_equal(call.err, "");
-	read_csv("t.csv");
+	read_table("tunnel", options);
 	const size_t bullets = count(ALTERNATIVE, "Box2D, bullets");
 	assert_int_equal(csv.rows, 1 + 12 * (devices + count_peers()) + bullets);
 	assert_int_equal(bullets, count(ALTERNATIVE, "Box2D"));
-	assert_int_equal(count(TABLE, "tunnel"), csv.rows - 1);
 	assert_int_equal(count(PART, "wall"), count(PART, "pairs"));
 	assert_int_equal(count(SPEED, "1000"), (csv.rows - 1) / 6);
 	assert_int_equal(count(ALTERNATIVE, "Carom, OpenCL"), 12 * (devices - 1));
@@ -183,13 +186,10 @@ static double hits_of(const char *engine)
 /* Two shapes, two runs, falling and lying. Hits are fewer where forces bear what lies, and the same on both devices. */
 static void check_heap(const char *options, size_t devices)
 {
-	char line[256];
-	snprintf(line, sizeof line, "$C bench heap --sizes 12 --runs 2 --quiet --csv $D/t.csv %s", options);
-	check(line, 0, NULL);
-	assert_string_equal(call.err, "");
-	read_csv("t.csv");
+	char line[128];
+	snprintf(line, sizeof line, "--sizes 12 --runs 2 %s", options);
+	read_table("heap", line);
 	assert_int_equal(csv.rows, 1 + 8 * (devices + 1 + count_peers()));
-	assert_int_equal(count(TABLE, "heap"), csv.rows - 1);
 	for (size_t row = 1; row < csv.rows; row++)
 		check_heap_row(row);
 	assert_true(hits_of("Carom, CPU fallback, contacts") < 0.5 * hits_of("Carom, CPU fallback, events"));

@@ -1,7 +1,6 @@
 /* carom bench heap: what a step costs where bodies fall upon each other and lie there, in Carom and in other engines.
  * SPDX-License-Identifier: MIT */
 #include "carom_bench_scale.h"
-#include "carom_placement.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -63,14 +62,9 @@ static carom_status start_create(const struct scale_shape *shape, uint32_t bodie
 	struct scale_start *start, carom_error *error)
 {
 	const struct placement_def placement = {.sides = shape->sides, .count = bodies, .fill = FILL, .speed = SPEED, .radius = 0.5, .seed = seed};
-	float half;
-	*start = (struct scale_start){0};
-	carom_status status = placement_create(&placement, &start->defs, &half, error);
+	carom_status status = scale_start_place(start, &placement, error);
 	if (status != CAROM_OK)
 		return status;
-	start->scene.count = bodies;
-	start->scene.room_min = (carom_vec2){-half, -half};
-	start->scene.room_max = (carom_vec2){half, half};
 	start->scene.gravity = (carom_vec2){0, -GRAVITY};
 	start->scene.restitution = RESTITUTION;
 	return scale_start_fill(start, options, error);

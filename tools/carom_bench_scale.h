@@ -5,6 +5,7 @@
 
 #include "carom_bench.h"
 #include "carom_peer.h"
+#include "carom_placement.h"
 
 #define SCALE_SECONDS 0.2 /* of a batch, where --seconds is not given */
 #define SCALE_WARM 100    /* steps before anything is measured */
@@ -91,10 +92,12 @@ struct scale_start {
 /* `most_steps` are done on the CPU fallback, but no more once they have taken `seconds`. */
 carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
 	double seconds, struct scale_start *start, carom_error *error);
+/* Sets its bodies, their count and their room; restitution 1, without gravity. What follows is scale_start_fill. */
+carom_status scale_start_place(struct scale_start *start, const struct placement_def *placement, carom_error *error);
 /* The same of bodies at hand: `defs`, which become the start's, and the scene's count, room, gravity and restitution are set, all else is zero. */
 carom_status scale_start_fill(struct scale_start *start, const struct bench_options *options, carom_error *error);
 void scale_start_destroy(struct scale_start *start);
-/* Carom's world as the options say, but for its room. */
+/* Carom's world as the options say, but for its room, gravity and restitution. */
 carom_status scale_world_def(const struct bench_options *options, enum bench_place place, carom_world_def *def, carom_error *error);
 
 /* An engine with its bodies. */

@@ -1,7 +1,6 @@
 /* The bodies of `carom bench scale`, and the engines that are given them.
  * SPDX-License-Identifier: MIT */
 #include "carom_bench_scale.h"
-#include "carom_placement.h"
 
 #include <stdlib.h>
 
@@ -45,14 +44,14 @@ static carom_status create_world(const struct scale_start *start, const struct b
 
 /* ---- The start ---- */
 
-static carom_status place(const struct scale_shape *shape, uint32_t bodies, struct scale_start *start, carom_error *error)
+carom_status scale_start_place(struct scale_start *start, const struct placement_def *placement, carom_error *error)
 {
-	const struct placement_def placement = {.sides = shape->sides, .count = bodies, .fill = 0.25, .speed = 5, .radius = 0.5, .seed = 1};
 	float half;
-	carom_status status = placement_create(&placement, &start->defs, &half, error);
+	*start = (struct scale_start){0};
+	carom_status status = placement_create(placement, &start->defs, &half, error);
 	if (status != CAROM_OK)
 		return status;
-	start->scene.count = bodies;
+	start->scene.count = placement->count;
 	start->scene.restitution = 1;
 	start->scene.room_min = (carom_vec2){-half, -half};
 	start->scene.room_max = (carom_vec2){half, half};
@@ -97,8 +96,8 @@ static carom_status finish(struct scale_start *start, carom_status status, carom
 carom_status scale_start_create(const struct scale_shape *shape, uint32_t bodies, const struct bench_options *options, uint64_t most_steps,
 	double seconds, struct scale_start *start, carom_error *error)
 {
-	*start = (struct scale_start){0};
-	carom_status status = place(shape, bodies, start, error);
+	const struct placement_def placement = {.sides = shape->sides, .count = bodies, .fill = 0.25, .speed = 5, .radius = 0.5, .seed = 1};
+	carom_status status = scale_start_place(start, &placement, error);
 	if (status == CAROM_OK)
 		status = open_world(start, options, error);
 	if (status == CAROM_OK)
