@@ -23,6 +23,18 @@ carom_world_def runs_room(float half_width, float half_height)
 	return def;
 }
 
+carom_world_def runs_resting(const char *step, float half_width, float height)
+{
+	carom_world_def def = runs_room(half_width, 1.0f);
+	carom_error error;
+	scenery_check(carom_pipeline_set(&def.pipeline, "step", step, &error), &error);
+	def.gravity.y = -RUNS_GRAVITY;
+	def.restitution = 0.3f;
+	def.room_min.y = 0.0f;
+	def.room_max.y = height;
+	return def;
+}
+
 carom_world *runs_world(const carom_world_def *def, const scenery_device *device, const carom_body_def *bodies, size_t count)
 {
 	carom_world *world = scenery_world(def, device);

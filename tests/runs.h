@@ -10,6 +10,9 @@
 carom_world_def runs_def(void);
 /* With a room about the origin. */
 carom_world_def runs_room(float half_width, float half_height);
+/* With a room from the ground y = 0 up, gravity, restitution 0.3 and that step. */
+#define RUNS_GRAVITY 10.0f /* m/s^2, down */
+carom_world_def runs_resting(const char *step, float half_width, float height);
 /* With these bodies; NULL where there is no such device. */
 carom_world *runs_world(const carom_world_def *def, const scenery_device *device, const carom_body_def *bodies, size_t count);
 /* The queue over the same world. */

@@ -6,23 +6,10 @@
 #include "runs.h"
 #include "wild.h"
 
-#define GRAVITY 10.0f
 #define SETTLED 240 /* steps after which a small heap lies */
 
 /* How near bodies of a radius about 0.5 m come that rest on each other, some metres from the origin. */
 #define NEAR (2.0 * (double)CUSHION * (double)SLOP * 12.0)
-
-static carom_world_def resting(const char *step, float half_width, float height)
-{
-	carom_world_def def = runs_room(half_width, 1.0f);
-	carom_error error;
-	scenery_check(carom_pipeline_set(&def.pipeline, "step", step, &error), &error);
-	def.gravity.y = -GRAVITY;
-	def.restitution = 0.3f;
-	def.room_min.y = 0.0f;
-	def.room_max.y = height;
-	return def;
-}
 
 static carom_body_def body_at(uint32_t sides, float x, float y)
 {
@@ -38,7 +25,7 @@ static carom_body_def body_at(uint32_t sides, float x, float y)
 static uint64_t hits_of_heap(const char *step, uint32_t sides, const scenery_device *device, uint64_t *hash, carom_measure *measure)
 {
 	enum { SIDE = 6, COUNT = SIDE * SIDE };
-	const carom_world_def def = resting(step, 4.0f, 20.0f);
+	const carom_world_def def = runs_resting(step, 4.0f, 20.0f);
 	carom_body_def bodies[COUNT];
 	scenery_random random = {3};
 	for (int i = 0; i < COUNT; i++) {
@@ -84,7 +71,7 @@ static void heaps_lie_still(void **unused)
 static void column(uint32_t sides, uint32_t count, const scenery_device *device, uint64_t *first)
 {
 	enum { MOST = 12 };
-	const carom_world_def def = resting("contacts", 2.0f, 16.0f);
+	const carom_world_def def = runs_resting("contacts", 2.0f, 16.0f);
 	const float pitch = sides ? sqrtf(0.5f) : 1.0f;
 	carom_body_def bodies[MOST];
 	for (uint32_t i = 0; i < count; i++) {
@@ -124,7 +111,7 @@ static void slopes_only_turn_gravity(void **unused)
 	for (uint32_t sides = 0; sides <= 4; sides += 4) {
 		uint64_t first = 0;
 		SCENERY_EACH_DEVICE(device) {
-			carom_world_def def = resting("contacts", 20.0f, 40.0f);
+			carom_world_def def = runs_resting("contacts", 20.0f, 40.0f);
 			const double high = (sides ? sqrt(0.125) : 0.5) + 0.5 + 1e-5;
 			carom_body_def bodies[2] = {
 				scenery_box(0.0f, 20.0f, 0.0f, 0.0f, 30.0f, 1.0f), body_at(sides, (float)(-sin(slope) * high), (float)(20.0 + cos(slope) * high))};
@@ -136,7 +123,7 @@ static void slopes_only_turn_gravity(void **unused)
 				continue;
 			runs_advance(world, seconds);
 			const carom_body_state state = runs_state(world, 1);
-			const double expected = -(double)GRAVITY * sin(slope) * seconds;
+			const double expected = -(double)RUNS_GRAVITY * sin(slope) * seconds;
 			runs_near((double)state.velocity.x * cos(slope) + (double)state.velocity.y * sin(slope), expected, 1e-3 * fabs(expected));
 			runs_near((double)state.velocity.y * cos(slope) - (double)state.velocity.x * sin(slope), 0.0, 0.01);
 			runs_near((double)state.angular_velocity, 0.0, 0.01);
@@ -154,7 +141,7 @@ static void a_push_is_handed_on(void **unused)
 	for (uint32_t sides = 0; sides <= 4; sides += 4) {
 		uint64_t first = 0;
 		SCENERY_EACH_DEVICE(device) {
-			carom_world_def def = resting("contacts", 10.0f, 20.0f);
+			carom_world_def def = runs_resting("contacts", 10.0f, 20.0f);
 			const float pitch = sides ? sqrtf(0.5f) : 1.0f;
 			carom_body_def bodies[COUNT];
 			double mass = 0.0;
@@ -190,7 +177,7 @@ static void a_push_is_handed_on_beside_many(void **unused)
 	uint64_t first = 0;
 	(void)unused;
 	SCENERY_EACH_DEVICE(device) {
-		carom_world_def def = resting("contacts", 10.0f, 20.0f);
+		carom_world_def def = runs_resting("contacts", 10.0f, 20.0f);
 		def.gravity.y = 0.0f;
 		for (int i = 0; i < COUNT; i++) {
 			const int k = i - 2;
@@ -217,13 +204,13 @@ static void what_falls_bounces(void **unused)
 {
 	(void)unused;
 	SCENERY_EACH_DEVICE(device) {
-		carom_world_def def = resting("contacts", 5.0f, 10.0f);
+		carom_world_def def = runs_resting("contacts", 5.0f, 10.0f);
 		const carom_body_def ball = body_at(0, 0.0f, 1.5f);
 		def.restitution = 0.5f;
 		carom_world *world = runs_world(&def, device, &ball, 1);
 		if (!world)
 			continue;
-		runs_advance(world, sqrt(2.0 / (double)GRAVITY) * 1.5); /* down, and half as long up */
+		runs_advance(world, sqrt(2.0 / (double)RUNS_GRAVITY) * 1.5); /* down, and half as long up */
 		runs_near((double)runs_state(world, 0).position.y, 0.75, 0.002);
 		carom_world_destroy(world);
 	}
@@ -236,14 +223,14 @@ static void without_rest_it_is_events(void **unused)
 	for (int pushed = 0; pushed < 2; pushed++) {
 		uint64_t hashes[2];
 		for (int contacts = 0; contacts < 2; contacts++) {
-			carom_world_def def = resting(contacts ? "contacts" : "events", 10.0f, 20.0f);
+			carom_world_def def = runs_resting(contacts ? "contacts" : "events", 10.0f, 20.0f);
 			carom_body_def bodies[49];
 			scenery_random random = {5};
 			scenery_bodies(&random, SCENERY_MIXED, 49, 1.4f, 4.0f, bodies);
 			for (int i = 0; i < 49; i++)
 				bodies[i].position.y += 10.0f;
 			def.restitution = pushed ? 1.0f : 0.5f;
-			def.gravity.y = pushed ? -GRAVITY : 0.0f;
+			def.gravity.y = pushed ? -RUNS_GRAVITY : 0.0f;
 			for (int i = 0; i < 49 && !pushed; i++) {
 				bodies[i].force = (carom_vec2){0.0f, 0.0f};
 				bodies[i].restitution = 0.5f;
@@ -261,7 +248,7 @@ static void too_many_on_one_are_events(void **unused)
 	uint64_t first = 0;
 	(void)unused;
 	SCENERY_EACH_DEVICE(device) {
-		const carom_world_def def = resting("contacts", 12.0f, 8.0f);
+		const carom_world_def def = runs_resting("contacts", 12.0f, 8.0f);
 		carom_body_def bodies[BALLS + 1];
 		bodies[0] = scenery_box(0.0f, 0.3f, 0.0f, 0.0f, 20.0f, 0.5f);
 		for (int i = 0; i < BALLS; i++)

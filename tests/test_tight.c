@@ -5,22 +5,9 @@
 #include "layout.h"
 #include "runs.h"
 
-#define GRAVITY 10.0f
+#define HEIGHT 40.0f
 
 static const char *const steps[] = {"events", "contacts"};
-
-static carom_world_def room_of(const char *step, float width)
-{
-	carom_world_def def = runs_def();
-	carom_error error;
-	scenery_check(carom_pipeline_set(&def.pipeline, "step", step, &error), &error);
-	def.gravity.y = -GRAVITY;
-	def.restitution = 0.3f;
-	def.has_room = true;
-	def.room_min = (carom_vec2){0.0f, 0.0f};
-	def.room_max = (carom_vec2){width, 40.0f};
-	return def;
-}
 
 static carom_body_def body_at(bool box, float x, float y)
 {
@@ -46,13 +33,13 @@ static void wedges_have_an_end(void **unused)
 	} cases[] = {{1, false}, {1, true}, {2, false}, {3, false}, {3, true}};
 	for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
 		const bool borne = i % 2;
-		const carom_world_def def = room_of(steps[borne], (float)WIDTH);
+		const carom_world_def def = runs_resting(steps[borne], 0.5f * (float)WIDTH, HEIGHT);
 		carom_body_def bodies[MOST];
 		uint32_t count = 0;
 		uint64_t first = 0;
 		for (int row = 0; row < cases[i / 2].rows; row++)
 			for (int k = 0; k < WIDTH - row; k++)
-				bodies[count++] = body_at(cases[i / 2].boxes, 0.5f + (float)k + 0.5f * (float)row, 0.5f + 1.2f * (float)row);
+				bodies[count++] = body_at(cases[i / 2].boxes, (float)k + 0.5f * (float)(1 + row - WIDTH), 0.5f + 1.2f * (float)row);
 		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = runs_world(&def, device, bodies, count);
 			if (!world)
@@ -81,13 +68,13 @@ static void what_is_wedged_gains_no_energy(void **unused)
 	(void)unused;
 	enum { SIDE = 4, COUNT = SIDE * SIDE };
 	for (int i = 0; i < 4; i++) {
-		carom_world_def def = room_of(steps[i % 2], (float)SIDE);
+		carom_world_def def = runs_resting(steps[i % 2], 0.5f * (float)SIDE, HEIGHT);
 		carom_body_def bodies[COUNT];
 		uint64_t first = 0;
 		def.time_step = 0.1f;
 		def.restitution = 0.9f;
 		for (uint32_t k = 0; k < COUNT; k++)
-			bodies[k] = body_at(i / 2, 0.5f + (float)(k % SIDE), 0.5f + 1.25f * (float)(k / SIDE));
+			bodies[k] = body_at(i / 2, (float)(k % SIDE) + 0.5f * (float)(1 - SIDE), 0.5f + 1.25f * (float)(k / SIDE));
 		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = runs_world(&def, device, bodies, COUNT);
 			if (!world)
@@ -109,17 +96,15 @@ static void what_is_wedged_gains_no_energy(void **unused)
 }
 
 /* How long boxes take that fall in a pipe `gap` wider than they are, between the room's walls or static bodies. */
-static double seconds_of_pipe(const carom_world_def *room, bool walls, float gap, const scenery_device *device, uint64_t *hash)
+static double seconds_of_pipe(const char *step, bool walls, float gap, const scenery_device *device, uint64_t *hash)
 {
 	enum { COUNT = 10 };
-	carom_world_def def = *room;
+	const carom_world_def def = runs_resting(step, walls ? 0.5f + gap : 2.0f, HEIGHT);
 	carom_body_def bodies[COUNT + 2];
-	def.room_max.x = walls ? 1.0f + 2.0f * gap : 4.0f;
-	const float middle = 0.5f * def.room_max.x;
 	for (int k = 0; k < COUNT; k++)
-		bodies[k] = body_at(true, middle, 0.75f + 1.5f * (float)k);
+		bodies[k] = body_at(true, 0.0f, 0.75f + 1.5f * (float)k);
 	for (int k = 0; k < 2; k++) {
-		bodies[COUNT + k] = scenery_box(middle + (k ? 1.0f + gap : -1.0f - gap), 20.0f, 0.0f, 0.0f, 1.0f, 39.0f);
+		bodies[COUNT + k] = scenery_box(k ? 1.0f + gap : -1.0f - gap, 0.5f * HEIGHT, 0.0f, 0.0f, 1.0f, HEIGHT - 1.0f);
 		bodies[COUNT + k].is_static = true;
 	}
 	carom_world *world = runs_world(&def, device, bodies, walls ? COUNT : COUNT + 2);
@@ -131,7 +116,7 @@ static double seconds_of_pipe(const carom_world_def *room, bool walls, float gap
 	*hash = runs_hash(world);
 	runs_near(runs_measure(world).max_penetration, 0.0, 40.0 * (double)SLOP);
 	for (uint32_t k = 0; k < COUNT; k++)
-		runs_near((double)runs_state(world, k).position.x, (double)middle, 1.1 * (double)gap + 40.0 * (double)SLOP);
+		runs_near((double)runs_state(world, k).position.x, 0.0, 1.1 * (double)gap + 40.0 * (double)SLOP);
 	carom_world_destroy(world);
 	return seconds;
 }
@@ -141,12 +126,12 @@ static void what_fills_a_pipe_falls(void **unused)
 {
 	(void)unused;
 	for (int i = 0; i < 4; i++) {
-		const carom_world_def def = room_of(steps[i / 2], 1.0f);
 		const bool walls = i % 2;
 		uint64_t first = 0;
 		SCENERY_EACH_DEVICE(device) {
 			uint64_t hash = 0;
-			const double wide = seconds_of_pipe(&def, walls, 0.1f, device, &hash), tight = seconds_of_pipe(&def, walls, 0.0f, device, &hash);
+			const double wide = seconds_of_pipe(steps[i / 2], walls, 0.1f, device, &hash),
+						 tight = seconds_of_pipe(steps[i / 2], walls, 0.0f, device, &hash);
 			if (!hash)
 				continue;
 			print_message("%s, %s: %.4f s, in a wide pipe %.4f s\n", steps[i / 2], walls ? "walls" : "static bodies", tight, wide);
