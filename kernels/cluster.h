@@ -115,9 +115,14 @@ bool lists_are_good(LIST_OUT(status))
 }
 
 /* Does a step of contacts wait for its forces? */
-bool forces_are_wanted(LIST_IN(status))
+bool iterations_are_wanted(LIST_IN(status))
 {
 	return status[STATUS_WANTED] > status[STATUS_HANDED];
+}
+
+bool forces_are_wanted(LIST_IN(status))
+{
+	return iterations_are_wanted(status) || status[STATUS_PASS] == PASS_IMPULSES;
 }
 
 /* Goes through a slot's neighbours: k is an index of Neighbours up to `end`, then -2 - an index of Extra's nodes, then -1. */

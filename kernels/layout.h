@@ -262,6 +262,9 @@
 #define LOADS_WIDTH 2
 #define LOAD_POINTS 3
 
+/* Pushes: two records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular */
+#define PUSHES_WIDTH 2
+
 #define GROUP_MOST 64 /* work-items of a group */
 
 /* Status: ints, and some floats in their bits */
@@ -295,7 +298,10 @@
 #define STATUS_WANTED 23 /* the last iteration that is wanted; if that is after STATUS_HANDED, the step waits for its forces */
 #define STATUS_FIRST 24  /* the first of those now */
 #define STATUS_HANDED 25 /* the last that was handed over */
-#define STATUS_BORNE 26  /* 1: pushes are changed */
+#define STATUS_BORNE 26  /* 1: pushes or velocities are changed */
+#define STATUS_PASS 30   /* of the step: 0: not begun yet, */
+#define PASS_IMPULSES 1  /* what comes together is stopped, */
+#define PASS_FORCES 2    /* and borne */
 #define STATUS_WAITS 27  /* since the host asked: steps not done since they needed more iterations */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
@@ -332,11 +338,12 @@
 #define STUCK_FAST 65536
 
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,
- * at the points that approach more slowly than CONTACT_FAST |a|. Forces let them come nearer by EASE of the gap in a step, down to CUSHION slops, or to
- * |a| / 2 if that is less. They are found within a CONTACT_PART of what EASE leaves of that, or by CONTACT_ITERATIONS iterations. */
+ * at the points that approach more slowly than CONTACT_FAST |a|. Impulses stop what would come nearer in the step than to half a cushion: CUSHION slops, or
+ * |a| / 2 if that is less. Then forces let them come nearer by EASE of the gap in a step, down to a cushion. Both are found within a CONTACT_PART of
+ * EASE of a cushion, or by CONTACT_ITERATIONS iterations. */
 #define CONTACT_FAST 4.0f
 #define EASE 0.5f
-#define CUSHION 32.0f
+#define CUSHION 64.0f
 #define CONTACT_PART 0.25f
 #define CONTACT_ITERATIONS 256
 

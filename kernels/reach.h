@@ -15,7 +15,7 @@
 void status_begin(LIST_OUT(status), int count)
 {
 	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
-	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = 0;
+	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = 0;
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;
 	status[STATUS_LEVELS] = 1;

@@ -9,19 +9,22 @@ typedef struct rests {
 	int count, keys[CONTACTS_MOST];
 } rests;
 
-/* A contact, and what its points are judged by: how much the stronger push makes in a step, and how near it may come. */
+/* A contact, and what its points are judged by: how much the stronger push makes in a step, how near it may come, and how much of its gap it may
+ * lose in a step, of a gap that is so much larger than `spared`. */
 typedef struct rest {
 	float4 pair, points[2];
-	float force, cushion;
+	float force, cushion, ease, spared;
 } rest;
 
-rest rest_begin(int partner, float2 n, float force, float slop)
+rest rest_begin(int partner, float2 n, float force, float slop, int pass)
 {
 	rest r;
 	r.pair = (float4)((float)partner, 0.0f, n.x, n.y);
 	r.points[0] = r.points[1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	r.force = force;
 	r.cushion = smaller(CUSHION * slop, 0.5f * force);
+	r.ease = pass == PASS_IMPULSES ? 1.0f : EASE;
+	r.spared = pass == PASS_IMPULSES ? 0.5f * r.cushion : r.cushion;
 	return r;
 }
 
@@ -30,7 +33,7 @@ void rest_add(rest *r, float rate, float gap, float arm, float other_arm)
 {
 	if (rate < -(CONTACT_FAST * r->force))
 		return;
-	r->points[(int)CHANNEL(r->pair, PAIR_POINTS)] = (float4)(arm, other_arm, rate + EASE * (larger(gap, 0.0f) - r->cushion), 0.0f);
+	r->points[(int)CHANNEL(r->pair, PAIR_POINTS)] = (float4)(arm, other_arm, rate + r->ease * (larger(gap, 0.0f) - r->spared), 0.0f);
 	CHANNEL(r->pair, PAIR_POINTS) += 1.0f;
 }
 
@@ -54,7 +57,7 @@ void rests_insert(rests *all, RECORD_OUT(contacts), int s, rest r, int key)
 	contacts[CONTACT(s, k, CONTACT_START)] = (float4)(0.0f, 0.0f, CONTACT_PART * (EASE * r.cushion), 0.0f);
 }
 
-void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, int other, float length, rests *all)
+void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, int other, float length, int pass, rests *all)
 {
 	body own = body_of(slots, s, trajectory_start(slots, s), length), partner = body_of(slots, other, trajectory_start(slots, other), length);
 	float force = larger(norm(own.a), norm(partner.a));
@@ -72,7 +75,7 @@ void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, in
 	contact c = contact_at(VERTICES, a, b, p, k, force - k.gap);
 	bool is_incident = is_row == c.swapped;
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
-	rest r = rest_begin(other, n, force, slop);
+	rest r = rest_begin(other, n, force, slop, pass);
 	for (int i = 0; i < c.count; i++) {
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
 		float ref = cross2(c.ref[i], n), inc = cross2(c.inc[i], n);
@@ -81,12 +84,12 @@ void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, in
 	rests_insert(all, contacts, s, r, key);
 }
 
-void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), body k, int s, int wall, rests *all)
+void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), body k, int s, int wall, int pass, rests *all)
 {
 	float offset, force = norm(k.a);
 	float2 n = wall_normal(room, wall, &offset);
 	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
-	rest r = rest_begin(-1 - wall, n, force, wall_slop(k));
+	rest r = rest_begin(-1 - wall, n, force, wall_slop(k), pass);
 	if (k.count == 1) {
 		if (height - k.radius <= force)
 			rest_add(&r, speed, height - k.radius, 0.0f, 0.0f);
@@ -113,16 +116,17 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	rests all;
+	int pass = status[STATUS_PASS];
 	all.count = 0;
 	if (slot_is_static(slots, s))
 		return 0;
 	body k = body_of(slots, s, trajectory_start(slots, s), length);
 	bool by_walls = CHANNEL(rules, RULES_HAS_ROOM) > 0.0f && larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)) < 1.0f && norm(k.a) > 0.0f;
 	for (int wall = 0; by_walls && wall < 4; wall++)
-		rest_on_wall(VERTICES, room, contacts, k, s, wall, &all);
+		rest_on_wall(VERTICES, room, contacts, k, s, wall, pass, &all);
 	int end = spans[SPAN(s, SPAN_END)];
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i))
-		rest_on_body(VERTICES, slots, contacts, s, neighbour_of(neighbours, extra, i), length, &all);
+		rest_on_body(VERTICES, slots, contacts, s, neighbour_of(neighbours, extra, i), length, pass, &all);
 	return all.count > CONTACTS_MOST ? -1 : all.count;
 }
 
@@ -144,19 +148,22 @@ float load_gives(float4 load, float4 mass, float arm)
 	return CHANNEL(load, LOAD_POINTS) * (CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm));
 }
 
-/* What acts on a body besides, in a step that is 1 long. */
-float4 load_begin(RECORD_IN(slots), int s, float length)
+/* What acts on a body besides, in a step that is 1 long: on what is stopped at once nothing. */
+float4 load_begin(RECORD_IN(slots), LIST_IN(status), int s, float length)
 {
+	if (status[STATUS_PASS] == PASS_IMPULSES)
+		return (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
 	return (float4)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length,
 		(CHANNEL(push, PUSH_TORQUE) * length) * length, 0.0f);
 }
 
 /* One iteration of a body's contacts, from the loads of one parity to the other. True if a point comes too fast yet. */
-bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_OUT(loads), int s, int now, float beta, float length)
+bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching), RECORD_OUT(loads), int s, int now, float beta,
+	float length)
 {
 	bool wanted = false;
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_WIDTH * s + now], next = load_begin(slots, s, length);
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_WIDTH * s + now], next = load_begin(slots, status, s, length);
 	CHANNEL(next, LOAD_POINTS) = CHANNEL(load, LOAD_POINTS);
 	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
 		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)], start = contacts[CONTACT(s, k, CONTACT_START)];
@@ -173,7 +180,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RE
 			float rate = CHANNEL(at, POINT_RATE) + (load_along(load, n, arm) - load_along(other_load, n, other_arm));
 			float gives = load_gives(load, mass, arm) + load_gives(other_load, other_mass, other_arm);
 			float force = larger(from - rate / gives, 0.0f), to = force + beta * (force - CHANNEL(at, POINT_FORCE));
-			wanted = wanted || rate < -CHANNEL(start, START_TOLERANCE);
+			wanted = wanted || (force > 0.0f ? fabs(rate) : -rate) > CHANNEL(start, START_TOLERANCE);
 			start = point ? (float4)(start.x, to, start.z, start.w) : (float4)(to, start.y, start.z, start.w);
 			CHANNEL(at, POINT_FORCE) = force;
 			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
@@ -200,11 +207,44 @@ float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s
 	return sum;
 }
 
-/* A slot's push is another one: all around looks at it again, and it may get farther. True if that is where it was not looked for. */
-bool push_set(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, float4 push,
-	int room)
+void velocities_set(RECORD_OUT(slots), int s, float x, float y, float turning)
 {
-	slots[SLOT_WIDTH * s + SLOT_PUSH] = push;
+	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE), turn = SLOT_LOAD(slots, s, SLOT_TURN);
+	CHANNEL(turn, TURN_VELOCITY) = turning;
+	slots[SLOT_WIDTH * s + SLOT_PLACE] = (float4)(place.x, place.y, x, y);
+	slots[SLOT_WIDTH * s + SLOT_TURN] = turn;
+}
+
+/* What a body's forces come to, in such a step, changes its velocities at once, or its push. */
+void slot_take(RECORD_OUT(slots), LIST_IN(status), int s, float4 sum, float length)
+{
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	float x = sum.x / length, y = sum.y / length, torque = sum.z / length;
+	if (status[STATUS_PASS] == PASS_IMPULSES)
+		velocities_set(slots, s, place.z + x, place.w + y, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) + torque);
+	else
+		slots[SLOT_WIDTH * s + SLOT_PUSH] = (float4)(push.x + x / length, push.y + y / length, push.z + torque / length, push.w);
+}
+
+/* What a step begins with, to be brought back. */
+void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
+{
+	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	pushes[PUSHES_WIDTH * s] = SLOT_LOAD(slots, s, SLOT_PUSH);
+	pushes[PUSHES_WIDTH * s + 1] = (float4)(place.z, place.w, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY), 0.0f);
+}
+
+void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocities)
+{
+	float4 velocities = pushes[PUSHES_WIDTH * s + 1];
+	slots[SLOT_WIDTH * s + SLOT_PUSH] = pushes[PUSHES_WIDTH * s];
+	if (with_velocities)
+		velocities_set(slots, s, velocities.x, velocities.y, velocities.z);
+}
+
+/* A slot's push or velocities are others: all around looks at it again, and it may get farther. True if that is where it was not looked for. */
+bool slot_changed(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
+{
 	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
 	return reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
 }

@@ -49,7 +49,7 @@ typedef enum carom_role {
 	ROLE_CONTACTS, /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */
 	ROLE_TOUCHING, /* list, TOUCHING_WIDTH a slot */
 	ROLE_LOADS,    /* records, LOADS_WIDTH a slot */
-	ROLE_PUSHES,   /* records, one a slot: SLOT_PUSH as it is without contacts */
+	ROLE_PUSHES,   /* records, PUSHES_WIDTH a slot */
 	/* of pictures, made when the first is drawn; lists are those of ints */
 	ROLE_STREAM,      /* one texel a vertex */
 	ROLE_TRANSFORMS,  /* one texel a body */
@@ -106,7 +106,7 @@ typedef enum carom_stage {
 	STAGE_CONTACTS_JOIN,    /* (share, 1, first iteration) */
 	STAGE_CONTACTS_ITERATE, /* (share, 1, iteration) */
 	STAGE_CONTACTS_APPLY,   /* (share, 1, room in Movers, last iteration) */
-	STAGE_CONTACTS_RELEASE, /* (share, 1, room in Movers, 1: even if the step is under way) */
+	STAGE_CONTACTS_RELEASE, /* (share, 1, room in Movers, 0: after a step; 1: before one begins again) */
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
 	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */

@@ -216,6 +216,43 @@ static void what_falls_bounces(void **unused)
 	}
 }
 
+/* Whether it hits the floor, is stopped before or is borne: nothing leaves faster than it came. */
+static void what_comes_slowly_leaves_no_faster(void **unused)
+{
+	enum { STEPS = 20, GAPS = 5, COUNT = 9 * GAPS };
+	(void)unused;
+	for (uint32_t sides = 0; sides <= 4; sides += 4) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			static const float gaps[GAPS] = {0.0f, 0.0002f, 0.001f, 0.0025f, 0.004f};
+			carom_world_def def = runs_resting("contacts", 2.0f * (float)COUNT, 16.0f);
+			carom_body_def bodies[COUNT];
+			def.restitution = 0.9f;
+			for (int i = 0; i < COUNT; i++) {
+				const float floor = sides ? sqrtf(0.125f) : 0.5f;
+				bodies[i] = body_at(sides, 2.0f * (float)(i - COUNT / 2), floor + gaps[i % GAPS]);
+				bodies[i].angle = sides ? 0.785398163f : 0.0f;
+				bodies[i].restitution = 0.9f;
+				bodies[i].velocity.y = -0.1f * (float)(i / GAPS + 1);
+			}
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			for (int step = 0; step < STEPS; step++) {
+				runs_step(world, 1);
+				for (uint32_t i = 0; i < COUNT; i++) {
+					const carom_body_state state = runs_state(world, i);
+					const double speed = (double)state.velocity.y, begun = (double)bodies[i].velocity.y;
+					const double energy = 0.5 * speed * speed + (double)RUNS_GRAVITY * (double)(state.position.y - bodies[i].position.y);
+					assert_true(energy <= 0.5 * begun * begun + (double)RUNS_GRAVITY * NEAR);
+				}
+			}
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* With restitution 1 nothing rests, and without a push nothing does: not a bit is another. */
 static void without_rest_it_is_events(void **unused)
 {
@@ -302,7 +339,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(heaps_lie_still), cmocka_unit_test(columns_stand_without_a_hit),
 		cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(a_push_is_handed_on), cmocka_unit_test(a_push_is_handed_on_beside_many),
-		cmocka_unit_test(what_falls_bounces), cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(too_many_on_one_are_events),
-		cmocka_unit_test(forces_add_no_energy)};
+		cmocka_unit_test(what_falls_bounces), cmocka_unit_test(what_comes_slowly_leaves_no_faster), cmocka_unit_test(without_rest_it_is_events),
+		cmocka_unit_test(too_many_on_one_are_events), cmocka_unit_test(forces_add_no_energy)};
 	return cmocka_run_group_tests_name("contacts", tests, NULL, NULL);
 }

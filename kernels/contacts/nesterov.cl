@@ -4,25 +4,32 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 {
 	if (get_global_id(0) > 0)
 		return;
-	bool waits = forces_are_wanted(status);
+	bool waits = iterations_are_wanted(status);
 	if (!(step_length(TEX(uniforms), TEX(clock)) > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
+		return;
+	if (!waits && status[STATUS_PASS] == PASS_FORCES)
 		return;
 	status[STATUS_HANDED] = domain.w;
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
-	status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
+	if (status[STATUS_PASS] == 0)
+		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
+	status[STATUS_PASS]++;
 }
 
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
-	LIST_IN(owners), LIST_IN(parents), int4 domain)
+	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || status[STATUS_FIRST] != domain.z)
 		return;
+	bool first = status[STATUS_PASS] == PASS_IMPULSES, listed = !first && touching[TOUCH(s, TOUCHING_COUNT)] > 0;
 	int count = rests_find(VERTICES, TEX(uniforms), slots, LISTS, contacts, s, step_length(TEX(uniforms), TEX(clock)));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
-	if (count > 0)
+	if (first)
+		slot_keep(slots, pushes, s);
+	if (count > 0 && !listed)
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
@@ -35,7 +42,7 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 		return;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		float4 load = load_begin(slots, s, length);
+		float4 load = load_begin(slots, status, s, length);
 		for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
 			float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
 			int other = (int)CHANNEL(pair, PAIR_PARTNER);
@@ -66,7 +73,7 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 		int now = (status[STATUS_FIRST] + done) & 1;
 		float beta = (float)done / (float)(done + 3);
 		for (int i = begin; i < touches; i += stride)
-			wanted |= rests_iterate(slots, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, beta, length);
+			wanted |= rests_iterate(slots, status, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, beta, length);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;
@@ -82,30 +89,31 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 }
 
 __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
-	RECORD_OUT(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
+	RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
-	if (status[STATUS_HANDED] != domain.w || forces_are_wanted(status))
+	if (status[STATUS_HANDED] != domain.w || iterations_are_wanted(status))
 		return;
 	if (get_global_id(0) == 0)
 		status[STATUS_BORNE] = 1;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		float4 sum = rests_sum(slots, contacts, touching, s), push = SLOT_LOAD(slots, s, SLOT_PUSH);
-		pushes[s] = push;
-		push = (float4)(push.x + (sum.x / length) / length, push.y + (sum.y / length) / length, push.z + (sum.z / length) / length, push.w);
-		if (push_set(TEX(uniforms), slots, status, reach, wakes, movers, s, push, domain.z)) /* lists made anew for this step know no forces */
+		slot_take(slots, status, s, rests_sum(slots, contacts, touching, s), length);
+		if (slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z)) /* lists made anew for this step know none of this */
 			need[s] = as_int(way_ahead(slots, s, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)));
 	}
 }
 
-/* The pushes as they were. */
+/* After a step the pushes are as they were; before one that begins again the velocities, too. */
 __kernel void contacts_release(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), LIST_IN(touching), RECORD_IN(pushes), RECORD_OUT(reach),
 	LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
 {
-	if (!status[STATUS_BORNE] || (status[STATUS_UNDER_WAY] && !domain.w))
+	bool again = domain.w;
+	if (!status[STATUS_BORNE] || (status[STATUS_PASS] > 0) != again)
 		return;
-	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0))
-		push_set(TEX(uniforms), slots, status, reach, wakes, movers, touching[TOUCH(i, TOUCHING_SLOT)], pushes[touching[TOUCH(i, TOUCHING_SLOT)]],
-			domain.z);
+	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
+		int s = touching[TOUCH(i, TOUCHING_SLOT)];
+		slot_restore(slots, pushes, s, again);
+		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
+	}
 }

@@ -6,6 +6,8 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))
 		return;
+	if (s == 0 && status[STATUS_COMMIT])
+		status[STATUS_PASS] = 0;
 	int id = owners[s];
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	if (status[STATUS_COMMIT] && !slot_is_static(slots, s)) {

@@ -31,9 +31,14 @@ inline bool lists_are_good(const int32_t *status)
 }
 
 /* Does a step of contacts wait for its forces? */
-inline bool forces_are_wanted(const int32_t *status)
+inline bool iterations_are_wanted(const int32_t *status)
 {
 	return status[STATUS_WANTED] > status[STATUS_HANDED];
+}
+
+inline bool forces_are_wanted(const int32_t *status)
+{
+	return iterations_are_wanted(status) || status[STATUS_PASS] == PASS_IMPULSES;
 }
 
 inline float as_float(int32_t bits)

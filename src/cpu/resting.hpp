@@ -35,7 +35,7 @@ static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");
 template <typename T> class RestFinder
 {
 public:
-	explicit RestFinder(const Clusters<T> &all) : clusters(all) {}
+	explicit RestFinder(const Clusters<T> &all) : clusters(all), impulses(all.status[STATUS_PASS] == PASS_IMPULSES) {}
 
 	/* How many contacts the body has, which are written in order; -1 if there are too many. */
 	int32_t find(int32_t s, Resting<T> *to)
@@ -61,7 +61,13 @@ private:
 		T force, slop;
 
 		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
-		T part(T gap) const { return T(EASE) * (larger(gap, T(0)) - cushion()); }
+		bool impulses;
+
+		T part(T gap) const
+		{
+			const T room = larger(gap, T(0));
+			return impulses ? room - T(0.5) * cushion() : T(EASE) * (room - cushion());
+		}
 	};
 
 	T strength(const Slot<T> &slot) const { return (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * clusters.length * clusters.length; }
@@ -109,7 +115,7 @@ private:
 		Convex<T> a, b;
 		clusters.fill(a, clusters.slots[row], Trajectory<T>(clusters.slots[row]));
 		clusters.fill(b, clusters.slots[column], Trajectory<T>(clusters.slots[column]));
-		const Rules rules{larger(norm(a.a), norm(b.a)), pair_slop(a, b)};
+		const Rules rules{larger(norm(a.a), norm(b.a)), pair_slop(a, b), impulses};
 		const Vec<T> d = b.x - a.x;
 		if (!(rules.force > 0) || norm(d) - (a.radius + b.radius) > rules.force)
 			return;
@@ -136,7 +142,7 @@ private:
 			return;
 		Convex<T> body;
 		clusters.fill(body, slot, way);
-		const Rules rules{norm(body.a), wall_slop(body)};
+		const Rules rules{norm(body.a), wall_slop(body), impulses};
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
 			wall(body, rules, k);
 	}
@@ -164,6 +170,7 @@ private:
 	}
 
 	const Clusters<T> &clusters;
+	const bool impulses;
 	int32_t count = 0;
 	int32_t keys[CONTACTS_MOST + 1]{};
 	Resting<T> found[CONTACTS_MOST + 1]{};

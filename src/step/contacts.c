@@ -1,8 +1,8 @@
 /* The step contacts: events, and forces between bodies that rest on each other, so that they need not hit each other without end.
  *
  * What bears what is found as a step begins: bodies that are nearer than what gravity and forces move them in a step, and do not come together much
- * faster than that. Iterations then find the forces that let none of them come too near by the end of the step; for as long they are a part of what
- * pushes each body. All else is the step events', which answers whatever the forces leave at its exact time: nothing passes through anything, and
+ * faster than that. Those that would meet in the step are stopped at once: iterations find the impulses. Others then find the forces that let none of
+ * them come too near by the end of the step; for as long they are a part of what pushes each body. All else is the step events', which answers whatever the forces leave at its exact time: nothing passes through anything, and
  * nothing is pushed apart. Iterations that one handing over has no room for go on in the next. */
 #include "layout.h"
 #include "status.h"
@@ -10,12 +10,13 @@
 
 #define FIRST_ITERATIONS 16 /* handed over a step */
 
-static carom_status release(carom_world *world, int32_t always, carom_error *error)
+/* What it was, after a step, or before one that begins `again`. */
+static carom_status release(carom_world *world, int32_t again, carom_error *error)
 {
-	return carom_run(world, STAGE_CONTACTS_RELEASE, carom_events_share(world), 1, carom_events_movers(world), always, error);
+	return carom_run(world, STAGE_CONTACTS_RELEASE, carom_events_share(world), 1, carom_events_movers(world), again, error);
 }
 
-/* What bears what, and with which forces. */
+/* What bears what, and with which impulses or forces. */
 static carom_status bear(carom_world *world, carom_error *error)
 {
 	const int32_t count = (int32_t)world->body_count, share = carom_events_share(world), first = world->events.iteration + 1;
@@ -34,16 +35,24 @@ static carom_status run(carom_world *world, carom_error *error)
 		TRY(release(world, 1, error)); /* the slots are sorted anew */
 		TRY(carom_events_find_neighbours(world, error));
 	}
-	TRY(bear(world, error));
+	for (int pass = 0; pass < 2; pass++) /* impulses, forces */
+		TRY(bear(world, error));
 	TRY(carom_events_resolve(world, error));
 	return release(world, 0, error);
+}
+
+/* Of a step that is not done nothing is left. */
+static carom_status unload(carom_world *world, carom_error *error)
+{
+	TRY(release(world, 1, error));
+	return carom_events_unload(world, error);
 }
 
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	const uint64_t n = carom_capacity(body_count);
 	return carom_events_memory(pipeline, def, body_count, vertex_count)
-		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + LOADS_WIDTH + 1) + 4 * TOUCHING_WIDTH);
+		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + LOADS_WIDTH + PUSHES_WIDTH) + 4 * TOUCHING_WIDTH);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -54,7 +63,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, CONTACTS_MOST * CONTACT_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_WIDTH * n, error));
-	return carom_events_create_list(world, ROLE_PUSHES, false, n, error);
+	return carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error);
 }
 
-const carom_step carom_step_contacts = {"contacts", false, prepare, run, carom_events_begin, carom_events_finish, carom_events_unload, memory};
+const carom_step carom_step_contacts = {"contacts", false, prepare, run, carom_events_begin, carom_events_finish, unload, memory};

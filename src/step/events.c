@@ -135,7 +135,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
 	if (world->events.loaded && (world->events.round > LAST_NUMBER || world->events.iteration > LAST_NUMBER)) { /* numbers begin anew */
-		TRY(carom_events_unload(world, error));
+		TRY(world->step->unload(world, error));
 		world->events.loaded = false;
 	}
 	world->events.ahead = world->events.loaded; /* not yet, but a batch follows */

@@ -18,6 +18,24 @@ template <typename T> struct Load {
 	}
 };
 
+/* Of a slot, before the step. */
+template <typename T> struct Kept {
+	T push[4], velocities[4];
+
+	void keep(const Slot<T> &slot)
+	{
+		std::copy_n(slot.push, 4, push);
+		velocities[0] = slot.place[LINEAR_VX], velocities[1] = slot.place[LINEAR_VY], velocities[2] = slot.turn[TURN_VELOCITY];
+	}
+
+	void restore(Slot<T> &slot, bool with_velocities) const
+	{
+		std::copy_n(push, 4, slot.push);
+		if (with_velocities)
+			slot.place[LINEAR_VX] = velocities[0], slot.place[LINEAR_VY] = velocities[1], slot.turn[TURN_VELOCITY] = velocities[2];
+	}
+};
+
 /* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching. */
 template <typename T> struct Rests {
 	const Slot<T> *slots;
@@ -44,6 +62,8 @@ template <typename T> struct Rests {
 	/* What acts on a body besides. */
 	Load<T> push(int32_t s) const
 	{
+		if (status[STATUS_PASS] == PASS_IMPULSES)
+			return {};
 		const T *p = slots[s].push;
 		return {(p[PUSH_X] * length) * length, (p[PUSH_Y] * length) * length, (p[PUSH_TORQUE] * length) * length, 0};
 	}
@@ -53,14 +73,17 @@ template <typename T> static void begin(const Job<T> &job)
 {
 	int32_t *status = job.list(2);
 	const int32_t first = job.domain[2], last = job.domain[3];
-	const bool waits = forces_are_wanted(status);
+	const bool waits = iterations_are_wanted(status);
 	if (!(step_length(job.texels(1), job.texels(0)) > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
+	if (!waits && status[STATUS_PASS] == PASS_FORCES)
+		return; /* in an earlier pass' iterations */
 	status[STATUS_HANDED] = last;
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
-	status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
+	if (status[STATUS_PASS]++ == 0)
+		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
 }
 
 template <typename T> static void find(const Job<T> &job)
@@ -68,14 +91,19 @@ template <typename T> static void find(const Job<T> &job)
 	const Clusters<T> clusters(job, 14);
 	Resting<T> *contacts = reinterpret_cast<Resting<T> *>(job.records(12));
 	Touching *touching = reinterpret_cast<Touching *>(job.list(13));
+	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(16));
 	int32_t *status = clusters.status;
 	if (status[STATUS_FIRST] != job.domain[2])
 		return;
+	const bool first = status[STATUS_PASS] == PASS_IMPULSES;
 	job.pool.run(job.domain[0], 256, [&](int32_t from, int32_t to) {
 		RestFinder<T> finder(clusters);
 		for (int32_t s = from; s < to; s++) {
+			const bool listed = !first && touching[s].count > 0;
+			if (first)
+				kept[s].keep(clusters.slots[s]);
 			touching[s].count = finder.find(s, contacts + CONTACTS_MOST * s);
-			if (touching[s].count > 0)
+			if (touching[s].count > 0 && !listed)
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
 	});
@@ -127,7 +155,7 @@ template <typename T> static bool iterate_one(const Rests<T> &rests, Load<T> *lo
 				gives += other_load.points * (other.mass[MASS_INVERSE] + other.mass[MASS_INVERSE_INERTIA] * (point.other_arm * point.other_arm));
 			}
 			const T rate = point.rate + along, force = larger(rest.start[i] - rate / gives, T(0));
-			wanted |= rate < -rest.tolerance;
+			wanted |= (force > 0 ? std::abs(rate) : -rate) > rest.tolerance;
 			rest.start[i] = force + beta * (force - point.force);
 			point.force = force;
 			next.add(rest.start[i], n, point.arm, slot);
@@ -157,12 +185,12 @@ template <typename T> static void apply(const Job<T> &job)
 {
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
-	T(*pushes)[4] = reinterpret_cast<T(*)[4]>(job.records(6));
-	int32_t *need = job.list(10);
-	if (rests.status[STATUS_HANDED] != job.domain[3] || forces_are_wanted(rests.status))
+	int32_t *need = job.list(9);
+	if (rests.status[STATUS_HANDED] != job.domain[3] || iterations_are_wanted(rests.status))
 		return;
 	rests.status[STATUS_BORNE] = 1;
-	const ReachKeeper<T> keeper(slots, job.records(7), rests.status, job.list(8), job.list(9), job.domain[2], job.texels(0));
+	const ReachKeeper<T> keeper(slots, job.records(6), rests.status, job.list(7), job.list(8), job.domain[2], job.texels(0));
+	const bool impulses = rests.status[STATUS_PASS] == PASS_IMPULSES;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
@@ -171,30 +199,37 @@ template <typename T> static void apply(const Job<T> &job)
 				for (int32_t i = 0; i < rest.count(); i++)
 					sum.add(rest.at[i].force, rest.n(), rest.at[i].arm, slots[s]);
 			});
-			std::copy_n(slots[s].push, 4, pushes[s]);
-			slots[s].push[PUSH_X] += (sum.x / rests.length) / rests.length;
-			slots[s].push[PUSH_Y] += (sum.y / rests.length) / rests.length;
-			slots[s].push[PUSH_TORQUE] += (sum.torque / rests.length) / rests.length;
+			const T x = sum.x / rests.length, y = sum.y / rests.length, torque = sum.torque / rests.length;
+			if (impulses) {
+				slots[s].place[LINEAR_VX] += x;
+				slots[s].place[LINEAR_VY] += y;
+				slots[s].turn[TURN_VELOCITY] += torque;
+			} else {
+				slots[s].push[PUSH_X] += x / rests.length;
+				slots[s].push[PUSH_Y] += y / rests.length;
+				slots[s].push[PUSH_TORQUE] += torque / rests.length;
+			}
 			if (keeper.pushed(s)) /* lists that are made anew for this step, without the forces, have to be long enough */
 				need[s] = as_bits(static_cast<float>(keeper.way_of(slots[s])));
 		}
 	});
 }
 
-/* The pushes as they were. */
+/* After a step the pushes are as they were; before one that begins again the velocities, too. */
 template <typename T> static void release(const Job<T> &job)
 {
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(1));
 	int32_t *status = job.list(2);
 	const Touching *touching = reinterpret_cast<const Touching *>(job.list(3));
-	const T(*pushes)[4] = reinterpret_cast<const T(*)[4]>(job.records(4));
-	if (!status[STATUS_BORNE] || (status[STATUS_UNDER_WAY] && !job.domain[3]))
+	const Kept<T> *kept = reinterpret_cast<const Kept<T> *>(job.records(4));
+	const bool again = job.domain[3];
+	if (!status[STATUS_BORNE] || (status[STATUS_PASS] > 0) != again)
 		return;
 	const ReachKeeper<T> keeper(slots, job.records(5), status, job.list(6), job.list(7), job.domain[2], job.texels(0));
 	job.pool.run(status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = touching[k].slot;
-			std::copy_n(pushes[s], 4, slots[s].push);
+			kept[s].restore(slots[s], again);
 			keeper.pushed(s);
 		}
 	});

@@ -39,6 +39,8 @@ template <typename T> static void drift(const Job<T> &job)
 			}
 		}
 	});
+	if (commits)
+		status[STATUS_PASS] = 0;
 }
 
 extern const Stage forward_drift;
