@@ -2,13 +2,14 @@
  *
  * What bears what is found as a step begins: bodies that are nearer than what gravity and forces move them in a step, and do not come together much
  * faster than that. Those that would meet in the step are stopped at once: iterations find the impulses. Others then find the forces that let none of
- * them come too near by the end of the step; for as long they are a part of what pushes each body. All else is the step events', which answers whatever the forces leave at its exact time: nothing passes through anything, and
- * nothing is pushed apart. Iterations that one handing over has no room for go on in the next. */
+ * them come too near by the end of the step; for as long they are a part of what pushes each body. All else is the step events', which answers whatever
+ * they leave at its exact time: nothing passes through anything, and nothing is pushed apart. Iterations that one handing over has no room for go on in
+ * the next. */
 #include "layout.h"
 #include "status.h"
 #include "step/events.h"
 
-#define FIRST_ITERATIONS 16 /* handed over a step */
+#define FIRST_ITERATIONS 16 /* handed over a pass */
 
 /* What it was, after a step, or before one that begins `again`. */
 static carom_status release(carom_world *world, int32_t again, carom_error *error)

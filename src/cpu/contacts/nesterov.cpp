@@ -77,7 +77,7 @@ template <typename T> static void begin(const Job<T> &job)
 	if (!(step_length(job.texels(1), job.texels(0)) > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	if (!waits && status[STATUS_PASS] == PASS_FORCES)
-		return; /* in an earlier pass' iterations */
+		return; /* the forces are found: with iterations that were handed over for the impulses */
 	status[STATUS_HANDED] = last;
 	if (waits)
 		return;
