@@ -114,12 +114,13 @@ bool lists_are_good(LIST_OUT(status))
 	return !status[STATUS_STALE] && !status[STATUS_SMALL];
 }
 
-/* Does a step of contacts wait for its forces? */
+/* Does a pass of contacts go on in the next handing over? */
 bool iterations_are_wanted(LIST_IN(status))
 {
 	return status[STATUS_WANTED] > status[STATUS_HANDED];
 }
 
+/* Does a step of contacts wait for its forces? */
 bool forces_are_wanted(LIST_IN(status))
 {
 	return iterations_are_wanted(status) || status[STATUS_PASS] == PASS_IMPULSES;

@@ -30,12 +30,13 @@ inline bool lists_are_good(const int32_t *status)
 	return !status[STATUS_STALE] && !status[STATUS_SMALL];
 }
 
-/* Does a step of contacts wait for its forces? */
+/* Does a pass of contacts go on in the next handing over? */
 inline bool iterations_are_wanted(const int32_t *status)
 {
 	return status[STATUS_WANTED] > status[STATUS_HANDED];
 }
 
+/* Does a step of contacts wait for its forces? */
 inline bool forces_are_wanted(const int32_t *status)
 {
 	return iterations_are_wanted(status) || status[STATUS_PASS] == PASS_IMPULSES;

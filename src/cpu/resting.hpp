@@ -59,10 +59,11 @@ private:
 	/* What is known of a contact before its points are. */
 	struct Rules {
 		T force, slop;
-
-		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
 		bool impulses;
 
+		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
+
+		/* How much of such a gap may be lost in a step. */
 		T part(T gap) const
 		{
 			const T room = larger(gap, T(0));
