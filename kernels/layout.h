@@ -235,10 +235,10 @@
 #define FOUND_TIME 1    /* float bits; the sign: it is only a pause of the search */
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
-/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first; four records
+/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first; five records
  * each */
 #define CONTACTS_MOST 12 /* a slot; a body with more has none */
-#define CONTACT_WIDTH 4
+#define CONTACT_WIDTH 5
 #define CONTACT_PAIR 0  /* record */
 #define PAIR_PARTNER 0  /* its slot, or -1 - wall */
 #define PAIR_POINTS 1   /* 1 or 2; 0: the partner has too many contacts */
@@ -249,18 +249,20 @@
 #define POINT_OTHER_ARM 1 /* and about the partner's */
 #define POINT_RATE 2      /* m a step: how fast the points part, less how fast they may come together */
 #define POINT_FORCE 3     /* kg m / step^2, 0 or more */
-#define CONTACT_START 3   /* record */
-#define START_FORCES 0    /* two: the forces from which the next iteration starts */
-#define START_TOLERANCE 2 /* m a step */
+#define CONTACT_START 3   /* record: two forces from which the next iteration starts */
+#define CONTACT_STEPS 4   /* record: two, kg: by how much a rate changes a force in an iteration; and */
+#define STEPS_TOLERANCE 2 /* m a step */
 
 /* Touching: two ints a slot */
 #define TOUCHING_WIDTH 2
 #define TOUCHING_COUNT 0 /* of the slot's contacts; -1: too many */
 #define TOUCHING_SLOT 1  /* a list: slots with contacts */
 
-/* Loads: two records a slot, of the iterations with even numbers and of the others: x, y, torque of the acceleration, a step's units, and the points */
+/* Loads: two records a slot, of the iterations with even numbers and of the others: x, y, torque of the acceleration, a step's units, and the body's share.
+ * Before them two of slot -1, of what does not move: zeros. */
 #define LOADS_WIDTH 2
-#define LOAD_POINTS 3
+#define LOADS_OF(slot) (LOADS_WIDTH * ((slot) + 1))
+#define LOAD_SHARE 3 /* as if so many points alone pushed it */
 
 /* Pushes: two records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular */
 #define PUSHES_WIDTH 2

@@ -54,7 +54,8 @@ void rests_insert(rests *all, RECORD_OUT(contacts), int s, rest r, int key)
 	contacts[CONTACT(s, k, CONTACT_PAIR)] = r.pair;
 	contacts[CONTACT(s, k, CONTACT_POINT)] = r.points[0];
 	contacts[CONTACT(s, k, CONTACT_POINT + 1)] = r.points[1];
-	contacts[CONTACT(s, k, CONTACT_START)] = (float4)(0.0f, 0.0f, CONTACT_PART * (EASE * r.cushion), 0.0f);
+	contacts[CONTACT(s, k, CONTACT_START)] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	contacts[CONTACT(s, k, CONTACT_STEPS)] = (float4)(0.0f, 0.0f, CONTACT_PART * (EASE * r.cushion), 0.0f);
 }
 
 void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, int other, float length, int pass, rests *all)
@@ -142,10 +143,34 @@ float4 load_add(float4 load, float force, float2 n, float arm, float4 mass)
 	return (float4)(load.x + straight * n.x, load.y + straight * n.y, load.z + turning * arm, load.w);
 }
 
-/* How much a force at a point parts it, as if it were shared by all of a body's points. */
-float load_gives(float4 load, float4 mass, float arm)
+/* How much a force at a point parts it. */
+float point_gives(float4 mass, float arm)
 {
-	return CHANNEL(load, LOAD_POINTS) * (CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm));
+	return CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm);
+}
+
+/* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together: a bound of the largest eigenvalue
+ * of a matrix of x, y and turning. */
+float rests_share(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s)
+{
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), both = sqrt(straight) * sqrt(turning);
+	float xx = 0.0f, xy = 0.0f, yy = 0.0f, xt = 0.0f, yt = 0.0f, tt = 0.0f;
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+		float x = CHANNEL(pair, PAIR_NORMAL_X), y = CHANNEL(pair, PAIR_NORMAL_Y);
+		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
+			float arm = CHANNEL(contacts[CONTACT(s, k, CONTACT_POINT + point)], POINT_ARM), gives = point_gives(mass, arm);
+			xx += (straight / gives) * (x * x);
+			xy += (straight / gives) * (x * y);
+			yy += (straight / gives) * (y * y);
+			xt += (both / gives) * (x * arm);
+			yt += (both / gives) * (y * arm);
+			tt += (turning / gives) * (arm * arm);
+		}
+	}
+	float row = larger(larger((fabs(xx) + fabs(xy)) + fabs(xt), (fabs(xy) + fabs(yy)) + fabs(yt)), (fabs(xt) + fabs(yt)) + fabs(tt));
+	return smaller(row, sqrt(((xx * xx + yy * yy) + tt * tt) + 2.0f * ((xy * xy + xt * xt) + yt * yt)));
 }
 
 /* What acts on a body besides, in a step that is 1 long: on what is stopped at once nothing. */
@@ -158,37 +183,57 @@ float4 load_begin(RECORD_IN(slots), LIST_IN(status), int s, float length)
 		(CHANNEL(push, PUSH_TORQUE) * length) * length, 0.0f);
 }
 
-/* One iteration of a body's contacts, from the loads of one parity to the other. True if a point comes too fast yet. */
-bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching), RECORD_OUT(loads), int s, int now, float beta,
+/* By how much rates change forces, once all bodies have their share. */
+void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(loads), int s, int now)
+{
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now];
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)];
+		int other = (int)CHANNEL(contacts[CONTACT(s, k, CONTACT_PAIR)], PAIR_PARTNER);
+		bool moves = other >= 0 && !slot_is_static(slots, other);
+		float gives[2];
+		for (int point = 0; point < 2; point++) {
+			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
+			gives[point] = CHANNEL(load, LOAD_SHARE) * point_gives(mass, CHANNEL(at, POINT_ARM));
+			if (moves)
+				gives[point] += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE)
+					* point_gives(SLOT_LOAD(slots, other, SLOT_MASS), CHANNEL(at, POINT_OTHER_ARM));
+		}
+		contacts[CONTACT(s, k, CONTACT_STEPS)] = (float4)(1.0f / gives[0], 1.0f / gives[1], CHANNEL(steps, STEPS_TOLERANCE), 0.0f);
+	}
+}
+
+/* One iteration of a body's contacts, after so many, from the loads of one parity to the other. True if another is wanted. */
+bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching), RECORD_OUT(loads), int s, int now, int done,
 	float length)
 {
 	bool wanted = false;
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_WIDTH * s + now], next = load_begin(slots, status, s, length);
-	CHANNEL(next, LOAD_POINTS) = CHANNEL(load, LOAD_POINTS);
+	float beta = (float)done / (float)(done + 3);
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], next = load_begin(slots, status, s, length);
+	CHANNEL(next, LOAD_SHARE) = CHANNEL(load, LOAD_SHARE);
+	if (done == 0)
+		rests_steps(slots, contacts, touching, loads, s, now);
 	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
 		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)], start = contacts[CONTACT(s, k, CONTACT_START)];
-		float4 other_mass = (float4)(0.0f, 0.0f, 0.0f, 0.0f), other_load = other_mass;
+		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)], other_load = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
-		int other = (int)CHANNEL(pair, PAIR_PARTNER), points = (int)CHANNEL(pair, PAIR_POINTS);
-		if (other >= 0 && !slot_is_static(slots, other)) {
-			other_mass = SLOT_LOAD(slots, other, SLOT_MASS);
-			other_load = loads[LOADS_WIDTH * other + now];
-		}
-		for (int point = 0; point < points; point++) {
+		int other = (int)CHANNEL(pair, PAIR_PARTNER);
+		if (other >= 0 && !slot_is_static(slots, other))
+			other_load = loads[LOADS_OF(other) + now];
+		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
 			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
-			float arm = CHANNEL(at, POINT_ARM), other_arm = CHANNEL(at, POINT_OTHER_ARM), from = point ? start.y : start.x;
-			float rate = CHANNEL(at, POINT_RATE) + (load_along(load, n, arm) - load_along(other_load, n, other_arm));
-			float gives = load_gives(load, mass, arm) + load_gives(other_load, other_mass, other_arm);
-			float force = larger(from - rate / gives, 0.0f), to = force + beta * (force - CHANNEL(at, POINT_FORCE));
-			wanted = wanted || (force > 0.0f ? fabs(rate) : -rate) > CHANNEL(start, START_TOLERANCE);
-			start = point ? (float4)(start.x, to, start.z, start.w) : (float4)(to, start.y, start.z, start.w);
+			float arm = CHANNEL(at, POINT_ARM), from = point ? start.y : start.x, step = point ? steps.y : steps.x;
+			float rate = CHANNEL(at, POINT_RATE) + (load_along(load, n, arm) - load_along(other_load, n, CHANNEL(at, POINT_OTHER_ARM)));
+			float force = larger(from - rate * step, 0.0f), to = force + beta * (force - CHANNEL(at, POINT_FORCE));
+			wanted = wanted || (force > 0.0f ? fabs(rate) : -rate) > CHANNEL(steps, STEPS_TOLERANCE);
+			start = point ? (float4)(start.x, to, 0.0f, 0.0f) : (float4)(to, start.y, 0.0f, 0.0f);
 			CHANNEL(at, POINT_FORCE) = force;
 			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
 			next = load_add(next, to, n, arm, mass);
 		}
 		contacts[CONTACT(s, k, CONTACT_START)] = start;
 	}
-	loads[LOADS_WIDTH * s + 1 - now] = next;
+	loads[LOADS_OF(s) + 1 - now] = next;
 	return wanted;
 }
 

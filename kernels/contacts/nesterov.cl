@@ -50,9 +50,9 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 				CHANNEL(pair, PAIR_POINTS) = 0.0f;
 				contacts[CONTACT(s, k, CONTACT_PAIR)] = pair;
 			}
-			CHANNEL(load, LOAD_POINTS) += CHANNEL(pair, PAIR_POINTS);
 		}
-		loads[LOADS_WIDTH * s + (domain.z & 1)] = load;
+		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, touching, s);
+		loads[LOADS_OF(s) + (domain.z & 1)] = load;
 	}
 }
 
@@ -71,9 +71,8 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 	do {
 		bool wanted = false;
 		int now = (status[STATUS_FIRST] + done) & 1;
-		float beta = (float)done / (float)(done + 3);
 		for (int i = begin; i < touches; i += stride)
-			wanted |= rests_iterate(slots, status, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, beta, length);
+			wanted |= rests_iterate(slots, status, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, length);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;

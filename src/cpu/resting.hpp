@@ -8,23 +8,24 @@
 
 namespace carom::cpu {
 
-/* The records of a contact, seen from one of its bodies. */
-template <typename T> struct Resting {
-	struct Point {
-		T arm, other_arm, rate, force;
-	};
+/* Four points of a body's contacts side by side, in order; where there are no more, points that push nothing. */
+template <typename T> struct Points {
+	Lanes<T> partner; /* its slot; -1: what does not move */
+	Lanes<T> normal_x, normal_y, arm, other_arm, rate, tolerance, step, force, start;
 
-	T partner, points, normal[2];
-	Point at[2];
-	T start[2], tolerance, unused;
-
-	int32_t count() const { return static_cast<int32_t>(points); }
-	int32_t other() const { return static_cast<int32_t>(partner); }
-	Vec<T> n() const { return {normal[0], normal[1]}; }
+	void drop(int32_t i)
+	{
+		partner[i] = -1;
+		for (Lanes<T> *of : {&normal_x, &normal_y, &arm, &other_arm, &rate, &tolerance, &step, &force, &start})
+			(*of)[i] = 0;
+	}
 };
 
-static_assert(sizeof(Resting<float>) == CONTACT_WIDTH * 4 * sizeof(float), "records");
+/* They lie where kernels have contacts. */
+constexpr int32_t points_most = 2 * CONTACTS_MOST / lane_count;
+static_assert(sizeof(Points<float>) * points_most == CONTACTS_MOST * CONTACT_WIDTH * 4 * sizeof(float), "records");
 
+/* In Touching, how many points; -1: there are too many contacts. */
 struct Touching {
 	int32_t count, slot;
 };
@@ -37,8 +38,8 @@ template <typename T> class RestFinder
 public:
 	explicit RestFinder(const Clusters<T> &all) : clusters(all), impulses(all.status[STATUS_PASS] == PASS_IMPULSES) {}
 
-	/* How many contacts the body has, which are written in order; -1 if there are too many. */
-	int32_t find(int32_t s, Resting<T> *to)
+	/* How many points the body rests on, which are written in order; -1 if it has too many contacts. */
+	int32_t find(int32_t s, Points<T> *to)
 	{
 		const Slot<T> &slot = clusters.slots[s];
 		count = 0;
@@ -49,13 +50,22 @@ public:
 			if (may_rest(slot, clusters.slots[other]))
 				pair(s, other);
 		});
-		if (count > CONTACTS_MOST)
-			return -1;
-		std::copy(found, found + count, to);
-		return count;
+		return count > CONTACTS_MOST ? -1 : write(to);
 	}
 
 private:
+	/* A contact, seen from one of its bodies. */
+	struct Resting {
+		struct Point {
+			T arm, other_arm, rate;
+		};
+
+		int32_t key, partner, points;
+		Vec<T> n; /* from the partner */
+		T tolerance;
+		Point at[2];
+	};
+
 	/* What is known of a contact before its points are. */
 	struct Rules {
 		T force, slop;
@@ -81,29 +91,46 @@ private:
 	}
 
 	/* Adds a point, if it does not come too fast. */
-	static void add(Resting<T> &rest, const Rules &rules, T rate, T gap, T arm, T other_arm)
+	static void add(Resting &rest, const Rules &rules, T rate, T gap, T arm, T other_arm)
 	{
-		if (rate < -(T(CONTACT_FAST) * rules.force))
-			return;
-		rest.at[rest.count()] = {arm, other_arm, rate + rules.part(gap), 0};
-		rest.points += 1;
+		if (!(rate < -(T(CONTACT_FAST) * rules.force)))
+			rest.at[rest.points++] = {arm, other_arm, rate + rules.part(gap)};
 	}
 
 	/* By the partner's index; only so many that it is seen that there are too many. */
-	void insert(const Resting<T> &rest, int32_t key)
+	void insert(const Resting &rest)
 	{
-		if (rest.count() == 0 || count > CONTACTS_MOST)
+		if (rest.points == 0 || count > CONTACTS_MOST)
 			return;
 		int32_t k = count++;
-		for (; k > 0 && keys[k - 1] > key; k--)
-			keys[k] = keys[k - 1], found[k] = found[k - 1];
-		keys[k] = key;
+		for (; k > 0 && found[k - 1].key > rest.key; k--)
+			found[k] = found[k - 1];
 		found[k] = rest;
 	}
 
-	static Resting<T> begin(int32_t partner, const Vec<T> &n, const Rules &rules)
+	int32_t write(Points<T> *to) const
 	{
-		return {static_cast<T>(partner), 0, {n.x(), n.y()}, {}, {0, 0}, T(CONTACT_PART) * (T(EASE) * rules.cushion()), 0};
+		int32_t written = 0;
+		for (int32_t k = 0; k < count; k++) {
+			const Resting &rest = found[k];
+			for (int32_t point = 0; point < rest.points; point++, written++) {
+				Points<T> &points = to[written / lane_count];
+				const int32_t i = written % lane_count;
+				points.drop(i);
+				points.partner[i] = static_cast<T>(rest.partner);
+				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
+				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
+				points.rate[i] = rest.at[point].rate, points.tolerance[i] = rest.tolerance, points.step[i] = 1;
+			}
+		}
+		for (int32_t k = written; k % lane_count > 0; k++)
+			to[k / lane_count].drop(k % lane_count);
+		return written;
+	}
+
+	static Resting begin(int32_t key, int32_t partner, const Vec<T> &n, const Rules &rules)
+	{
+		return {key, partner, 0, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), {}};
 	}
 
 	void pair(int32_t s, int32_t other)
@@ -127,12 +154,12 @@ private:
 		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
-		Resting<T> rest = begin(other, n, rules);
+		Resting rest = begin(other_slot.body(), other_slot.is_static() ? -1 : other, n, rules);
 		for (int32_t k = 0; k < c.count; k++) {
 			const Vec<T> &own = is_incident ? c.inc[k] : c.ref[k], &others = is_incident ? c.ref[k] : c.inc[k];
 			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n));
 		}
-		insert(rest, other_slot.body());
+		insert(rest);
 	}
 
 	void walls(int32_t s)
@@ -152,7 +179,7 @@ private:
 	{
 		const Wall<T> wall = clusters.wall(k);
 		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
-		Resting<T> rest = begin(-1 - k, wall.n, rules);
+		Resting rest = begin(-1 - k, -1, wall.n, rules);
 		if (body.is_circle()) {
 			if (height - body.radius <= rules.force)
 				add(rest, rules, speed, height - body.radius, 0, 0);
@@ -167,14 +194,13 @@ private:
 					add(rest, rules, speed - body.w * cross(wall.n, lever), gap, cross(lever, wall.n), 0);
 			}
 		}
-		insert(rest, -1 - k);
+		insert(rest);
 	}
 
 	const Clusters<T> &clusters;
 	const bool impulses;
 	int32_t count = 0;
-	int32_t keys[CONTACTS_MOST + 1]{};
-	Resting<T> found[CONTACTS_MOST + 1]{};
+	Resting found[CONTACTS_MOST + 1]{};
 };
 
 }

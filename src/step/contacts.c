@@ -53,7 +53,7 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 {
 	const uint64_t n = carom_capacity(body_count);
 	return carom_events_memory(pipeline, def, body_count, vertex_count)
-		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + LOADS_WIDTH + PUSHES_WIDTH) + 4 * TOUCHING_WIDTH);
+		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + PUSHES_WIDTH) + 4 * TOUCHING_WIDTH) + 16 * LOADS_OF(n);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -63,7 +63,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	world->events.iterations = FIRST_ITERATIONS;
 	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, CONTACTS_MOST * CONTACT_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
-	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_OF(n), error));
 	return carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error);
 }
 

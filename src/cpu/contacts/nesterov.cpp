@@ -5,18 +5,30 @@ namespace carom::cpu {
 
 constexpr int32_t chunk = 64; /* slots */
 
-/* x, y, torque of an acceleration, in a step that is 1 long. */
+/* x, y, torque of an acceleration, in a step that is 1 long; and for how many of its points each has to count to bound what all do together. */
 template <typename T> struct Load {
-	T x, y, torque, points;
+	T x, y, torque, share;
 
-	T along(const Vec<T> &n, T arm) const { return (n.x() * x + n.y() * y) + arm * torque; }
-	void add(T force, const Vec<T> &n, T arm, const Slot<T> &slot)
+	/* One point after the other. */
+	void add(const Points<T> &points, const Lanes<T> &forces, const Slot<T> &slot)
 	{
-		x += (slot.mass[MASS_INVERSE] * force) * n.x();
-		y += (slot.mass[MASS_INVERSE] * force) * n.y();
-		torque += (slot.mass[MASS_INVERSE_INERTIA] * force) * arm;
+		const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
+		const Lanes<T> by_x = straight * points.normal_x, by_y = straight * points.normal_y, by_torque = turning * points.arm;
+		for (int32_t i = 0; i < lane_count; i++)
+			x += by_x[i], y += by_y[i], torque += by_torque[i];
 	}
 };
+
+/* The same of four. */
+template <typename T> struct Loads {
+	Lanes<T> x, y, torque, share;
+};
+
+/* How much a force at a point parts it. */
+template <typename T> static T gives(const Slot<T> &slot, T arm)
+{
+	return slot.mass[MASS_INVERSE] + slot.mass[MASS_INVERSE_INERTIA] * (arm * arm);
+}
 
 /* Of a slot, before the step. */
 template <typename T> struct Kept {
@@ -40,23 +52,22 @@ template <typename T> struct Kept {
 template <typename T> struct Rests {
 	const Slot<T> *slots;
 	int32_t *status;
-	Resting<T> *contacts;
+	Points<T> *points;
 	const Touching *touching;
 	T length;
 
 	explicit Rests(const Job<T> &job)
-		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), contacts(reinterpret_cast<Resting<T> *>(job.records(4))),
+		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
 		  touching(reinterpret_cast<const Touching *>(job.list(5))), length(step_length(job.texels(1), job.texels(0)))
 	{
 	}
 
-	bool moves(int32_t other) const { return other >= 0 && !slots[other].is_static(); }
-
-	/* Calls `visit(contact)` for all the contacts of a slot, in order. */
+	/* Calls `visit(points)` for all the points of a slot, in order. */
 	template <typename Visit> void each(int32_t s, const Visit &visit) const
 	{
-		for (Resting<T> *rest = contacts + CONTACTS_MOST * s, *end = rest + touching[s].count; rest != end; rest++)
-			visit(*rest);
+		Points<T> *four = points + points_most * s;
+		for (int32_t left = touching[s].count; left > 0; left -= lane_count)
+			visit(*four++);
 	}
 
 	/* What acts on a body besides. */
@@ -89,7 +100,7 @@ template <typename T> static void begin(const Job<T> &job)
 template <typename T> static void find(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 14);
-	Resting<T> *contacts = reinterpret_cast<Resting<T> *>(job.records(12));
+	Points<T> *points = reinterpret_cast<Points<T> *>(job.records(12));
 	Touching *touching = reinterpret_cast<Touching *>(job.list(13));
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(16));
 	int32_t *status = clusters.status;
@@ -102,11 +113,31 @@ template <typename T> static void find(const Job<T> &job)
 			const bool listed = !first && touching[s].count > 0;
 			if (first)
 				kept[s].keep(clusters.slots[s]);
-			touching[s].count = finder.find(s, contacts + CONTACTS_MOST * s);
+			touching[s].count = finder.find(s, points + points_most * s);
 			if (touching[s].count > 0 && !listed)
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
 	});
+}
+
+/* A bound of the largest eigenvalue of the matrix of what all points do, each as if it alone gave way by 1. */
+template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
+{
+	const Slot<T> &slot = rests.slots[s];
+	const T straight = slot.mass[MASS_INVERSE], turning = slot.mass[MASS_INVERSE_INERTIA], both = std::sqrt(straight) * std::sqrt(turning);
+	T xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
+	rests.each(s, [&](const Points<T> &points) {
+		const Lanes<T> x = points.normal_x, y = points.normal_y, arm = points.arm, give = straight + turning * (arm * arm);
+		const Lanes<T> a = straight / give, b = both / give, c = turning / give;
+		const Lanes<T> by_xx = a * (x * x), by_xy = a * (x * y), by_yy = a * (y * y), by_xt = b * (x * arm), by_yt = b * (y * arm),
+					   by_tt = c * (arm * arm);
+		for (int32_t i = 0; i < lane_count; i++)
+			xx += by_xx[i], xy += by_xy[i], yy += by_yy[i], xt += by_xt[i], yt += by_yt[i], tt += by_tt[i];
+	});
+	const T rows[] = {
+		(std::abs(xx) + std::abs(xy)) + std::abs(xt), (std::abs(xy) + std::abs(yy)) + std::abs(yt), (std::abs(xt) + std::abs(yt)) + std::abs(tt)};
+	const T squares = ((xx * xx + yy * yy) + tt * tt) + 2 * ((xy * xy + xt * xt) + yt * yt);
+	return smaller(larger(larger(rows[0], rows[1]), rows[2]), std::sqrt(squares));
 }
 
 /* Contacts of which one body has too many are none. */
@@ -120,63 +151,85 @@ template <typename T> static void join(const Job<T> &job)
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
-			Load<T> load = rests.push(s);
-			rests.each(s, [&](Resting<T> &rest) {
-				if (rests.moves(rest.other()) && rests.touching[rest.other()].count < 0)
-					rest.points = 0;
-				load.points += rest.points;
+			rests.each(s, [&](Points<T> &points) {
+				for (int32_t i = 0; i < lane_count; i++) {
+					const int32_t partner = static_cast<int32_t>(points.partner[i]);
+					if (partner >= 0 && rests.touching[partner].count < 0)
+						points.drop(i);
+				}
 			});
-			loads[LOADS_WIDTH * s + (first & 1)] = load;
+			Load<T> &load = loads[LOADS_OF(s) + (first & 1)];
+			load = rests.push(s);
+			load.share = share_of(rests, s);
 		}
 	});
 }
 
-/* One iteration of one body. True if another is wanted. */
-template <typename T> static bool iterate_one(const Rests<T> &rests, Load<T> *loads, int32_t s, int32_t number)
+/* Of the partners. */
+template <typename T> static Loads<T> loads_of(const Points<T> &points, const Load<T> *loads, int32_t now)
 {
-	const int32_t now = number & 1, done = number - rests.status[STATUS_FIRST];
-	const T beta = static_cast<T>(done) / static_cast<T>(done + 3);
+	const Load<T> *of[lane_count];
+	for (int32_t i = 0; i < lane_count; i++)
+		of[i] = loads + (LOADS_OF(static_cast<int32_t>(points.partner[i])) + now);
+	return {Lanes<T>{of[0]->x, of[1]->x, of[2]->x, of[3]->x}, Lanes<T>{of[0]->y, of[1]->y, of[2]->y, of[3]->y},
+		Lanes<T>{of[0]->torque, of[1]->torque, of[2]->torque, of[3]->torque}, Lanes<T>{of[0]->share, of[1]->share, of[2]->share, of[3]->share}};
+}
+
+/* By how much rates change forces: from 1, or 0 where there is no point. */
+template <typename T> static void set_steps(const Rests<T> &rests, Points<T> &points, const Slot<T> &slot, T share, const Loads<T> &other)
+{
+	for (int32_t i = 0; i < lane_count; i++) {
+		const int32_t partner = static_cast<int32_t>(points.partner[i]);
+		T all = share * gives(slot, T(points.arm[i]));
+		if (partner >= 0)
+			all += other.share[i] * gives(rests.slots[partner], T(points.other_arm[i]));
+		if (points.step[i] > 0)
+			points.step[i] /= all;
+	}
+}
+
+/* One iteration of one body, after so many. True if another is wanted. */
+template <typename T> static bool iterate_one(const Rests<T> &rests, Load<T> *loads, int32_t s, int32_t now, int32_t done)
+{
 	const Slot<T> &slot = rests.slots[s];
-	const Load<T> load = loads[LOADS_WIDTH * s + now];
+	const Load<T> load = loads[LOADS_OF(s) + now];
+	const Lanes<T> zero{};
+	const T beta = static_cast<T>(done) / static_cast<T>(done + 3);
 	Load<T> next = rests.push(s);
-	bool wanted = false;
-	next.points = load.points;
-	rests.each(s, [&](Resting<T> &rest) {
-		const bool moves = rests.moves(rest.other());
-		const Vec<T> n = rest.n();
-		for (int32_t i = 0; i < rest.count(); i++) {
-			auto &point = rest.at[i];
-			T along = load.along(n, point.arm),
-			  gives = load.points * (slot.mass[MASS_INVERSE] + slot.mass[MASS_INVERSE_INERTIA] * (point.arm * point.arm));
-			if (moves) {
-				const Slot<T> &other = rests.slots[rest.other()];
-				const Load<T> &other_load = loads[LOADS_WIDTH * rest.other() + now];
-				along -= other_load.along(n, point.other_arm);
-				gives += other_load.points * (other.mass[MASS_INVERSE] + other.mass[MASS_INVERSE_INERTIA] * (point.other_arm * point.other_arm));
-			}
-			const T rate = point.rate + along, force = larger(rest.start[i] - rate / gives, T(0));
-			wanted |= (force > 0 ? std::abs(rate) : -rate) > rest.tolerance;
-			rest.start[i] = force + beta * (force - point.force);
-			point.force = force;
-			next.add(rest.start[i], n, point.arm, slot);
-		}
+	auto wanted = zero > zero;
+	next.share = load.share;
+	rests.each(s, [&](Points<T> &points) {
+		const Loads<T> other = loads_of(points, loads, now);
+		if (done == 0)
+			set_steps(rests, points, slot, load.share, other);
+		const Lanes<T> along = (points.normal_x * load.x + points.normal_y * load.y) + points.arm * load.torque;
+		const Lanes<T> other_along = (points.normal_x * other.x + points.normal_y * other.y) + points.other_arm * other.torque;
+		const Lanes<T> rate = points.rate + (along - other_along);
+		const Lanes<T> pushed = points.start - rate * points.step, force = zero > pushed ? zero : pushed;
+		wanted |= (force > 0 ? (rate < 0 ? -rate : rate) : -rate) > points.tolerance;
+		points.start = force + beta * (force - points.force);
+		points.force = force;
+		next.add(points, points.start, slot);
 	});
-	loads[LOADS_WIDTH * s + 1 - now] = next;
-	return wanted;
+	loads[LOADS_OF(s) + 1 - now] = next;
+	bool any = false;
+	for (int32_t i = 0; i < lane_count; i++)
+		any |= wanted[i] != 0;
+	return any;
 }
 
 template <typename T> static void iterate(const Job<T> &job)
 {
 	const Rests<T> rests(job);
 	Load<T> *loads = reinterpret_cast<Load<T> *>(job.records(6));
-	const int32_t number = job.domain[2];
+	const int32_t number = job.domain[2], done = number - rests.status[STATUS_FIRST];
 	if (rests.status[STATUS_WANTED] != number)
 		return;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		bool wanted = false;
 		for (int32_t k = from; k < to; k++)
-			wanted |= iterate_one(rests, loads, rests.touching[k].slot, number);
-		if (wanted && number - rests.status[STATUS_FIRST] + 1 < CONTACT_ITERATIONS)
+			wanted |= iterate_one(rests, loads, rests.touching[k].slot, number & 1, done);
+		if (wanted && done + 1 < CONTACT_ITERATIONS)
 			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
 	});
 }
@@ -195,10 +248,7 @@ template <typename T> static void apply(const Job<T> &job)
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
 			Load<T> sum{};
-			rests.each(s, [&](const Resting<T> &rest) {
-				for (int32_t i = 0; i < rest.count(); i++)
-					sum.add(rest.at[i].force, rest.n(), rest.at[i].arm, slots[s]);
-			});
+			rests.each(s, [&](const Points<T> &points) { sum.add(points, points.force, slots[s]); });
 			const T x = sum.x / rests.length, y = sum.y / rests.length, torque = sum.torque / rests.length;
 			if (impulses) {
 				slots[s].place[LINEAR_VX] += x;
