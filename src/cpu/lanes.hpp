@@ -18,6 +18,30 @@ template <> struct LaneType<double> {
 };
 template <typename T> using Lanes = typename LaneType<T>::Lanes;
 
+/* Of two the lanes i, j, k, l, those of the second from lane_count on. GCC and Clang have no common way to say it. */
+template <int i, int j, int k, int l, typename T> [[gnu::always_inline]] inline void pick(const Lanes<T> &a, const Lanes<T> &b, Lanes<T> &to)
+{
+#ifdef __clang__
+	to = __builtin_shufflevector(a, b, i, j, k, l);
+#else
+	to = __builtin_shuffle(a, b, decltype(a < b){i, j, k, l});
+#endif
+}
+
+/* Rows become columns. */
+template <typename T> [[gnu::always_inline]] inline void transpose(Lanes<T> (&rows)[lane_count])
+{
+	Lanes<T> low[2], high[2];
+	for (int half = 0; half < 2; half++) {
+		pick<0, 4, 1, 5, T>(rows[2 * half], rows[2 * half + 1], low[half]);
+		pick<2, 6, 3, 7, T>(rows[2 * half], rows[2 * half + 1], high[half]);
+	}
+	pick<0, 1, 4, 5, T>(low[0], low[1], rows[0]);
+	pick<2, 3, 6, 7, T>(low[0], low[1], rows[1]);
+	pick<0, 1, 4, 5, T>(high[0], high[1], rows[2]);
+	pick<2, 3, 6, 7, T>(high[0], high[1], rows[3]);
+}
+
 /* Corners of a polygon from one on; where there are no more, the last one again. */
 template <typename T> struct FourCorners {
 	Lanes<T> x, y, nx, ny;

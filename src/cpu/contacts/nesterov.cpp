@@ -5,24 +5,15 @@ namespace carom::cpu {
 
 constexpr int32_t chunk = 64; /* slots */
 
-/* x, y, torque of an acceleration, in a step that is 1 long; and for how many of its points each has to count to bound what all do together. */
-template <typename T> struct Load {
-	T x, y, torque, share;
-
-	/* One point after the other. */
-	void add(const Points<T> &points, const Lanes<T> &forces, const Slot<T> &slot)
-	{
-		const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
-		const Lanes<T> by_x = straight * points.normal_x, by_y = straight * points.normal_y, by_torque = turning * points.arm;
-		for (int32_t i = 0; i < lane_count; i++)
-			x += by_x[i], y += by_y[i], torque += by_torque[i];
-	}
-};
-
-/* The same of four. */
-template <typename T> struct Loads {
-	Lanes<T> x, y, torque, share;
-};
+/* A load has x, y, torque of an acceleration, in a step that is 1 long, and the body's share. Forces add to it, one point's after the other's. */
+template <typename T> static void add(const Points<T> &points, const Lanes<T> &forces, const Slot<T> &slot, Lanes<T> &load)
+{
+	const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
+	Lanes<T> parts[] = {straight * points.normal_x, straight * points.normal_y, turning * points.arm, {}};
+	transpose<T>(parts);
+	for (const Lanes<T> &part : parts)
+		load += part;
+}
 
 /* How much a force at a point parts it. */
 template <typename T> static T gives(const Slot<T> &slot, T arm)
@@ -71,12 +62,13 @@ template <typename T> struct Rests {
 	}
 
 	/* What acts on a body besides. */
-	Load<T> push(int32_t s) const
+	void begin(int32_t s, T share, Lanes<T> &load) const
 	{
-		if (status[STATUS_PASS] == PASS_IMPULSES)
-			return {};
 		const T *p = slots[s].push;
-		return {(p[PUSH_X] * length) * length, (p[PUSH_Y] * length) * length, (p[PUSH_TORQUE] * length) * length, 0};
+		if (status[STATUS_PASS] == PASS_IMPULSES)
+			load = Lanes<T>{0, 0, 0, share};
+		else
+			load = Lanes<T>{(p[PUSH_X] * length) * length, (p[PUSH_Y] * length) * length, (p[PUSH_TORQUE] * length) * length, share};
 	}
 };
 
@@ -144,7 +136,7 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 template <typename T> static void join(const Job<T> &job)
 {
 	const Rests<T> rests(job);
-	Load<T> *loads = reinterpret_cast<Load<T> *>(job.records(6));
+	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(6));
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
@@ -158,70 +150,57 @@ template <typename T> static void join(const Job<T> &job)
 						points.drop(i);
 				}
 			});
-			Load<T> &load = loads[LOADS_OF(s) + (first & 1)];
-			load = rests.push(s);
-			load.share = share_of(rests, s);
+			rests.begin(s, share_of(rests, s), loads[LOADS_OF(s) + (first & 1)]);
 		}
 	});
 }
 
-/* Of the partners. */
-template <typename T> static Loads<T> loads_of(const Points<T> &points, const Load<T> *loads, int32_t now)
-{
-	const Load<T> *of[lane_count];
-	for (int32_t i = 0; i < lane_count; i++)
-		of[i] = loads + (LOADS_OF(static_cast<int32_t>(points.partner[i])) + now);
-	return {Lanes<T>{of[0]->x, of[1]->x, of[2]->x, of[3]->x}, Lanes<T>{of[0]->y, of[1]->y, of[2]->y, of[3]->y},
-		Lanes<T>{of[0]->torque, of[1]->torque, of[2]->torque, of[3]->torque}, Lanes<T>{of[0]->share, of[1]->share, of[2]->share, of[3]->share}};
-}
-
 /* By how much rates change forces: from 1, or 0 where there is no point. */
-template <typename T> static void set_steps(const Rests<T> &rests, Points<T> &points, const Slot<T> &slot, T share, const Loads<T> &other)
+template <typename T> static void set_steps(const Rests<T> &rests, Points<T> &points, const Slot<T> &slot, T share, const Lanes<T> &others)
 {
 	for (int32_t i = 0; i < lane_count; i++) {
 		const int32_t partner = static_cast<int32_t>(points.partner[i]);
 		T all = share * gives(slot, T(points.arm[i]));
 		if (partner >= 0)
-			all += other.share[i] * gives(rests.slots[partner], T(points.other_arm[i]));
+			all += others[i] * gives(rests.slots[partner], T(points.other_arm[i]));
 		if (points.step[i] > 0)
 			points.step[i] /= all;
 	}
 }
 
 /* One iteration of one body, after so many. True if another is wanted. */
-template <typename T> static bool iterate_one(const Rests<T> &rests, Load<T> *loads, int32_t s, int32_t now, int32_t done)
+template <typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *loads, int32_t s, int32_t now, int32_t done)
 {
 	const Slot<T> &slot = rests.slots[s];
-	const Load<T> load = loads[LOADS_OF(s) + now];
-	const Lanes<T> zero{};
+	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
 	const T beta = static_cast<T>(done) / static_cast<T>(done + 3);
-	Load<T> next = rests.push(s);
+	Lanes<T> next;
 	auto wanted = zero > zero;
-	next.share = load.share;
+	rests.begin(s, load[LOAD_SHARE], next);
 	rests.each(s, [&](Points<T> &points) {
-		const Loads<T> other = loads_of(points, loads, now);
+		Lanes<T> others[lane_count];
+		for (int32_t i = 0; i < lane_count; i++)
+			others[i] = loads[LOADS_OF(static_cast<int32_t>(points.partner[i])) + now];
+		transpose<T>(others);
 		if (done == 0)
-			set_steps(rests, points, slot, load.share, other);
-		const Lanes<T> along = (points.normal_x * load.x + points.normal_y * load.y) + points.arm * load.torque;
-		const Lanes<T> other_along = (points.normal_x * other.x + points.normal_y * other.y) + points.other_arm * other.torque;
+			set_steps(rests, points, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
+		const Lanes<T> along = (points.normal_x * load[0] + points.normal_y * load[1]) + points.arm * load[2];
+		const Lanes<T> other_along = (points.normal_x * others[0] + points.normal_y * others[1]) + points.other_arm * others[2];
 		const Lanes<T> rate = points.rate + (along - other_along);
 		const Lanes<T> pushed = points.start - rate * points.step, force = zero > pushed ? zero : pushed;
 		wanted |= (force > 0 ? (rate < 0 ? -rate : rate) : -rate) > points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
-		next.add(points, points.start, slot);
+		add(points, points.start, slot, next);
 	});
 	loads[LOADS_OF(s) + 1 - now] = next;
-	bool any = false;
-	for (int32_t i = 0; i < lane_count; i++)
-		any |= wanted[i] != 0;
-	return any;
+	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
 template <typename T> static void iterate(const Job<T> &job)
 {
 	const Rests<T> rests(job);
-	Load<T> *loads = reinterpret_cast<Load<T> *>(job.records(6));
+	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(6));
 	const int32_t number = job.domain[2], done = number - rests.status[STATUS_FIRST];
 	if (rests.status[STATUS_WANTED] != number)
 		return;
@@ -247,9 +226,9 @@ template <typename T> static void apply(const Job<T> &job)
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
-			Load<T> sum{};
-			rests.each(s, [&](const Points<T> &points) { sum.add(points, points.force, slots[s]); });
-			const T x = sum.x / rests.length, y = sum.y / rests.length, torque = sum.torque / rests.length;
+			Lanes<T> sum{};
+			rests.each(s, [&](const Points<T> &points) { add(points, points.force, slots[s], sum); });
+			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
 			if (impulses) {
 				slots[s].place[LINEAR_VX] += x;
 				slots[s].place[LINEAR_VY] += y;
