@@ -175,7 +175,7 @@ template <typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *l
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
 	const T beta = static_cast<T>(done) / static_cast<T>(done + 3);
 	Lanes<T> next;
-	auto wanted = zero > zero;
+	decltype(load < zero) wanted{};
 	rests.begin(s, load[LOAD_SHARE], next);
 	rests.each(s, [&](Points<T> &points) {
 		Lanes<T> others[lane_count];
