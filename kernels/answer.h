@@ -76,7 +76,7 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 	return !(k.held > 0.0f) && !slot_is_static(slots, s);
 }
 
-rules_of_hit event_rules(float restitution, bool rapid, int events, float weight)
+rules_of_hit event_rules(float restitution, bool rapid, int events, bool borne, float weight)
 {
 	rules_of_hit rules;
 	rules.restitution = restitution;
@@ -84,9 +84,12 @@ rules_of_hit event_rules(float restitution, bool rapid, int events, float weight
 	rules.crowd = rules.shake = 0.0f;
 	if (restitution < 1.0f && events > CROWD) {
 		rules.crowd = smaller((float)(events - CROWD) * CROWD_PART, CROWD_MOST);
+		if (borne)
+			rules.crowd = CROWD_BORNE * rules.crowd;
 		rules.shake = (float)(1 << min((events - CROWD) / CROWD_DOUBLING, CROWD_DOUBLINGS));
 	}
 	rules.part = 0.5f;
+	rules.slow = borne ? CONTACT_FAST : 1.0f;
 	rules.weight = weight;
 	rules.rapid = rapid;
 	rules.event = true;
@@ -99,6 +102,7 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 	float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
+	bool borne = status[STATUS_BORNE];
 	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
 	float weight = norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
 	float u = CHANNEL(next, NEXT_TIME);
@@ -110,7 +114,8 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 	k = moved(slots, s, k, u, length);
 	body b = body_of(slots, s, k, length);
 	if (wall && !pause) {
-		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), had_enough(members, id, rapid), events, weight);
+		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), had_enough(members, id, rapid), events, borne,
+			weight);
 		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &hit);
 	} else if (!wall) {
 		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
@@ -121,7 +126,7 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 		events = other_id >= 0 ? max(events, members[MEMBER(other_id, MEMBER_EVENTS)]) : events;
 		other_rapid = is_rapid(members, other_id, other_was, u);
 		bool enough = had_enough(members, id, rapid) || had_enough(members, other_id, other_rapid);
-		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), enough, events, weight);
+		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), enough, events, borne, weight);
 		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &hit) : pair_push(VERTICES, c, b, 0.0f, how, length, &hit);
 	}
 	if (hit.total > 0.0f)

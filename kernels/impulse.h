@@ -29,14 +29,15 @@ float2 contact_impulses(body a, body b, contact c, float restitution, float most
 /* How a hit is answered: MICRO or 0, what a crowd makes of that, and of the stillness, and the part that threshold_of takes. */
 typedef struct rules_of_hit {
 	float restitution, micro, crowd, shake, part;
-	float weight;      /* what gravity makes of a speed in a step: a push that a crowd counts, though forces may bear it */
+	float slow;        /* below so much of what the stronger push makes of a speed in a step */
+	float weight;      /* what gravity makes of one: a push that a crowd counts, though forces may bear it */
 	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
 
 /* What a hit did. */
 typedef struct impact {
 	float total; /* impulse of the two points together */
-	bool slow;   /* it was lossy, and slower than what the stronger push makes of a speed in a step */
+	bool slow;   /* it was lossy, and slow */
 } impact;
 
 /* Of the faster point. */
@@ -65,14 +66,14 @@ rules_of_hit first_impact_rules(float restitution)
 	rules_of_hit rules;
 	rules.restitution = restitution;
 	rules.micro = rules.crowd = rules.shake = rules.weight = 0.0f;
-	rules.part = 1.0f;
+	rules.part = rules.slow = 1.0f;
 	rules.rapid = rules.event = false;
 	return rules;
 }
 
 impact impact_of(rules_of_hit rules, contact c, float push, float2 j)
 {
-	impact hit = {j.x + j.y, rules.restitution < 1.0f && -rate_of(c) < larger(push, rules.weight)};
+	impact hit = {j.x + j.y, rules.restitution < 1.0f && -rate_of(c) < rules.slow * larger(push, rules.weight)};
 	return hit;
 }
 

@@ -323,20 +323,22 @@
  * (microcollisions). So do bodies in a crowd, pushed together or not: beyond CROWD events that one of them had in the step, this speed grows by CROWD_PART
  * with each, up to CROWD_MOST of what the stronger push makes of a speed in a step; and by the
  * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end;
- * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step. Where
- * forces bear what rests there are hardly ever so many else, and STUCK_BORNE are enough. Unless it was in a hit that was not slow, it is no faster then than when the
- * step began: what holds it may not make it faster from step to step. */
+ * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step.
+ * Unless it was in a hit that was not slow, it is no faster then than when the step began: what holds it may not make it faster from step to step.
+ * Where forces bear what rests, the next step's impulses stop what a crowd does: there it parts CROWD_BORNE times as fast, slow is what they stop, and STUCK_BORNE
+ * events are enough. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
 #define CROWD 32
 #define CROWD_PART 0.0078125f
 #define CROWD_MOST 0.25f
+#define CROWD_BORNE 4.0f
 #define CROWD_DOUBLING 8
 #define CROWD_DOUBLINGS 10
 #define HOLD_LIMIT 4096
 #define STUCK_MOST 1024
-#define STUCK_BORNE 128
+#define STUCK_BORNE 64
 #define STUCK_FAST 65536
 
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,

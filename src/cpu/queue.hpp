@@ -28,8 +28,8 @@ template <typename T> class Queue
 public:
 	Queue(const Clusters<T> &all, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs), heap(all.members, work_of, room),
-		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)),
-		  patience(all.status[STATUS_BORNE] ? STUCK_BORNE : STUCK_MOST)
+		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), borne(all.status[STATUS_BORNE] > 0),
+		  patience(borne ? STUCK_BORNE : STUCK_MOST)
 	{
 	}
 
@@ -244,7 +244,7 @@ private:
 		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
 		const bool rapid = !pause && is_rapid(id, way, u);
 		bool other_rapid = false;
-		Past<T> past{rapid && had_enough(id), members[id].events};
+		Past<T> past{rapid && had_enough(id), members[id].events, borne};
 		clusters.move(slots[s], way, u);
 		Impact hit{};
 		if (other < 0) {
@@ -319,18 +319,6 @@ private:
 		return impact(collision);
 	}
 
-	/* To the speeds with which it began. */
-	static void limit(Trajectory<T> &way, const Trajectory<T> &begun)
-	{
-		const Vec<T> v(way.place[LINEAR_VX], way.place[LINEAR_VY]), first(begun.place[LINEAR_VX], begun.place[LINEAR_VY]);
-		if (inner(first, first) < inner(v, v)) {
-			way.place[LINEAR_VX] = first.x();
-			way.place[LINEAR_VY] = first.y();
-		}
-		if (std::abs(begun.velocity) < std::abs(way.velocity))
-			way.velocity = begun.velocity;
-	}
-
 	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row, bool rapid)
 	{
 		const T sign = is_row ? T(1) : T(-1);
@@ -390,6 +378,7 @@ private:
 	int32_t *const need;
 	Heap<T> heap;
 	const int32_t leader, round, head;
+	const bool borne;       /* by forces: the step contacts */
 	const int32_t patience; /* with bodies that are stuck */
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */

@@ -2,7 +2,7 @@
 #ifndef CAROM_CPU_RULES_HPP
 #define CAROM_CPU_RULES_HPP
 
-#include "cpu/impulse.hpp"
+#include "cpu/slots.hpp"
 
 #include <algorithm>
 
@@ -12,6 +12,7 @@ namespace carom::cpu {
 template <typename T> struct Past {
 	bool rapid;
 	int32_t events;
+	bool borne; /* by forces: the step contacts */
 
 	/* The speed with which a crowd comes apart at least. `push` is what the stronger push makes in a step. */
 	T crowd_speed(T push, T stillness) const
@@ -19,7 +20,8 @@ template <typename T> struct Past {
 		const int32_t beyond = events - CROWD;
 		if (beyond <= 0)
 			return 0;
-		return larger(smaller(T(beyond) * T(CROWD_PART), T(CROWD_MOST)) * push,
+		const T part = smaller(T(beyond) * T(CROWD_PART), T(CROWD_MOST));
+		return larger((borne ? T(CROWD_BORNE) * part : part) * push,
 			stillness * static_cast<T>(1 << std::min(beyond / CROWD_DOUBLING, CROWD_DOUBLINGS)));
 	}
 };
@@ -34,9 +36,21 @@ template <typename T> void set_event_rules(Collision<T> &collision, T restitutio
 	const T micro = lossy ? larger(-(T(MICRO) * pull), T(0)) : T(0);
 	const bool fast = micro > 0 && -rate > micro * (1 / T(MICRO));
 	collision.micro = lossy ? larger(micro, past.crowd_speed(push, stillness)) : T(0);
-	collision.slow = lossy && -rate < push;
+	collision.slow = lossy && -rate < (past.borne ? T(CONTACT_FAST) * push : push);
 	collision.event = true;
 	collision.restitution = past.rapid && !fast ? T(1) : restitution;
+}
+
+/* What is stuck gets no more than the speeds with which it began. */
+template <typename T> void limit(Trajectory<T> &way, const Trajectory<T> &begun)
+{
+	const Vec<T> v(way.place[LINEAR_VX], way.place[LINEAR_VY]), first(begun.place[LINEAR_VX], begun.place[LINEAR_VY]);
+	if (inner(first, first) < inner(v, v)) {
+		way.place[LINEAR_VX] = first.x();
+		way.place[LINEAR_VY] = first.y();
+	}
+	if (std::abs(begun.velocity) < std::abs(way.velocity))
+		way.velocity = begun.velocity;
 }
 
 }
