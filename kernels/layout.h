@@ -338,7 +338,7 @@
 #define CROWD_DOUBLINGS 10
 #define HOLD_LIMIT 4096
 #define STUCK_MOST 1024
-#define STUCK_BORNE 64
+#define STUCK_BORNE 128
 #define STUCK_FAST 65536
 
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,

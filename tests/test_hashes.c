@@ -18,7 +18,7 @@ static const struct {
 	{"scenes/billiard_break.json", 0x67a2d3b09229d3f4, 0xbe6530f293e25062, 0},
 	{"scenes/circles_1024.json", 0xb407392652c0fb4a, 0xaa3285fdc8f4d50f, 0},
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343, 0},
-	{"scenes/heap.json", 0xdd99f8522356ec47, 0xfc6dde1807c0b1a9, 0x86ac980c257cb55d},
+	{"scenes/heap.json", 0xdd99f8522356ec47, 0xde8d4be06a2f703f, 0x614273fd4662a369},
 	{"scenes/mixed.json", 0x4699eb0f03bb1cbd, 0xc8c13a2fbb9ccaeb, 0},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
 	{"scenes/thin_wall.json", 0xd95cf8e4f52d91fb, 0x2e5fa5a13daa175b, 0},
