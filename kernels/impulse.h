@@ -37,7 +37,7 @@ typedef struct rules_of_hit {
 /* What a hit did. */
 typedef struct impact {
 	float total; /* impulse of the two points together */
-	bool slow;   /* it was lossy, and slow */
+	bool slow;   /* it was lossy, and slow by its rules */
 } impact;
 
 /* Of the faster point. */

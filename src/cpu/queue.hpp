@@ -28,8 +28,7 @@ template <typename T> class Queue
 public:
 	Queue(const Clusters<T> &all, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs), heap(all.members, work_of, room),
-		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), borne(all.status[STATUS_BORNE] > 0),
-		  patience(borne ? STUCK_BORNE : STUCK_MOST)
+		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), borne(all.status[STATUS_BORNE] > 0)
 	{
 	}
 
@@ -329,9 +328,10 @@ private:
 		member.rapid += rapid;
 		member.stuck = rapid && hit.slow ? member.stuck + 1 : 0;
 		member.fast |= hit.total > 0 && !hit.slow;
-		if (member.stuck > patience && !member.fast)
+		const bool is_stuck = member.stuck > (borne ? STUCK_BORNE : STUCK_MOST);
+		if (is_stuck && !member.fast)
 			limit(way, Trajectory<T>(slots[s]));
-		if (++member.events > HOLD_LIMIT || member.stuck > patience)
+		if (++member.events > HOLD_LIMIT || is_stuck)
 			way.held = 1;
 		work[id].keep(way);
 		widen(s, id, way);
@@ -378,8 +378,7 @@ private:
 	int32_t *const need;
 	Heap<T> heap;
 	const int32_t leader, round, head;
-	const bool borne;       /* by forces: the step contacts */
-	const int32_t patience; /* with bodies that are stuck */
+	const bool borne; /* by forces: the step contacts */
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };
