@@ -193,6 +193,7 @@ typedef struct carom_device_info {
 	char name[256];          /**< likewise; "cpu (its model)" */
 	char version[128];       /**< of OpenCL; of Carom for the fallback */
 	bool is_opencl;          /**< not the CPU fallback */
+	bool is_cpu;             /**< computes on the machine's CPU: the fallback, and what OpenCL calls one */
 	bool works;              /**< Carom can run on it */
 	bool is_default;         /**< `auto` takes this one */
 	bool exact;              /**< divides and takes roots correctly rounded: the same bits as every other exact device */
@@ -206,7 +207,8 @@ typedef struct carom_device_info {
 	char reason[256];        /**< why it does not work; empty if it does */
 } carom_device_info;
 
-/** Lists what there is: OpenCL devices, then the CPU fallback. *devices is an array of *count to be released with
+/** Lists what there is, in the order in which `auto` tries it: OpenCL devices that are no CPUs, of these the one with the most
+ * compute units times clock first; the CPU fallback; OpenCL on CPUs; what does not work. *devices is an array of *count to be released with
  * carom_device_list_destroy. No OpenCL at all is no error: the list then holds the fallback alone. Where OpenCL itself fails, an
  * entry that does not work says how. The environment's CAROM_MAX_IMAGE_SIZE (texels, of OpenCL devices) and CAROM_MAX_ALLOCATION
  * (bytes, of all) lower those limits, to try what a smaller device would do; CAROM_INVALID_ARGUMENT if one is no whole number above 0. */
@@ -218,7 +220,7 @@ CAROM_API void carom_device_list_destroy(carom_device_info *devices);
 
 /** Where an OpenCL device keeps state and pairs. The results are the same. */
 typedef enum carom_storage {
-	CAROM_STORAGE_AUTO,   /**< images where the device has them, but buffers for the step events on CPUs */
+	CAROM_STORAGE_AUTO,   /**< images where the device has them, but buffers on CPUs for steps other than first_impact */
 	CAROM_STORAGE_IMAGE,  /**< OpenCL image2d */
 	CAROM_STORAGE_BUFFER, /**< OpenCL buffers of the same layout */
 } carom_storage;

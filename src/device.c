@@ -54,10 +54,20 @@ static carom_status heed_limits(carom_device_info *info, carom_error *error)
 	return CAROM_OK;
 }
 
+/* The fallback makes more of the CPU than OpenCL does: it comes before what is but another way to it. */
+static void insert_fallback(carom_device_info *list, size_t found)
+{
+	size_t place = found;
+	for (; place > 0 && (list[place - 1].is_cpu || !list[place - 1].works); place--)
+		list[place] = list[place - 1];
+	carom_cpu_info(&list[place]);
+	list[0].is_default = true;
+}
+
 carom_status carom_device_list_create(carom_device_info **devices, size_t *count, carom_error *error)
 {
 	carom_device_info *list = NULL, *grown;
-	size_t found = 0, standard = 0;
+	size_t found = 0;
 	carom_status status = carom_cl_list(&list, &found, error);
 	if (status)
 		return status;
@@ -66,16 +76,13 @@ carom_status carom_device_list_create(carom_device_info **devices, size_t *count
 		free(list);
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to list the devices");
 	}
-	carom_cpu_info(&grown[found]);
+	insert_fallback(grown, found);
 	for (size_t i = 0; !status && i <= found; i++)
 		status = heed_limits(&grown[i], error);
 	if (status) {
 		free(grown);
 		return status;
 	}
-	while (!grown[standard].works)
-		standard++;
-	grown[standard].is_default = true;
 	*devices = grown;
 	*count = found + 1;
 	return CAROM_OK;

@@ -141,14 +141,51 @@ static void failures_are_listed(void **unused)
 		carom_device_list_destroy(devices);
 		skip();
 	}
-	assert_true(count == 2 && devices[0].is_opencl && !devices[0].works && devices[1].is_default);
-	assert_string_equal(devices[0].reason, "clGetPlatformIDs fails: CL_OUT_OF_HOST_MEMORY (-6)");
+	assert_true(count == 2 && devices[0].is_default && devices[1].is_opencl && !devices[1].works);
+	assert_string_equal(devices[1].reason, "clGetPlatformIDs fails: CL_OUT_OF_HOST_MEMORY (-6)");
 	carom_device_list_destroy(devices);
 	faults_arm(FAULTS_OPENCL, 1, CL_OUT_OF_HOST_MEMORY);
 	def.device = "auto";
 	scenery_check(carom_world_create(&def, &world, &error), &error);
 	faults_disarm();
 	carom_world_destroy(world);
+}
+
+/* Is it OpenCL that `auto` takes? */
+static bool auto_takes_opencl(void)
+{
+	carom_world_def def = carom_default_world_def();
+	carom_device_info info;
+	carom_world *world = NULL;
+	carom_error error;
+	def.device = "auto";
+	scenery_check(carom_world_create(&def, &world, &error), &error);
+	scenery_check(carom_world_get_device(world, &info, &error), &error);
+	carom_world_destroy(world);
+	return info.is_opencl;
+}
+
+/* GPUs come before the fallback, and that before OpenCL on the CPU. */
+static void the_fastest_is_the_default(void **unused)
+{
+	(void)unused;
+	static const faults_loader machines[] = {LOADER_GPU, LOADER_REAL};
+	for (size_t i = 0; i < sizeof machines / sizeof *machines; i++) {
+		carom_device_info *devices = NULL;
+		carom_error error;
+		size_t count = 0, gpus = 0;
+		faults_loader_set(machines[i]);
+		scenery_check(carom_device_list_create(&devices, &count, &error), &error);
+		if (count == 1)
+			print_message("SKIPPED: there is no OpenCL\n");
+		for (size_t k = 0; k < count; k++)
+			gpus += devices[k].works && !devices[k].is_cpu;
+		assert_true(gpus > 0 || count == 1 || machines[i] == LOADER_REAL);
+		for (size_t k = 0; k < count; k++)
+			assert_true(devices[k].is_default == (k == 0) && devices[k].is_opencl == (k != gpus));
+		assert_true(auto_takes_opencl() == (gpus > 0));
+		carom_device_list_destroy(devices);
+	}
 }
 
 static int count_drivers(void **state)
@@ -162,6 +199,7 @@ static int count_drivers(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(machines_without_opencl), cmocka_unit_test(failures_are_listed),
-		cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow)};
+		cmocka_unit_test(the_fastest_is_the_default), cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run),
+		cmocka_unit_test(lists_that_grow)};
 	return cmocka_run_group_tests_name("faults_opencl", tests, count_drivers, walk_remove_folder);
 }

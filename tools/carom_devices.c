@@ -70,8 +70,9 @@ const struct command devices_command = {
 	.arguments = "",
 	.summary = "Lists what OpenCL offers here, what Carom can do with each, and the default",
 	.details = "\nEach device by platform and name: parts of either are what --device takes. The CPU fallback is\n"
-			   "always there. The default is what --device auto takes: the fastest device that works. Every device\n"
-			   "is listed, whatever --device says.\n"
+			   "always there. They are in the order in which --device auto tries them: OpenCL devices that are no\n"
+			   "CPUs, the fallback, which is faster than OpenCL on a CPU, then that. Every device is listed,\n"
+			   "whatever --device says.\n"
 			   "\n--check tries one device instead: how it rounds, and whether a scene that is part of the command\n"
 			   "gives the same bits as everywhere, by each step, in images and in buffers, and drawn. It ends\n"
 			   "with the exit code 0 only if all is right.\n",

@@ -25,11 +25,10 @@ carom_status carom_cl_fail(carom_error *error, cl_int code, const char *what);
 typedef struct carom_cl_found {
 	cl_platform_id platform;
 	cl_device_id device;
-	cl_device_type type;
 	carom_device_info info;
 } carom_cl_found;
 
-/* All devices, the fastest that works first; *found is to be freed. */
+/* All devices, the fastest that works first, CPUs after all others; *found is to be freed. */
 carom_status carom_cl_find(const carom_cl_api *cl, carom_cl_found **found, size_t *count, carom_error *error);
 
 /* 0 where the device does not say; then it does not work, and its reason tells. */

@@ -221,7 +221,7 @@ static const carom_device_class cl_class = {close_device, carom_cl_create_textur
 /* On a CPU a texel of an image is a call out of line: there steps that are not the paper's take buffers by themselves. */
 static bool prefers_buffers(const carom_device_def *def, const carom_cl_found *found)
 {
-	return def->storage == CAROM_STORAGE_AUTO && (found->type & CL_DEVICE_TYPE_CPU) && strcmp(def->pipeline.step, "first_impact");
+	return def->storage == CAROM_STORAGE_AUTO && found->info.is_cpu && strcmp(def->pipeline.step, "first_impact");
 }
 
 static carom_status choose_storage(cl_device *d, const carom_device_def *def, const carom_cl_found *found, carom_error *error)
@@ -259,7 +259,7 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 	if (def->count_reads && (status = make_counter(d, error)))
 		return status;
 	d->device = found->device;
-	d->is_cpu = found->type & CL_DEVICE_TYPE_CPU;
+	d->is_cpu = found->info.is_cpu;
 	d->def = *def;
 	return build_program(d, false, error);
 }

@@ -65,12 +65,12 @@ static void describe(const carom_cl_api *cl, carom_cl_found *f)
 	refuse(info, "clGetPlatformInfo", cl->clGetPlatformInfo(f->platform, CL_PLATFORM_NAME, sizeof platform, platform, NULL));
 	snprintf(info->platform, sizeof info->platform, "%.*s", (int)sizeof info->platform - 1, platform);
 	cl_ulong width = carom_cl_get_number(cl, f, CL_DEVICE_IMAGE2D_MAX_WIDTH), height = carom_cl_get_number(cl, f, CL_DEVICE_IMAGE2D_MAX_HEIGHT);
-	f->type = carom_cl_get_number(cl, f, CL_DEVICE_TYPE);
 	get_text(cl, f, CL_DEVICE_NAME, info->name, sizeof info->name);
 	if (!info->name[0])
 		snprintf(info->name, sizeof info->name, UNNAMED);
 	get_text(cl, f, CL_DEVICE_VERSION, info->version, sizeof info->version);
 	info->is_opencl = true;
+	info->is_cpu = (carom_cl_get_number(cl, f, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0;
 	info->exact = (carom_cl_get_number(cl, f, CL_DEVICE_SINGLE_FP_CONFIG) & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
 	info->has_images = carom_cl_get_number(cl, f, CL_DEVICE_IMAGE_SUPPORT) != 0;
 	info->compute_units = (uint32_t)carom_cl_get_number(cl, f, CL_DEVICE_MAX_COMPUTE_UNITS);
@@ -88,7 +88,7 @@ static double rank(const carom_cl_found *f)
 	double speed = (double)f->info.compute_units * (double)(f->info.clock_mhz ? f->info.clock_mhz : 1);
 	if (!f->info.works)
 		return 0.0;
-	return (f->type & CL_DEVICE_TYPE_CPU) ? speed : 1e12 + speed;
+	return f->info.is_cpu ? speed : 1e12 + speed;
 }
 
 /* By rank; few and stable, so that equal devices keep the loader's order. */

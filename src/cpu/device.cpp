@@ -332,8 +332,7 @@ void carom_cpu_info(carom_device_info *info)
 {
 	std::memset(info, 0, sizeof *info);
 	carom::cpu::describe_machine(*info);
-	info->works = true;
-	info->exact = true;
+	info->is_cpu = info->works = info->exact = true;
 	info->max_allocation = info->memory / 2;
 	info->max_image_size = carom::cpu::longest_side;
 }

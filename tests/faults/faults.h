@@ -38,6 +38,7 @@ typedef enum faults_loader {
 	LOADER_WITHOUT_PLATFORMS,
 	LOADER_WITHOUT_DEVICES,
 	LOADER_INEXACT, /* its devices don't promise to round quotients and roots correctly, and refuse to build kernels that ask for it */
+	LOADER_GPU,     /* its devices are GPUs */
 } faults_loader;
 void faults_loader_set(faults_loader how);
 

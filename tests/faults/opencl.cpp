@@ -162,6 +162,15 @@ static cl_int inexact_info(cl_device_id device, cl_device_info name, size_t size
 	return code;
 }
 
+static cl_int gpu_info(cl_device_id device, cl_device_info name, size_t size, void *value, size_t *used)
+{
+	const auto real = reinterpret_cast<decltype(&clGetDeviceInfo)>(functions[number_clGetDeviceInfo]);
+	const cl_int code = real(device, name, size, value, used);
+	if (code == CL_SUCCESS && name == CL_DEVICE_TYPE && value)
+		*static_cast<cl_device_type *>(value) = CL_DEVICE_TYPE_GPU;
+	return code;
+}
+
 /* Where the device can't, the option is an error. */
 static cl_int inexact_build(cl_program program, cl_uint count, const cl_device_id *devices, const char *options, void (*told)(cl_program, void *),
 	void *data)
@@ -196,9 +205,9 @@ extern "C" void *__wrap_dlsym(void *handle, const char *name)
 		return reinterpret_cast<void *>(no_platforms);
 	if (loader == LOADER_WITHOUT_DEVICES && std::strcmp(name, "clGetDeviceIDs") == 0)
 		return reinterpret_cast<void *>(no_devices);
-	if (loader == LOADER_INEXACT && std::strcmp(name, "clGetDeviceInfo") == 0) {
+	if ((loader == LOADER_INEXACT || loader == LOADER_GPU) && std::strcmp(name, "clGetDeviceInfo") == 0) {
 		functions[number_clGetDeviceInfo] = real;
-		return reinterpret_cast<void *>(inexact_info);
+		return reinterpret_cast<void *>(loader == LOADER_GPU ? gpu_info : inexact_info);
 	}
 	if (loader == LOADER_INEXACT && std::strcmp(name, "clBuildProgram") == 0) {
 		functions[number_clBuildProgram] = real;
