@@ -287,10 +287,16 @@ float pair_stillness(body a, body b)
 	return (linear_speed + turning) * APPROACH;
 }
 
-/* How far to go on, at least, from a contact that does not approach: no farther than the slop at the bodies' speeds. */
+/* How long to go on, at least, from the first contact that does not approach: no farther than the slop at the bodies' speeds. */
 float creep_time(float slop, float stillness)
 {
-	return smaller(CREEP_MOST, larger((slop * APPROACH) / stillness, CREEP_LEAST));
+	return smaller(CREEP_MOST, (slop * APPROACH) / stillness);
+}
+
+/* From the one after it: longer, so that a search comes to its end. */
+float creep_on(float creep)
+{
+	return creep < CREEP_SHORT ? smaller(creep + creep, CREEP_SHORT) : creep;
 }
 
 /* What makes a touch a hit. */

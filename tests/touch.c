@@ -243,7 +243,7 @@ typedef struct search {
 	int wall;
 	double fastest, stillness;
 	double slop, skin; /* m */
-	double creep;      /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less */
+	double creep;      /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less, but not before CREEP_SHORT */
 } search;
 
 double touch_stillness(const exact_body *a, const exact_body *b)
@@ -263,7 +263,7 @@ static search search_of(const exact_body *a, const exact_body *b, const touch_ro
 	static const exact_body still = {.count = 1};
 	search s = {a, b, room, wall, exact_fastest(a, b ? b : &still), touch_stillness(a, b), b ? slop_of(a, b) : wall_slop(a), 0.0, 0.0};
 	s.skin = skin * s.slop;
-	s.creep = fmin((double)CREEP_MOST, fmax(s.slop * (double)APPROACH / s.stillness, (double)CREEP_LEAST));
+	s.creep = fmin((double)CREEP_MOST, fmax(s.slop * (double)APPROACH / s.stillness, (double)CREEP_SHORT));
 	return s;
 }
 

@@ -37,6 +37,7 @@ struct bench_subject {
 	enum bench_place place;
 	uint32_t iterations; /* as in carom_world_def */
 	const char *sets[2]; /* "slot=alternative", over those of --set */
+	bool boxes;          /* their walls are static boxes, not a room's */
 };
 
 /* A figure read off a subject. */

@@ -8,6 +8,7 @@
 #define WIDTH 640u
 #define HEIGHT 480u
 #define STOPS 10
+#define BOXES 4
 
 carom_status bench_world_def(const struct bench_subject *subject, const struct bench_options *options, carom_world_def *def, carom_error *error)
 {
@@ -25,7 +26,26 @@ carom_status bench_world_def(const struct bench_subject *subject, const struct b
 	return apply_options(&common, def, error);
 }
 
-/* The bodies in their room. */
+/* The paper's walls of polygons [4.2]: static boxes, here around the room, as thick as a body is wide. */
+static carom_status add_boxes(carom_world *world, float half, carom_error *error)
+{
+	const float far = half + 1;
+	const carom_vec2 along[] = {{-far, -0.5f}, {far, -0.5f}, {far, 0.5f}, {-far, 0.5f}},
+					 across[] = {{-0.5f, -far}, {0.5f, -far}, {0.5f, far}, {-0.5f, far}};
+	carom_body_def boxes[BOXES];
+	for (size_t k = 0; k < BOXES; k++) {
+		const float side = (k & 1 ? 1 : -1) * (half + 0.5f);
+		boxes[k] = carom_default_body_def();
+		boxes[k].shape = CAROM_POLYGON;
+		boxes[k].vertices = k < 2 ? along : across;
+		boxes[k].vertex_count = 4;
+		boxes[k].position = k < 2 ? (carom_vec2){0, side} : (carom_vec2){side, 0};
+		boxes[k].is_static = true;
+	}
+	return carom_world_add(world, boxes, BOXES, NULL, error);
+}
+
+/* The bodies between their walls. */
 static carom_status create(const struct bench_subject *subject, uint32_t count, carom_world_def *def, carom_world **world, carom_error *error)
 {
 	const struct placement_def placement = {.sides = subject->sides, .count = count, .fill = 0.25, .speed = 2, .radius = 0.5, .seed = 1};
@@ -34,12 +54,14 @@ static carom_status create(const struct bench_subject *subject, uint32_t count, 
 	carom_status status = placement_create(&placement, &bodies, &half, error);
 	if (status != CAROM_OK)
 		return status;
-	def->has_room = true;
+	def->has_room = !subject->boxes;
 	def->room_min = (carom_vec2){-half, -half};
 	def->room_max = (carom_vec2){half, half};
 	status = carom_world_create(def, world, error);
 	if (status == CAROM_OK)
 		status = carom_world_add(*world, bodies, count, NULL, error);
+	if (status == CAROM_OK && subject->boxes)
+		status = add_boxes(*world, half, error);
 	free(bodies);
 	return status;
 }
@@ -52,8 +74,9 @@ static carom_status no_memory(carom_error *error)
 
 /* ---- Paths ---- */
 
-static carom_status walk(carom_world *world, uint32_t bodies, struct bench_path *path, carom_error *error)
+static carom_status walk(carom_world *world, struct bench_path *path, carom_error *error)
 {
+	const size_t bodies = carom_world_body_count(world);
 	carom_status status = carom_world_get_states(world, 0, bodies, path->states, error);
 	for (size_t stop = 1; status == CAROM_OK && stop < path->stops; stop++) {
 		status = carom_world_step(world, REPETITIONS / path->stops, NULL, error);
@@ -70,12 +93,12 @@ carom_status bench_path_create(const struct bench_part *part, uint32_t bodies, s
 	def.device = "cpu";
 	def.pipeline.step = "first_impact";
 	path->stops = part->subjects[0].work == WORK_PICTURES ? 1 : STOPS;
-	path->states = malloc(path->stops * bodies * sizeof *path->states);
+	path->states = malloc(path->stops * (bodies + BOXES) * sizeof *path->states);
 	carom_status status = path->states ? CAROM_OK : no_memory(error);
 	if (status == CAROM_OK)
 		status = create(&part->subjects[0], bodies, &def, &world, error);
 	if (status == CAROM_OK)
-		status = walk(world, bodies, path, error);
+		status = walk(world, path, error);
 	carom_world_destroy(world);
 	if (status != CAROM_OK)
 		bench_path_destroy(path);
