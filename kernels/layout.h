@@ -469,8 +469,9 @@
 #define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
 #define MARGIN \
 	0.5f /* slops: a search goes on to where so much is left; from a contact that does not approach, to where the bodies overlap by so much */
-#define CREEP_MOST 0.000244140625f       /* 2^-12 of a step: from a contact that does not approach a search goes on for the time in which the bodies */
-#define CREEP_SHORT 9.5367431640625e-7f  /* move by no more than the slop, and no more than the first; where that is less than this, 2^-20, for twice as long each time */
+#define CREEP_MOST 0.000244140625f /* 2^-12 and 2^-20 of a step: from a contact that does not approach a search goes on for the time in which */
+#define CREEP_SHORT \
+	9.5367431640625e-7f /* bodies move by no more than the slop, at most for the first; each time twice as long while below the second */
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */
 #define STALL_LIMIT 4096                 /* of those in a row, and 16 a body, are a stall */
 #define STALL_LIMIT_BODY 16

@@ -183,8 +183,8 @@ static carom_status place_polygon(const carom_body_def *def, size_t index, point
 			CAROM_MAX_VERTICES);
 		return fail(error, index, "vertices", found);
 	}
-	/* what rounding to floats left over when a centred polygon was written down is no offset */
-	if (def->shape == CAROM_REGULAR || hypot(centre->x, centre->y) < 1e-6 * size)
+	/* what rounding to floats left over when a centred polygon was written down is no offset: the more, the thinner it is */
+	if (def->shape == CAROM_REGULAR || hypot(centre->x, centre->y) < (1e-6 + 2e-7 * size * size / fabs(area)) * size)
 		*centre = (point){0.0, 0.0};
 	for (uint32_t i = 0; i < n; i++)
 		p[i] = minus(p[i], *centre);
