@@ -105,7 +105,7 @@ typedef struct carom_body_def {
 	float radius;               /**< m, > 0: CAROM_CIRCLE and CAROM_REGULAR */
 	uint32_t sides;             /**< 3..64: CAROM_REGULAR */
 	uint32_t vertex_count;      /**< 3..64: CAROM_POLYGON */
-	const carom_vec2 *vertices; /**< m, `vertex_count` of them, convex, any origin: they are recentred on their centre of mass, as far as floats tell it */
+	const carom_vec2 *vertices; /**< m, `vertex_count` of them, convex, any origin: they are recentred on their centre of mass */
 	carom_vec2 position;        /**< m, of the centre of mass; default (0, 0) */
 	carom_vec2 velocity;        /**< m/s; default (0, 0) */
 	float angle;                /**< rad; kept in [-pi, pi]; default 0 */
@@ -280,6 +280,7 @@ CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index,
 typedef struct carom_report {
 	uint64_t steps;  /**< steps done */
 	uint64_t hits;   /**< hits resolved */
+	uint64_t ruled;  /**< of these, by events or contacts: answered by a rule against hits without end, otherwise than by their restitution */
 	uint64_t held;   /**< how often a body was held until the end of a step of events or contacts, since it was hit too often in it */
 	double advanced; /**< s, simulated */
 } carom_report;

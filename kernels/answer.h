@@ -7,7 +7,8 @@ void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, in
 	work_store(work, id, trajectory_start(slots, s));
 	work[WORK_WIDTH * id + WORK_NEXT] = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	work[WORK_WIDTH * id + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
-	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_STUCK)] = members[MEMBER(id, MEMBER_HITS)] = 0;
+	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_STUCK)] = 0;
+	members[MEMBER(id, MEMBER_HITS)] = members[MEMBER(id, MEMBER_RULED)] = 0;
 }
 
 /* The box of the way grows by that to where the body would be at the step's end; false if it leaves its reach. */
@@ -106,7 +107,7 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
 	float weight = norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
 	float u = CHANNEL(next, NEXT_TIME);
-	impact hit = {0.0f, false};
+	impact hit = {0.0f, false, false};
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
 	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
 	float4 j = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
@@ -129,8 +130,10 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), enough, events, borne, weight);
 		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &hit) : pair_push(VERTICES, c, b, 0.0f, how, length, &hit);
 	}
-	if (hit.total > 0.0f)
+	if (hit.total > 0.0f) {
 		members[MEMBER(id, MEMBER_HITS)]++;
+		members[MEMBER(id, MEMBER_RULED)] += hit.ruled ? 1 : 0;
+	}
 	if (can_change(slots, s, was)) {
 		k = pushed(slots, status, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B),
 			rapid, hit);

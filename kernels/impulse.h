@@ -38,6 +38,7 @@ typedef struct rules_of_hit {
 typedef struct impact {
 	float total; /* impulse of the two points together */
 	bool slow;   /* it was lossy, and slow by its rules */
+	bool ruled;  /* its rules made something else of it than its restitution would */
 } impact;
 
 /* Of the faster point. */
@@ -55,10 +56,10 @@ float restitution_of(rules_of_hit rules, contact c, float micro)
 }
 
 /* The speed at which a contact parts at least: `micro` by a push along the normal; in a crowd by the stronger `push` on the bodies and by `still`, their
- * stillness; `mended` by what is sunk. */
-float least_speed(rules_of_hit rules, float micro, float push, float still, float mended)
+ * stillness. */
+float least_speed(rules_of_hit rules, float micro, float push, float still)
 {
-	return larger(larger(micro, larger(rules.crowd * larger(push, rules.weight), rules.shake * still)), mended);
+	return larger(micro, larger(rules.crowd * larger(push, rules.weight), rules.shake * still));
 }
 
 rules_of_hit first_impact_rules(float restitution)
@@ -71,9 +72,11 @@ rules_of_hit first_impact_rules(float restitution)
 	return rules;
 }
 
-impact impact_of(rules_of_hit rules, contact c, float push, float2 j)
+/* Answered by that restitution and that least speed, which its rules gave. */
+impact impact_of(rules_of_hit rules, contact c, float push, float restitution, float least, float2 j)
 {
-	impact hit = {j.x + j.y, rules.restitution < 1.0f && -rate_of(c) < rules.slow * larger(push, rules.weight)};
+	impact hit = {j.x + j.y, rules.restitution < 1.0f && -rate_of(c) < rules.slow * larger(push, rules.weight),
+		restitution != rules.restitution || -rate_of(c) < least};
 	return hit;
 }
 
@@ -87,9 +90,9 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
 	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f), still = wall_stillness(k);
 	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), still, rules.part);
-	float2 j = contact_impulses(walls, k, c, restitution_of(rules, c, micro), h.rate, least_speed(rules, micro, norm(k.a), still, h.mended),
-		rules.event);
-	*hit = impact_of(rules, c, norm(k.a), j);
+	float restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, norm(k.a), still);
+	float2 j = contact_impulses(walls, k, c, restitution, h.rate, larger(least, h.mended), rules.event);
+	*hit = impact_of(rules, c, norm(k.a), restitution, least, j);
 	float torque = torque_of(c, c.inc[0], c.inc[1], j);
 	return (float4)((hit->total * n.x) / length, (hit->total * n.y) / length, torque / length, 0.0f);
 }
@@ -103,11 +106,11 @@ float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float
 	contact c = contact_at(VERTICES, a, b, p, k, slop);
 	threshold h = threshold_of(k.gap, slop, still, rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float push = larger(norm(a.a), norm(b.a)), restitution = restitution_of(rules, c, micro),
-		  least = least_speed(rules, micro, push, still, h.mended);
-	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, least, rules.event)
-						 : contact_impulses(a, b, c, restitution, h.rate, least, rules.event);
-	*hit = impact_of(rules, c, push, j);
+	float push = larger(norm(a.a), norm(b.a)), restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, push, still),
+		  parting = larger(least, h.mended);
+	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, parting, rules.event)
+						 : contact_impulses(a, b, c, restitution, h.rate, parting, rules.event);
+	*hit = impact_of(rules, c, push, restitution, least, j);
 	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
 	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;
 	float2 along = (float2)((hit->total * c.n.x) / length, (hit->total * c.n.y) / length);

@@ -55,8 +55,8 @@
 #define RULES_HAS_ROOM 2    /* 0 or 1 */
 #define RULES_RESTITUTION 3 /* of the walls */
 
-/* Clock: how far the simulation is; four texels in a row, ping-pong */
-#define CLOCK_WIDTH 4
+/* Clock: how far the simulation is; five texels in a row, ping-pong */
+#define CLOCK_WIDTH 5
 #define CLOCK_HIT 0     /* texel: the first hit of the step */
 #define HIT_TIME 0      /* part of the step, NO_HIT if there is none */
 #define HIT_ROW 1       /* body A */
@@ -77,6 +77,9 @@
 #define COUNTS_HITS 1 /* sum of two floats */
 #define COUNTS_HITS_LOW 3
 #define COUNTS_HELD 2 /* bodies that were held, see HOLD_LIMIT */
+#define CLOCK_RULED 4 /* texel: hits that rules against hits without end answered, sum of two floats */
+#define RULED_HITS 0
+#define RULED_HITS_LOW 1
 
 /* AABB [2.1] of the body over the whole step */
 #define AABB_MIN_X 0
@@ -179,8 +182,8 @@
 #define SPREAD_ROUND 2
 #define SPREAD_EVENTS 16
 
-/* Members: twelve ints a number */
-#define MEMBER_WIDTH 12
+/* Members: thirteen ints a number */
+#define MEMBER_WIDTH 13
 #define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
 #define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
@@ -193,6 +196,7 @@
 #define MEMBER_CHILD 9    /* of the cluster's heap, where it is made of links: the first below this one, */
 #define MEMBER_SIBLING 10 /* the next of those it belongs to, */
 #define MEMBER_BEFORE 11  /* and the one before, or for the first the one above */
+#define MEMBER_RULED 12   /* of its hits: those that were answered otherwise than by their restitution */
 
 /* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 
@@ -316,6 +320,7 @@
 #define STATUS_MOVERS 39     /* slots in Movers */
 #define STATUS_EXTRA 40      /* ints wanted in Extra */
 #define STATUS_TOUCHING 41   /* slots with contacts */
+#define STATUS_RULED 42      /* of the step's hits */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.

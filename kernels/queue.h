@@ -128,15 +128,18 @@ void spread(LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int leader, int head,
 /* Adds up what a finished cluster did; of one that is given up nothing counts. */
 void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int head, bool finished)
 {
-	int hits = 0, held = 0;
+	int hits = 0, ruled = 0, held = 0;
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
 		hits += members[MEMBER(m, MEMBER_HITS)];
+		ruled += members[MEMBER(m, MEMBER_RULED)];
 		held += CHANNEL(work[WORK_WIDTH * m + WORK_TURN], WORK_HELD) > 0.0f ? 1 : 0;
 		if (!finished)
-			members[MEMBER(m, MEMBER_HITS)] = members[MEMBER(m, MEMBER_EVENTS)] = 0;
+			members[MEMBER(m, MEMBER_HITS)] = members[MEMBER(m, MEMBER_RULED)] = members[MEMBER(m, MEMBER_EVENTS)] = 0;
 	}
 	if (finished && hits > 0)
 		atomic_add(&status[STATUS_HITS], hits);
+	if (finished && ruled > 0)
+		atomic_add(&status[STATUS_RULED], ruled);
 	if (finished && held > 0)
 		atomic_add(&status[STATUS_HELD], held);
 }

@@ -15,7 +15,7 @@
 void status_begin(LIST_OUT(status), int count)
 {
 	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
-	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = 0;
+	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = status[STATUS_RULED] = 0;
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;
 	status[STATUS_LEVELS] = 1;
@@ -138,7 +138,7 @@ void member_reset(LIST_OUT(members), int id)
 {
 	__global int *m = members + MEMBER(id, 0);
 	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
-	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = 0;
+	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = m[MEMBER_RULED] = 0;
 }
 
 /* All that a group wants; what each of its work-items wants becomes what those before it do. To be done by one of them. */

@@ -58,6 +58,7 @@ static carom_status read_clock(carom_world *world, double start, carom_report *r
 		return status;
 	report->steps = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_STEPS];
 	report->hits = (uint64_t)((double)texel(clock, CLOCK_COUNTS)[COUNTS_HITS] + (double)texel(clock, CLOCK_COUNTS)[COUNTS_HITS_LOW]);
+	report->ruled = (uint64_t)((double)texel(clock, CLOCK_RULED)[RULED_HITS] + (double)texel(clock, CLOCK_RULED)[RULED_HITS_LOW]);
 	report->held = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_HELD];
 	report->advanced = (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED] + (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED_LOW];
 	world->time = start + report->advanced;
@@ -141,6 +142,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 		adapt_batch(world, batch, seconds_now() - begun);
 		report->steps = sum.steps + done.steps;
 		report->hits = sum.hits + done.hits;
+		report->ruled = sum.ruled + done.ruled;
 		report->held = sum.held + done.held;
 		report->advanced = sum.advanced + done.advanced;
 		if (!status && world->progress)

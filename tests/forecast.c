@@ -93,7 +93,7 @@ void forecast_step(forecast *f, double length)
 		shaken->shaken_by = &f->random;
 		shaken->rounding = ROUNDING;
 		queue_step(shaken, length, MOST_EVENTS);
-		f->sure = f->sure && shaken->hit_count == f->middle->hit_count;
+		f->sure = f->sure && shaken->hit_count == f->middle->hit_count && shaken->ruled == f->middle->ruled;
 		look_apart(f, shaken);
 	}
 	spread_doubt(f);

@@ -192,11 +192,7 @@ static double find(const queue *q, int row, int column)
 {
 	const queue_body *a = &q->bodies[row], *b = column < 0 ? NULL : &q->bodies[column];
 	const double from = b ? fmax(a->time, b->time) : a->time;
-	if (is_still(a) && (!b || is_still(b)))
-		return INFINITY;
-	if (b && !can_meet(a, b))
-		return INFINITY;
-	if (!b && !q->room.is_there)
+	if ((is_still(a) && (!b || is_still(b))) || (b ? !can_meet(a, b) : !q->room.is_there))
 		return INFINITY;
 	const exact_body first = seen_at(a, from);
 	if (!b)
@@ -310,8 +306,9 @@ static void count_event(queue *q, queue_body *k, bool rapid, bool slow)
 	}
 }
 
-static void record(queue *q, queue_hit hit)
+static void record(queue *q, queue_hit hit, bool ruled)
 {
+	q->ruled += ruled;
 	if (q->hit_count == q->hit_room) {
 		q->hit_room += 1024;
 		q->hits = realloc(q->hits, q->hit_room * sizeof *q->hits);
@@ -361,6 +358,7 @@ static void answer(queue *q, queue_hit hit)
 	how.micro *= pull_of(&t, &first, b ? &second : NULL);
 	const double pushed = fmax(q->weight, fmax(hypot(first.ax, first.ay), hypot(second.ax, second.ay)));
 	const bool slow = how.restitution < 1.0 && approach < pushed;
+	const double usual = how.restitution;
 	if (how.rapid && !(how.micro > 0.0 && approach > how.micro / (double)MICRO))
 		how.restitution = 1.0;
 	how.micro = fmax(how.micro, fmax(how.crowd * pushed, how.shake * still));
@@ -368,7 +366,7 @@ static void answer(queue *q, queue_hit hit)
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);
 	if (j[0] + j[1] > 0.0)
-		record(q, hit);
+		record(q, hit, how.restitution != usual || approach < how.micro);
 	shake_party(q, a);
 	shake_party(q, b);
 	count_event(q, a, rapid[0], slow);
@@ -378,7 +376,7 @@ static void answer(queue *q, queue_hit hit)
 void queue_step(queue *q, double length, size_t most)
 {
 	size_t events = 0;
-	q->hit_count = q->held = 0;
+	q->hit_count = q->held = q->ruled = 0;
 	q->weight = q->gravity * length * length;
 	for (size_t i = 0; i < q->count; i++)
 		begin(&q->bodies[i], length);

@@ -33,6 +33,7 @@ typedef struct queue {
 	queue_hit *hits;        /* of the last step */
 	size_t hit_count, hit_room;
 	size_t held;               /* bodies that were, in the last step */
+	size_t ruled;              /* its hits that were answered otherwise than by their restitution */
 	scenery_random *shaken_by; /* NULL: nobody; else each event shakes its bodies by `rounding` */
 	double rounding;
 	double skin; /* part of CONTRACT's slop: what is nearer touches; 0 unless it is changed */

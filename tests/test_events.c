@@ -69,10 +69,10 @@ static void check_step(tally *sum, const forecast *f, carom_world *world, const 
 		sum->unsure++;
 		return;
 	}
-	if (report.hits != f->middle->hit_count || report.held != f->middle->held) {
+	if (report.hits != f->middle->hit_count || report.ruled != f->middle->ruled || report.held != f->middle->held) {
 		forecast_print(f);
-		fail_msg("%s: %llu hits and %llu held, foretold were %zu and %zu", what, (unsigned long long)report.hits, (unsigned long long)report.held,
-			f->middle->hit_count, f->middle->held);
+		fail_msg("%s: %llu hits, %llu ruled and %llu held, foretold were %zu, %zu and %zu", what, (unsigned long long)report.hits,
+			(unsigned long long)report.ruled, (unsigned long long)report.held, f->middle->hit_count, f->middle->ruled, f->middle->held);
 	}
 	sum->steps++;
 	sum->hits += report.hits;

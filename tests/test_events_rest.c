@@ -39,6 +39,7 @@ static carom_report run_down(carom_world *world, uint64_t steps, double mass)
 			fail_msg("step %llu: energy grew from %.9g to %.9g J, allowed are %.3g", (unsigned long long)i, energy, now, allowed);
 		energy = now;
 		sum.hits += report.hits;
+		sum.ruled += report.ruled;
 		sum.held += report.held;
 	}
 	assert_true(runs_seconds() - begun < RUNS_SECONDS_MOST);
@@ -69,7 +70,7 @@ static void bodies_come_to_rest(void **unused)
 			runs_near((double)state.position.y, -4.5 + 0.5 * high, 0.5 * high + 5.5 * (double)SLOP);
 			runs_near((double)state.velocity.y, 0.0, 2.0 * micro);
 			runs_near((double)state.angular_velocity, 0.0, 1e-2);
-			assert_true(sum.hits > 1 && sum.held == 0);
+			assert_true(sum.hits > 1 && sum.ruled > 0 && sum.held == 0);
 			nothing_overlaps(world, 12.0);
 			runs_same_hash(&first, runs_hash(world), device);
 			carom_world_destroy(world);

@@ -8,7 +8,7 @@
 
 /* What a run came to. */
 typedef struct outcome {
-	uint64_t hash, hits, held;
+	uint64_t hash, hits, ruled, held;
 } outcome;
 
 static void go_on(carom_world *world, uint32_t steps, uint32_t calls, outcome *o)
@@ -16,6 +16,7 @@ static void go_on(carom_world *world, uint32_t steps, uint32_t calls, outcome *o
 	for (uint32_t i = 0; i < calls; i++) {
 		const carom_report report = runs_step(world, steps / calls);
 		o->hits += report.hits;
+		o->ruled += report.ruled;
 		o->held += report.held;
 	}
 }
@@ -23,7 +24,7 @@ static void go_on(carom_world *world, uint32_t steps, uint32_t calls, outcome *o
 /* Destroys the world. */
 static outcome run(carom_world *world, uint32_t steps, uint32_t calls)
 {
-	outcome o = {0, 0, 0};
+	outcome o = {0};
 	go_on(world, steps, calls, &o);
 	o.hash = runs_hash(world);
 	carom_world_destroy(world);
@@ -36,7 +37,7 @@ static outcome run_in_halves(carom_world *world, uint32_t steps)
 	char path[] = "/tmp/carom-wild-XXXXXX";
 	carom_error error;
 	carom_scene *scene = NULL;
-	outcome o = {0, 0, 0};
+	outcome o = {0};
 	const int file = mkstemp(path);
 	assert_true(file >= 0 && close(file) == 0);
 	go_on(world, steps / 2, 1, &o);
@@ -55,10 +56,11 @@ static outcome run_in_halves(carom_world *world, uint32_t steps)
 
 static void check_same(const outcome *first, outcome found, const scenery_device *device, const char *how)
 {
-	if (found.hash != first->hash || found.hits != first->hits || found.held != first->held)
-		fail_msg("%s%s, %s: hash %016llx, %llu hits, %llu held; at first it was %016llx, %llu, %llu", device->name,
+	if (found.hash != first->hash || found.hits != first->hits || found.ruled != first->ruled || found.held != first->held)
+		fail_msg("%s%s, %s: hash %016llx, %llu hits, %llu ruled, %llu held; at first it was %016llx, %llu, %llu, %llu", device->name,
 			device->storage == CAROM_STORAGE_IMAGE ? " images" : "", how, (unsigned long long)found.hash, (unsigned long long)found.hits,
-			(unsigned long long)found.held, (unsigned long long)first->hash, (unsigned long long)first->hits, (unsigned long long)first->held);
+			(unsigned long long)found.ruled, (unsigned long long)found.held, (unsigned long long)first->hash, (unsigned long long)first->hits,
+			(unsigned long long)first->ruled, (unsigned long long)first->held);
 }
 
 /* On one thread of the CPU fallback, and in all other ways. */

@@ -78,7 +78,7 @@ carom_status prepare_outputs(struct run *run, carom_error *error)
 	if (status == CAROM_OK && options->stats)
 		status = carom_file_create(options->stats, &run->stats_file, &run->stats, error);
 	if (run->stats)
-		fputs("step,time_s,advanced_s,hits,kinetic_energy_j,potential_energy_j,momentum_x,momentum_y,angular_momentum,max_penetration_m,held\n",
+		fputs("step,time_s,advanced_s,hits,kinetic_energy_j,potential_energy_j,momentum_x,momentum_y,angular_momentum,max_penetration_m,held,ruled\n",
 			run->stats);
 	return status;
 }
@@ -110,9 +110,10 @@ carom_status write_row(struct run *run, const carom_report *step, carom_error *e
 	carom_status status = carom_world_measure(run->world, &measure, error);
 	if (status != CAROM_OK)
 		return status;
-	fprintf(run->stats, "%llu,%.12g,%.12g,%llu,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%llu\n", (unsigned long long)run->total.steps,
+	fprintf(run->stats, "%llu,%.12g,%.12g,%llu,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%llu,%llu\n", (unsigned long long)run->total.steps,
 		carom_world_time(run->world), step->advanced, (unsigned long long)step->hits, measure.kinetic_energy, measure.potential_energy,
-		measure.momentum_x, measure.momentum_y, measure.angular_momentum, measure.max_penetration, (unsigned long long)step->held);
+		measure.momentum_x, measure.momentum_y, measure.angular_momentum, measure.max_penetration, (unsigned long long)step->held,
+		(unsigned long long)step->ruled);
 	return CAROM_OK;
 }
 

@@ -36,6 +36,8 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 		int root = owners[root_slot];
 		if (members[MEMBER(id, MEMBER_HITS)] > 0)
 			atomic_sub(&status[STATUS_HITS], members[MEMBER(id, MEMBER_HITS)]);
+		if (members[MEMBER(id, MEMBER_RULED)] > 0)
+			atomic_sub(&status[STATUS_RULED], members[MEMBER(id, MEMBER_RULED)]);
 		if (members[MEMBER(id, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * id + WORK_TURN], WORK_HELD) > 0.0f)
 			atomic_dec(&status[STATUS_HELD]);
 		work_begin(slots, members, work, active[id], id);

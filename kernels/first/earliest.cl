@@ -35,4 +35,5 @@ __kernel void first(TEX_IN(reduced), TEX_IN(walls), TEX_IN(uniforms), TEX_IN(clo
 	TEX_STORE(now, CLOCK_STEP, 0, step);
 	TEX_STORE(now, CLOCK_TIME, 0, time);
 	TEX_STORE(now, CLOCK_COUNTS, 0, counts);
+	TEX_STORE(now, CLOCK_RULED, 0, TEX_LOAD(clock, CLOCK_RULED, 0));
 }

@@ -5,7 +5,7 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 	if (get_global_id(0) > 0)
 		return;
 	float4 hit = TEX_LOAD(clock, CLOCK_HIT, 0), step = TEX_LOAD(clock, CLOCK_STEP, 0), time = TEX_LOAD(clock, CLOCK_TIME, 0);
-	float4 counts = TEX_LOAD(clock, CLOCK_COUNTS, 0);
+	float4 counts = TEX_LOAD(clock, CLOCK_COUNTS, 0), ruled = TEX_LOAD(clock, CLOCK_RULED, 0);
 	float length = step_length(TEX(uniforms), TEX(clock));
 	bool begins = lists_are_good(status) && length > 0.0f, waits = begins && forces_are_wanted(status);
 	bool good = begins && !waits, left = good && status[STATUS_LEFT], again = status[STATUS_ROUND] > domain.z;
@@ -21,6 +21,7 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 		step = (float4)(length, length, 0.0f, 0.0f);
 		time = (float4)(elapsed.x, elapsed.y, remaining.x, remaining.y);
 		counts = (float4)(CHANNEL(counts, COUNTS_STEPS) + 1.0f, hits.x, CHANNEL(counts, COUNTS_HELD) + (float)status[STATUS_HELD], hits.y);
+		ruled.xy = add_exactly((float2)(CHANNEL(ruled, RULED_HITS), CHANNEL(ruled, RULED_HITS_LOW)), (float)status[STATUS_RULED]);
 		status[STATUS_STEPS]++;
 		status[STATUS_BUSTLE] = status[STATUS_HITS];
 		bool busy = status[STATUS_ACTIVE] > domain.w / BUSY;
@@ -32,11 +33,12 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 	status[STATUS_WAITS] += waits;
 	status[STATUS_AGAIN] += good && !left && again;
 	if (done || left)
-		status[STATUS_ACTIVE] = status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
+		status[STATUS_ACTIVE] = status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_RULED] = status[STATUS_HELD] = 0;
 	if (left)
 		status[STATUS_STALE] = 1;
 	TEX_STORE(now, CLOCK_HIT, 0, hit);
 	TEX_STORE(now, CLOCK_STEP, 0, step);
 	TEX_STORE(now, CLOCK_TIME, 0, time);
 	TEX_STORE(now, CLOCK_COUNTS, 0, counts);
+	TEX_STORE(now, CLOCK_RULED, 0, ruled);
 }

@@ -13,7 +13,7 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 	work.next[NEXT_TIME] = NO_HIT;
 	work.box[0] = work.box[2] = slot.place[LINEAR_X];
 	work.box[1] = work.box[3] = slot.place[LINEAR_Y];
-	member.events = member.rapid = member.stuck = member.fast = member.hits = 0;
+	member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
 }
 
 /* What the threads that run clusters share. A number belongs to one cluster; only its thread changes what it numbers, but for what is

@@ -15,6 +15,7 @@ template <typename T> struct Collision {
 	T micro = 0;                                    /* the least speed at which a push lets the points part */
 	bool event = false;                             /* of the step events: it adds no energy */
 	bool slow = false;                              /* slower than what a push makes in a step, and lossy */
+	bool ruled = false;                             /* answered otherwise than by its restitution */
 
 	/* How fast the points' parting at i grows by an impulse of 1 at k. */
 	T coupling(int i, int k) const

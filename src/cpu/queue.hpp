@@ -13,11 +13,11 @@ namespace carom::cpu {
 
 /* What clusters did. */
 struct Tally {
-	int32_t hits, held;
+	int32_t hits, ruled, held;
 
 	Tally &operator+=(const Tally &other)
 	{
-		hits += other.hits, held += other.held;
+		hits += other.hits, ruled += other.ruled, held += other.held;
 		return *this;
 	}
 };
@@ -35,7 +35,7 @@ public:
 	Tally run()
 	{
 		if (head < 0)
-			return {0, 0};
+			return {};
 		for (int32_t m = head; m >= 0; m = members[m].link) {
 			recall(m);
 			heap.add(m);
@@ -267,6 +267,7 @@ private:
 		if (other < 0 && changes)
 			push(s, id, way, hit, true, rapid);
 		members[id].hits += hit.total > 0;
+		members[id].ruled += hit.total > 0 && hit.ruled;
 	}
 
 	static constexpr T found_loose = T(0.5);
@@ -274,7 +275,7 @@ private:
 	/* What the row body gets; the column body gets the impulse's opposite. */
 	struct Impact {
 		T x, y, row_torque, column_torque, total;
-		bool slow;
+		bool slow, ruled;
 	};
 
 	Impact impact(const Collision<T> &collision) const
@@ -284,8 +285,8 @@ private:
 		const T total = j.at[0] + j.at[1], length = clusters.length, x = (total * c.n.x()) / length, y = (total * c.n.y()) / length;
 		const T on_inc = torque(c, c.inc, j) / length, on_ref = -torque(c, c.ref, j) / length;
 		if (c.from_b)
-			return {x, y, on_inc, on_ref, total, collision.slow};
-		return {-x, -y, on_ref, on_inc, total, collision.slow};
+			return {x, y, on_inc, on_ref, total, collision.slow, collision.ruled};
+		return {-x, -y, on_ref, on_inc, total, collision.slow, collision.ruled};
 	}
 
 	Impact wall_impact(int32_t s, const Trajectory<T> &way, int32_t k, const Past<T> &past) const
@@ -361,13 +362,13 @@ private:
 	/* What a finished cluster did; one that is given up did nothing. */
 	Tally count()
 	{
-		Tally tally{0, 0};
+		Tally tally{};
 		for (int32_t m = head; m >= 0; m = members[m].link) {
-			tally += {members[m].hits, work[m].held > 0};
+			tally += {members[m].hits, members[m].ruled, work[m].held > 0};
 			if (!finished)
-				members[m].hits = members[m].events = 0;
+				members[m].hits = members[m].ruled = members[m].events = 0;
 		}
-		return finished ? tally : Tally{0, 0};
+		return finished ? tally : Tally{};
 	}
 
 	const Clusters<T> &clusters;

@@ -39,6 +39,7 @@ template <typename T> void set_event_rules(Collision<T> &collision, T restitutio
 	collision.slow = lossy && -rate < (past.borne ? T(CONTACT_FAST) * push : push);
 	collision.event = true;
 	collision.restitution = past.rapid && !fast ? T(1) : restitution;
+	collision.ruled = collision.restitution != restitution || -rate < collision.micro;
 }
 
 /* What is stuck gets no more than the speeds with which it began. */

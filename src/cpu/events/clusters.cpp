@@ -153,6 +153,8 @@ template <typename T> static void muster(const Job<T> &job)
 			const int32_t root = owners[root_slot];
 			if (member.hits > 0)
 				fetch_add(&status[STATUS_HITS], -member.hits);
+			if (member.ruled > 0)
+				fetch_add(&status[STATUS_RULED], -member.ruled);
 			if (member.events > 0 && work[id].held > 0)
 				fetch_add(&status[STATUS_HELD], -1);
 			begin_anew(member, work[id], slots[active[id]]);
@@ -172,7 +174,7 @@ template <typename T> static void resolve(const Job<T> &job)
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(13));
 	job.pool.run(clusters.status[STATUS_SEEDS], 64, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<int32_t> room;
-		Tally tally{0, 0};
+		Tally tally{};
 		for (int32_t id = begin; id < end; id++) {
 			const Member &member = clusters.members[id];
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
@@ -180,6 +182,8 @@ template <typename T> static void resolve(const Job<T> &job)
 		}
 		if (tally.hits > 0)
 			fetch_add(&clusters.status[STATUS_HITS], tally.hits);
+		if (tally.ruled > 0)
+			fetch_add(&clusters.status[STATUS_RULED], tally.ruled);
 		if (tally.held > 0)
 			fetch_add(&clusters.status[STATUS_HELD], tally.held);
 	});

@@ -32,6 +32,7 @@ template <typename T> static void stand(const Texels<T> &clock, const Texels<T> 
 		next.fact(CLOCK_STEP, channel) = clock.fact(CLOCK_STEP, channel);
 		next.fact(CLOCK_TIME, channel) = clock.fact(CLOCK_TIME, channel);
 		next.fact(CLOCK_COUNTS, channel) = clock.fact(CLOCK_COUNTS, channel);
+		next.fact(CLOCK_RULED, channel) = clock.fact(CLOCK_RULED, channel);
 	}
 	next.fact(CLOCK_STEP, STEP_LENGTH) = 0;
 	next.fact(CLOCK_STEP, STEP_ADVANCED) = 0;

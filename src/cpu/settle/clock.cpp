@@ -26,6 +26,7 @@ template <typename T> static void settle(const Job<T> &job)
 		add(CLOCK_TIME, TIME_ELAPSED, TIME_ELAPSED_LOW, length);
 		add(CLOCK_TIME, TIME_REMAINING, TIME_REMAINING_LOW, -length);
 		add(CLOCK_COUNTS, COUNTS_HITS, COUNTS_HITS_LOW, static_cast<T>(status[STATUS_HITS]));
+		add(CLOCK_RULED, RULED_HITS, RULED_HITS_LOW, static_cast<T>(status[STATUS_RULED]));
 		now.fact(CLOCK_COUNTS, COUNTS_STEPS) += 1;
 		now.fact(CLOCK_COUNTS, COUNTS_HELD) += static_cast<T>(status[STATUS_HELD]);
 	}
@@ -45,7 +46,7 @@ template <typename T> static void settle(const Job<T> &job)
 	if (left)
 		status[STATUS_STALE] = 1;
 	if (done || left)
-		status[STATUS_ACTIVE] = status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_HELD] = 0;
+		status[STATUS_ACTIVE] = status[STATUS_FOUND] = status[STATUS_HITS] = status[STATUS_RULED] = status[STATUS_HELD] = 0;
 }
 
 extern const Stage settle_clock;
