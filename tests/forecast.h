@@ -13,6 +13,7 @@ typedef struct forecast {
 	double (*apart)[2]; /* of each body: m, and m/s, by which the shaken runs were ever off */
 	bool *doubtful;     /* bodies that did not have as many events in all of them, or that hit one of these */
 	bool sure;          /* none is doubtful, and the runs are still near one another */
+	bool counts;        /* events, too: but how many are those of bodies that don't bounce, and stay in touch, rounding decides */
 	scenery_random random;
 } forecast;
 

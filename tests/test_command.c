@@ -144,7 +144,7 @@ static void check_outputs(const char *device)
 	read_into("table.csv", stats, sizeof stats);
 	assert_int_equal(strncmp(stats,
 						 "step,time_s,advanced_s,hits,kinetic_energy_j,potential_energy_j,momentum_x,momentum_y,"
-						 "angular_momentum,max_penetration_m,held\n1,",
+						 "angular_momentum,max_penetration_m,held,ruled\n1,",
 						 122),
 		0);
 	int lines = 0;

@@ -28,6 +28,8 @@ static const scene scenes[] = {
 	{"polygons that fall", SCENERY_POLYGONS, 60, 1.2f, 3.0f, true, true, -10.0f, 0.3f, 1.0f / 60.0f, false},
 	{"150 of all kinds", SCENERY_MIXED, 150, 1.2f, 3.0f, true, true, 0.0f, 0.7f, 1.0f / 60.0f, false},
 	{"all kinds that fall", SCENERY_MIXED, 100, 1.2f, 4.0f, true, true, -3.0f, 0.9f, 0.05f, false},
+	{"circles that don't bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 0.0f, 0.02f, false},
+	{"circles that fall and hardly bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.1f, 1.0f / 60.0f, false},
 	{"long steps", SCENERY_MIXED, 60, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.2f, false},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -69,7 +71,7 @@ static void check_step(tally *sum, const forecast *f, carom_world *world, const 
 		sum->unsure++;
 		return;
 	}
-	if (report.hits != f->middle->hit_count || report.ruled != f->middle->ruled || report.held != f->middle->held) {
+	if (f->counts && (report.hits != f->middle->hit_count || report.ruled != f->middle->ruled || report.held != f->middle->held)) {
 		forecast_print(f);
 		fail_msg("%s: %llu hits, %llu ruled and %llu held, foretold were %zu, %zu and %zu", what, (unsigned long long)report.hits,
 			(unsigned long long)report.ruled, (unsigned long long)report.held, f->middle->hit_count, f->middle->ruled, f->middle->held);
@@ -90,6 +92,7 @@ static void report(const tally *sum, const scene *s, const scenery_device *devic
 static void run_as_foretold(const scene *s, const carom_world_def *def, const carom_body_def *bodies, carom_world **worlds)
 {
 	forecast f = forecast_of(runs_queue(def, bodies, s->count));
+	f.counts = s->restitution > 0.0f;
 	tally sums[3] = {{0}};
 	for (uint64_t i = 0; f.sure && i < runs_affordable(100); i++) {
 		forecast_step(&f, (double)def->time_step);
@@ -104,7 +107,7 @@ static void run_as_foretold(const scene *s, const carom_world_def *def, const ca
 		if (!worlds[d])
 			continue;
 		report(&sums[d], s, device);
-		runs_enough(sums[d].hits > 10);
+		runs_enough(sums[d].hits > 30);
 		carom_world_destroy(worlds[d]);
 	}
 	forecast_destroy(&f);
@@ -129,6 +132,7 @@ static void follow(const scene *s, const carom_world_def *def, const carom_body_
 	const scenery_device *device)
 {
 	forecast f = forecast_of(runs_queue(def, bodies, s->count));
+	f.counts = s->restitution > 0.0f;
 	tally sum = {0};
 	for (uint64_t i = 0; i < runs_affordable(40); i++) {
 		forecast_follow(&f, world);
