@@ -69,7 +69,7 @@ static const char *scratch_folder(char *folder, size_t size)
 	return folder;
 }
 
-/* The judge must be able to say no: a sign is turned in one kernel. */
+/* The judge must be able to say no: one kernel's impulses are a tenth too small. */
 static void broken_kernel_is_rejected(void **unused)
 {
 	(void)unused;

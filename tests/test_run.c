@@ -309,6 +309,7 @@ static void memory_is_known_beforehand(void **unused)
 	endless.epsilon = -1.0f;
 	assert_true(carom_world_memory(&endless, 10, 40) == 0);
 	const carom_world_def def = carom_default_world_def();
+	assert_true(carom_world_memory(&def, 1 << 20, 3 << 20) < (uint64_t)1 << 30); /* a KiB each for a million triangles */
 	assert_true(carom_world_memory(&def, 4194304, 64 * 4194304) > 0);
 	assert_true(carom_world_memory(&def, 4194305, 4194305) == 0);
 	assert_true(carom_world_memory(&def, SIZE_MAX, SIZE_MAX) == 0);
@@ -335,7 +336,7 @@ static void assert_too_many(carom_world *world, const carom_body_def *bodies, si
 	const double start = seconds();
 	const long before = most_memory();
 	char square[64];
-	carom_report report = {9, 9, 9, 9.0};
+	carom_report report = {9, 9, 9, 9, 9.0};
 	carom_body_state state;
 	carom_error error = {0};
 	scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);
