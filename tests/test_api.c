@@ -188,7 +188,7 @@ static void assert_no_start(carom_world_def def, carom_body_def body, const char
 	for (size_t i = 0; i < COUNT(steps); i++) {
 		carom_world *world = NULL;
 		carom_body_state state;
-		carom_report report = {9, 9, 9, 9};
+		carom_report report = {9, 9, 9, 9, 9.0};
 		carom_error error = {0};
 		def.device = "cpu";
 		def.pipeline.step = steps[i];

@@ -195,7 +195,7 @@ static void an_empty_world_steps(void **unused)
 	SCENERY_EACH_DEVICE(device) {
 		carom_world_def def = carom_default_world_def();
 		carom_world *world = scenery_world(&def, device);
-		carom_report report = {9, 9, 9, 9.0};
+		carom_report report = {9, 9, 9, 9, 9.0};
 		carom_error error;
 		if (!world)
 			continue;
@@ -215,7 +215,7 @@ static void times_out_of_range(void **unused)
 	static const double bad[] = {-1e-9, -INFINITY, INFINITY, NAN, 1e300};
 	carom_world *world = scenery_crowd(&scenery_devices[0], 2, 0);
 	const uint64_t hash = runs_hash(world);
-	carom_report report = {9, 9, 9, 9.0};
+	carom_report report = {9, 9, 9, 9, 9.0};
 	carom_error error = {0};
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
 		assert_fails(carom_world_advance(world, bad[i], &report, &error), &error, CAROM_INVALID_ARGUMENT, "seconds: found ");
