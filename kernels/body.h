@@ -62,7 +62,7 @@ float step_length(TEX_IN(uniforms), TEX_IN(clock))
 {
 	float4 step = TEX_LOAD(clock, CLOCK_STEP, 0), time = TEX_LOAD(clock, CLOCK_TIME, 0);
 	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
-	if (CHANNEL(step, STEP_ENDED) > 0.0f || CHANNEL(time, TIME_REMAINING) <= 0.0f)
+	if (CHANNEL(step, STEP_ENDED) > 0.0f || CHANNEL(time, TIME_REMAINING) < LEAST_STEP)
 		return 0.0f;
 	return smaller(CHANNEL(world, WORLD_TIME_STEP), CHANNEL(time, TIME_REMAINING));
 }

@@ -70,7 +70,7 @@
 #define CLOCK_TIME 2    /* texel: sums of two floats, high and low part */
 #define TIME_ELAPSED 0
 #define TIME_ELAPSED_LOW 1
-#define TIME_REMAINING 2
+#define TIME_REMAINING 2 /* below LEAST_STEP: it is over */
 #define TIME_REMAINING_LOW 3
 #define CLOCK_COUNTS 3 /* texel */
 #define COUNTS_STEPS 0
@@ -80,6 +80,8 @@
 #define CLOCK_RULED 4 /* texel: hits that rules against hits without end answered, sum of two floats */
 #define RULED_HITS 0
 #define RULED_HITS_LOW 1
+
+#define LEAST_STEP 1.17549435e-38f /* s, the least normal float: what is divided by less may become infinite */
 
 /* AABB [2.1] of the body over the whole step */
 #define AABB_MIN_X 0

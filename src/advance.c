@@ -111,7 +111,7 @@ static void adapt_batch(carom_world *world, uint64_t steps, double seconds)
 
 static bool is_over(const carom_world *world)
 {
-	return !(world->remaining[0] > 0.0f);
+	return !(world->remaining[0] >= LEAST_STEP);
 }
 
 /* Hands a batch over and counts what came of it: `done` is since the clock was started at `start`. What was done before something

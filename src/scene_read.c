@@ -3,6 +3,7 @@
 #include "scene_json.h"
 
 #include <errno.h>
+#include <float.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 #define MOST_BYTES INT_MAX /* lines and columns are ints; the largest worlds take less */
 #define FORMAT "carom-scene/1"
 
+static const struct scene_range time_step = {FLT_MIN, FLT_MAX, false, "a number from 1.17549435e-38 to 3.4e38"};
 static const struct scene_range epsilon = {0x1p-22, 0.5, false, "a number from 2.4e-7 (2^-22) to 0.5"};
 static const struct scene_range iterations = {0, UINT32_MAX, false, "a whole number from 1 to 4294967295, or 0 for all in one pass"};
 
@@ -97,7 +99,7 @@ static carom_status read_camera(struct scene_reader *reader, const struct scene_
 
 static const struct scene_field scene_fields[] = {
 	{"format", read_format, NULL, 0, NULL, true},
-	{"time_step", scene_read_number, NULL, offsetof(carom_scene, world.time_step), &scene_positive, false},
+	{"time_step", scene_read_number, NULL, offsetof(carom_scene, world.time_step), &time_step, false},
 	{"gravity", scene_read_pair, NULL, offsetof(carom_scene, world.gravity), &scene_any, false},
 	{"restitution", scene_read_number, NULL, offsetof(carom_scene, world.restitution), &scene_part, false},
 	{"room", read_room, NULL, offsetof(carom_scene, world), NULL, false},

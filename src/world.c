@@ -41,8 +41,9 @@ static bool finite2(carom_vec2 v)
 
 static carom_status check_def(const carom_world_def *def, carom_error *error)
 {
-	if (!(def->time_step > 0.0f) || !isfinite(def->time_step))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time_step: found %g, must be above 0 (s)", (double)def->time_step);
+	if (!(def->time_step >= LEAST_STEP) || !isfinite(def->time_step))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time_step: found %.9g, must be finite and at least 1.17549435e-38 (s)",
+			(double)def->time_step);
 	if (!finite2(def->gravity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "gravity: must be two finite numbers (m/s^2)");
 	if (!(def->restitution >= 0.0f && def->restitution <= 1.0f))

@@ -116,8 +116,9 @@ static void definitions_out_of_range(void **unused)
 		REFUSE("room: min and max must be two finite numbers", room_max.x, no_numbers[i]);
 		REFUSE("room: min and max must be two finite numbers", room_max.y, no_numbers[i]);
 	}
-	REFUSE("time_step: found 0, must be above 0", time_step, 0.0f);
-	REFUSE("time_step: found -0.5, must be above 0", time_step, -0.5f);
+	REFUSE("time_step: found 0, must be finite and at least 1.17549435e-38", time_step, 0.0f);
+	REFUSE("time_step: found -0.5, must be finite and at least", time_step, -0.5f);
+	REFUSE("time_step: found 1.17549421e-38, must be finite and at least", time_step, nextafterf(FLT_MIN, 0.0f));
 	REFUSE("restitution: found -0.5, must be from 0 to 1", restitution, -0.5f);
 	REFUSE("restitution: found 1.5, must be from 0 to 1", restitution, 1.5f);
 	REFUSE("epsilon: found 0, must be from 2^-22 to 0.5", epsilon, 0.0f);

@@ -245,6 +245,8 @@ static void any_time_can_be_run(void **state)
 	(void)state;
 	check("$C run scenes/mixed.json --time 1e-9 --device cpu", 0, " 0 hits, 1e-09 s simulated");
 	check("sed 's|\"bodies\"|\"time_step\": 1e6, &|' scenes/newtons_cradle.json | $C run - --time 0.1 --device cpu", 0, " 0.1 s simulated");
+	check("$C run scenes/mixed.json --time 1e-37 --out $D/s.json --quiet --device cpu && $C run $D/s.json --steps 1 --quiet --device cpu", 0, "");
+	check("rm $D/s.json", 0, "");
 }
 
 static void an_interruption_writes_what_there_is(void **state)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "layout.h"
 #include "runs.h"
 #include "world.h"
 
@@ -229,6 +230,57 @@ static void times_out_of_range(void **unused)
 	carom_world_destroy(world);
 }
 
+/* Of less time than a float can divide by, as it is left where a float is not quite what was meant, too, nothing comes of it; and a step that
+ * lasts no longer than that is one. */
+static void the_shortest_times_pass(void **unused)
+{
+	(void)unused;
+	static const char *const steps[] = {"events", "contacts", "first_impact"};
+	static const double times[] = {1e-320, 1e-40, 1e-38, 2e-38, 1e-37, 3e-36};
+	const carom_body_def bodies[2] = {scenery_box(0.0f, 0.5f, 2.0f, -1.0f, 1.0f, 1.0f), scenery_circle(1.0f, 0.5f, -3.0f, 0.0f, 0.5f)};
+	for (size_t i = 0; i < 3; i++) {
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = runs_resting(steps[i], 5.0f, 5.0f);
+			carom_world *world = runs_world(&def, device, bodies, 2);
+			if (!world)
+				continue;
+			for (size_t k = 0; k < sizeof times / sizeof *times; k++)
+				runs_advance(world, times[k]);
+			assert_true(isfinite(runs_measure(world).kinetic_energy) && carom_world_time(world) < 1e-35);
+			runs_near((double)runs_state(world, 0).position.y, 0.5, 0.0);
+			carom_world_destroy(world);
+			def.time_step = LEAST_STEP;
+			world = runs_world(&def, device, bodies, 2);
+			assert_int_equal(runs_step(world, 5).steps, 5);
+			assert_true(isfinite(runs_measure(world).kinetic_energy));
+			runs_near((double)runs_state(world, 0).position.y, 0.5, 0.0);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* What of a body is beyond a wall at the start is not pushed back, but gets no farther; its centre must be inside. */
+static void a_body_may_reach_through_a_wall(void **unused)
+{
+	(void)unused;
+	const carom_world_def def = runs_room(5.0f, 5.0f);
+	const carom_body_def bodies[3] = {scenery_circle(4.5f, -3.0f, 1.0f, 0.0f, 1.0f), scenery_circle(4.5f, 0.0f, 0.0f, 0.0f, 1.0f),
+		scenery_box(4.5f, 3.0f, -1.0f, 0.0f, 2.0f, 2.0f)};
+	const carom_body_def outside = scenery_circle(5.5f, 0.0f, -1.0f, 0.0f, 1.0f);
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = runs_world(&def, device, bodies, 3);
+		carom_error error;
+		if (!world)
+			continue;
+		assert_fails(carom_world_add(world, &outside, 1, NULL, &error), &error, CAROM_INVALID_ARGUMENT, "bodies[0].position: (5.5, 0) is outside");
+		assert_int_equal(runs_step(world, 60).hits, 1);
+		runs_near((double)runs_state(world, 0).position.x, 3.5, 1e-4);
+		runs_near((double)runs_state(world, 1).position.x, 4.5, 0.0);
+		runs_near((double)runs_state(world, 2).position.x, 3.5, 1e-4);
+		carom_world_destroy(world);
+	}
+}
+
 /* Bodies that come while others move change nothing of their state, also when the textures have to grow. */
 static void growing_keeps_the_bits(void **unused)
 {
@@ -266,6 +318,6 @@ int main(void)
 	const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_out_of_range), cmocka_unit_test(states_out_of_range),
 		cmocka_unit_test(static_bodies_keep_still), cmocka_unit_test(states_come_back), cmocka_unit_test(angles_near_pi_come_back),
 		cmocka_unit_test(a_force_acts_from_now_on), cmocka_unit_test(an_empty_world_steps), cmocka_unit_test(times_out_of_range),
-		cmocka_unit_test(growing_keeps_the_bits)};
+		cmocka_unit_test(the_shortest_times_pass), cmocka_unit_test(a_body_may_reach_through_a_wall), cmocka_unit_test(growing_keeps_the_bits)};
 	return cmocka_run_group_tests_name("world", tests, NULL, NULL);
 }

@@ -137,7 +137,7 @@ private:
 template <typename T> T step_length(const Texels<T> &clock, const Texels<T> &uniforms)
 {
 	T remaining = clock.fact(CLOCK_TIME, TIME_REMAINING);
-	if (clock.fact(CLOCK_STEP, STEP_ENDED) > 0 || remaining <= 0)
+	if (clock.fact(CLOCK_STEP, STEP_ENDED) > 0 || remaining < LEAST_STEP)
 		return 0;
 	return smaller(uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP), remaining);
 }
