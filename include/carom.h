@@ -374,7 +374,7 @@ CAROM_API void carom_scene_destroy(carom_scene *scene);
 /** A world with the scene's bodies. Errors name the body by its JSON path. */
 CAROM_API carom_status carom_scene_create_world(const carom_scene *scene, carom_world **world, carom_error *error);
 /** Writes the world's present state as a scene file that reads back with the same bits; `camera` may be NULL. The file is
- * whole or, on failure, as it was before. */
+ * whole or, on failure, as it was before. CAROM_INVALID_ARGUMENT: a camera that is not finite, or of no height. */
 CAROM_API carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error);
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */

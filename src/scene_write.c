@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #define STATES_AT_ONCE 1024
@@ -240,6 +241,16 @@ static carom_status put_bodies(const struct writer *writer, carom_world *world, 
 	return CAROM_OK;
 }
 
+/* What is refused when it is read is not written. */
+static carom_status check_camera(const carom_camera *camera, carom_error *error)
+{
+	const float x = camera->center.x, y = camera->center.y, height = camera->height;
+	if (isfinite(x) && isfinite(y) && isfinite(height) && height > 0)
+		return CAROM_OK;
+	return carom_fail(error, CAROM_INVALID_ARGUMENT, "camera: found center (%g, %g) and height %g; allowed: finite numbers, the height above 0",
+		(double)x, (double)y, (double)height);
+}
+
 carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error)
 {
 	const carom_world_def defaults = carom_default_world_def();
@@ -247,7 +258,9 @@ carom_status carom_world_write_scene(carom_world *world, const carom_camera *cam
 	if (!world || !path)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_world_write_scene: no world or no path");
 	struct writer writer = {NULL, carom_world_get_def(world), &defaults, carom_default_body_def()};
-	carom_status status = carom_file_create(path, &file, &writer.stream, error);
+	carom_status status = camera ? check_camera(camera, error) : CAROM_OK;
+	if (status == CAROM_OK)
+		status = carom_file_create(path, &file, &writer.stream, error);
 	if (status != CAROM_OK)
 		return status;
 	put_world(&writer, camera);

@@ -260,6 +260,30 @@ static void names_of_any_bytes_read_back(void **state)
 	carom_scene_destroy(again);
 }
 
+/* A camera that could not be read again is refused, and the file stays as it was. */
+static void a_wrong_camera_is_not_written(void **state)
+{
+	(void)state;
+	static const carom_camera cameras[] = {{{0, 0}, NAN}, {{0, 0}, INFINITY}, {{0, 0}, 0}, {{0, 0}, -1}, {{NAN, 0}, 1}, {{0, -INFINITY}, 1}};
+	const carom_camera right = {{1, 2}, 3};
+	carom_world_def def = carom_default_world_def();
+	carom_world *world = NULL;
+	def.device = "cpu";
+	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_OK);
+	assert_int_equal(carom_world_write_scene(world, &right, in_folder("there.json"), NULL), CAROM_OK);
+	char *before = strdup(read_text(in_folder("there.json")));
+	assert_non_null(before);
+	for (size_t k = 0; k < COUNT(cameras); k++) {
+		carom_error error = {0};
+		assert_int_equal(carom_world_write_scene(world, &cameras[k], in_folder("there.json"), &error), CAROM_INVALID_ARGUMENT);
+		assert_true(error.status == CAROM_INVALID_ARGUMENT && strstr(error.text, "camera: found center ("));
+		assert_string_equal(read_text(in_folder("there.json")), before);
+	}
+	free(before);
+	carom_world_destroy(world);
+	unlink(in_folder("there.json"));
+}
+
 static int make_folder(void **state)
 {
 	(void)state;
@@ -278,6 +302,6 @@ int main(void)
 	const struct CMUnitTest tests[] = {cmocka_unit_test(everything_reads_back_with_the_same_bits),
 		cmocka_unit_test(thin_polygons_read_back_with_the_same_bits), cmocka_unit_test(every_scene_reads_back_with_the_same_bits),
 		cmocka_unit_test(awkward_floats_read_back_with_the_same_bits), cmocka_unit_test(every_choice_of_a_slot_reads_back),
-		cmocka_unit_test(stop_and_resume_is_exact), cmocka_unit_test(names_of_any_bytes_read_back)};
+		cmocka_unit_test(stop_and_resume_is_exact), cmocka_unit_test(names_of_any_bytes_read_back), cmocka_unit_test(a_wrong_camera_is_not_written)};
 	return cmocka_run_group_tests_name("scene_write", tests, make_folder, remove_folder);
 }
