@@ -230,7 +230,8 @@ typedef struct carom_world_def {
 	float time_step;         /**< s, >= 1.17549435e-38: how long a step of events or contacts lasts, the longest of first_impact; default 1/60 */
 	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
 	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
-	bool has_room;           /**< four walls that nothing leaves: bodies must start inside; default none */
+	bool has_room;           /**< four walls that nothing passes; default none. Centres of mass must start inside; what of a body is
+	                          beyond a wall at the start may stay there, but gets no farther */
 	carom_vec2 room_min;     /**< m, the lower left corner */
 	carom_vec2 room_max;     /**< m, the upper right corner: above room_min in both */
 	float epsilon;           /**< part of a step, 2^-22..0.5: the accuracy of toi bisection [2.1]; default 2^-18 */
