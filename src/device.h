@@ -53,10 +53,12 @@ struct carom_device {
 	carom_kernel_time times[STAGE_COUNT]; /* where the def asked for a profile */
 };
 
+#define CAROM_MOST_THREADS 256 /* of the CPU device: a mistyped number should not take the machine down */
+
 typedef struct carom_device_def {
 	const char *name; /* auto, cpu, opencl, or part of a name; NULL: CAROM_DEVICE, else auto */
 	carom_storage storage;
-	uint32_t threads;        /* of the CPU device, 0 for one a core */
+	uint32_t threads;        /* of the CPU device, CAROM_MOST_THREADS at most; 0 for one a core */
 	carom_pipeline pipeline; /* resolved */
 	bool profile;
 	bool count_reads; /* for tests; it takes much time */

@@ -52,6 +52,9 @@ static carom_status check_def(const carom_world_def *def, carom_error *error)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "epsilon: found %g, must be from 2^-22 to 0.5 (of a step)", (double)def->epsilon);
 	if (def->storage != CAROM_STORAGE_AUTO && def->storage != CAROM_STORAGE_IMAGE && def->storage != CAROM_STORAGE_BUFFER)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "storage: found %d, must be CAROM_STORAGE_AUTO, _IMAGE or _BUFFER", (int)def->storage);
+	if (def->threads > CAROM_MOST_THREADS)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "threads: found %u, must be from 1 to %d, or 0 for one a core", (unsigned)def->threads,
+			CAROM_MOST_THREADS);
 	if (def->has_room && (!finite2(def->room_min) || !finite2(def->room_max)))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "room: min and max must be two finite numbers each (m)");
 	if (def->has_room && !(def->room_min.x < def->room_max.x && def->room_min.y < def->room_max.y))

@@ -124,6 +124,7 @@ static void definitions_out_of_range(void **unused)
 	REFUSE("epsilon: found 0, must be from 2^-22 to 0.5", epsilon, 0.0f);
 	REFUSE("epsilon: found 1.19209e-07, must be from 2^-22 to 0.5", epsilon, FLT_EPSILON);
 	REFUSE("epsilon: found 0.75, must be from 2^-22 to 0.5", epsilon, 0.75f);
+	REFUSE("threads: found 257, must be from 1 to 256, or 0", threads, 257);
 	REFUSE("room: min (1, -2) must be below max (1, 2)", room_min.x, 1.0f);
 	REFUSE("room: min (-1, 2.5) must be below max (1, 2)", room_min.y, 2.5f);
 }

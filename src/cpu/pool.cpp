@@ -1,12 +1,13 @@
 #include "cpu/pool.hpp"
 
+#include "device.h"
+
 #include <algorithm>
 #include <exception>
 #include <new>
 
 namespace carom::cpu {
 
-constexpr uint32_t most_threads = 256;       /* a mistyped number should not take the machine down */
 constexpr int32_t chunks_a_range = 2;        /* that what is left of it should make */
 constexpr int most_yields = 50, polls = 500; /* some 50 us */
 
@@ -39,7 +40,7 @@ Pool::Pool(uint32_t threads)
 {
 	if (threads == 0)
 		threads = std::thread::hardware_concurrency();
-	threads = std::clamp(threads, 1u, most_threads);
+	threads = std::clamp<uint32_t>(threads, 1, CAROM_MOST_THREADS);
 	ranges = std::vector<Range>(threads);
 	workers.reserve(threads - 1);
 	try {
