@@ -241,7 +241,8 @@ const struct command bench_command = {
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"
 			   "states, alternatives take turns, and everything is warmed up before. The device is --device or CAROM_DEVICE,\n"
 			   "else one of OpenCL, where there is one; table4 measures the CPU fallback beside it. --set fills the slots that the table\n"
-			   "does not vary; the others are the defaults. In scale, --set step=NAME measures that step.\n"
+			   "does not vary; the others are the defaults. The paper's tables are of the step first_impact;\n"
+			   "in scale, --set step=NAME measures that step.\n"
 			   "An interruption ends it after the figure at hand; then no file is written.\n",
 	.options = options_table,
 	.main = bench_main,

@@ -119,7 +119,8 @@ struct bench_summary bench_summarize(const struct bench_result *result, const st
 
 /* ---- carom_bench_measure.c */
 
-/* Whether the library has all the slots and alternatives that the table names; CAROM_UNKNOWN_NAME if not. */
+/* Whether the library has all the slots and alternatives that the table names; CAROM_UNKNOWN_NAME if not. Refuses another step than the
+ * paper's. */
 carom_status bench_check(const struct bench_table *table, const struct bench_options *options, carom_error *error);
 /* Fills in *result, which is all zeros. */
 carom_status bench_measure(const struct bench_table *table, const struct bench_options *options, struct bench_result *result, carom_error *error);

@@ -259,6 +259,11 @@ carom_status bench_check(const struct bench_table *table, const struct bench_opt
 {
 	carom_status status = CAROM_OK;
 	carom_world_def def;
+	for (size_t k = 0; k < options->common.set_count; k++) { /* whose kernels the tables are of */
+		const char *set = options->common.sets[k];
+		if (strncmp(set, "step=", 5) == 0 && strcmp(set, "step=first_impact") != 0)
+			return wrong(error, "--set: found %.80s; allowed: step=first_impact", set);
+	}
 	for (size_t i = 0; status == CAROM_OK && i < table->part_count; i++) {
 		for (size_t k = 0; status == CAROM_OK && k < table->parts[i].subject_count; k++)
 			status = bench_world_def(&table->parts[i].subjects[k], options, &def, error);
