@@ -42,6 +42,39 @@ static void all_tables_are_measured(void **state)
 	assert_non_null(strstr(call.out, "What is named OpenCL was left out"));
 }
 
+/* The chart's strip below its only panel, with the numbers of bodies: so many pixels of it are dark. */
+static size_t read_labels(const char *name, uint8_t *strip, size_t size)
+{
+	char path[128];
+	png_image image = {.version = PNG_IMAGE_VERSION};
+	size_t dark = 0;
+	snprintf(path, sizeof path, "%s/%s", call.folder, name);
+	assert_true(png_image_begin_read_from_file(&image, path));
+	image.format = PNG_FORMAT_GRAY;
+	uint8_t *pixels = malloc(PNG_IMAGE_SIZE(image));
+	assert_non_null(pixels);
+	assert_true(png_image_finish_read(&image, NULL, pixels, 0, NULL) && image.height > 141 && size == 20 * image.width);
+	memcpy(strip, pixels + (image.height - 141) * image.width, size);
+	for (size_t k = 0; k < size; k++)
+		dark += strip[k] < 128;
+	free(pixels);
+	return dark;
+}
+
+/* Sizes may be asked for in any order; the chart has them in theirs, all with a label. */
+static void charts_are_in_the_order_of_bodies(void **state)
+{
+	(void)state;
+	static uint8_t rising[20 * 1696], falling[20 * 1696];
+	if (!has_charts())
+		return;
+	check("$C bench table1 --device cpu --sizes 8,64 " FAST " --plot $D/rising.png", 0, "");
+	check("$C bench table1 --device cpu --sizes 64,8 " FAST " --plot $D/falling.png", 0, "");
+	assert_true(read_labels("rising.png", rising, sizeof rising) > 20);
+	read_labels("falling.png", falling, sizeof falling);
+	assert_memory_equal(rising, falling, sizeof rising);
+}
+
 /* Where the paper's step keeps its textures on the first OpenCL device by itself. */
 static bool uses_images(void)
 {
@@ -162,6 +195,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(all_tables_are_measured), cmocka_unit_test(opencl_has_its_columns),
 		cmocka_unit_test(the_papers_figures_stand_beside_its_sizes), cmocka_unit_test(launches_and_settings_are_told),
-		cmocka_unit_test(wrong_calls_exit_with_2), cmocka_unit_test(files_that_cannot_be_written_fail)};
+		cmocka_unit_test(charts_are_in_the_order_of_bodies), cmocka_unit_test(wrong_calls_exit_with_2),
+		cmocka_unit_test(files_that_cannot_be_written_fail)};
 	return cmocka_run_group_tests_name("bench", tests, make_folder, remove_folder);
 }

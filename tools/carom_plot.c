@@ -210,10 +210,28 @@ static cairo_t *create_cairo(double width, double height)
 	return cairo;
 }
 
-carom_status plot_write(const struct plot_figure *figure, const char *path, carom_error *error)
+static int compare_points(const void *a, const void *b)
+{
+	const struct plot_point *p = a, *q = b;
+	return (p->x > q->x) - (p->x < q->x);
+}
+
+/* They come in the order in which somebody asked for them. */
+static void sort_points(struct plot_figure *figure)
+{
+	for (size_t i = 0; i < figure->panel_count; i++) {
+		for (size_t k = 0; k < figure->panels[i].series_count; k++) {
+			struct plot_series *series = &figure->panels[i].series[k];
+			qsort(series->points, series->point_count, sizeof *series->points, compare_points);
+		}
+	}
+}
+
+carom_status plot_write(struct plot_figure *figure, const char *path, carom_error *error)
 {
 	struct canvas canvas = {.figure = figure};
 	const double width = 2 * MARGIN + (figure->panel_count <= 1 ? LONE_WIDTH : PANEL_WIDTH * (figure->panel_count <= 4 ? 2 : 3));
+	sort_points(figure);
 	find_ranges(&canvas);
 	canvas.cairo = create_cairo(1, 1);
 	double height = draw_figure(&canvas, width, false);

@@ -39,7 +39,7 @@ struct plot_figure {
 
 /* Whether a chart can be written to that path. */
 carom_status plot_check(const char *path, carom_error *error);
-/* Whole or not at all. */
-carom_status plot_write(const struct plot_figure *figure, const char *path, carom_error *error);
+/* Whole or not at all. Brings the points of each series into the order of x. */
+carom_status plot_write(struct plot_figure *figure, const char *path, carom_error *error);
 
 #endif
