@@ -54,6 +54,7 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C run scenes/mixed.json --steps -1", "--steps: found \"-1\"; allowed: a whole number"},
 		{"$C run scenes/mixed.json --steps 1e3", "--steps: found \"1e3\"; allowed: a whole number"},
 		{"$C run scenes/mixed.json --steps 99999999999999999999", "allowed: a whole number"},
+		{"$C run scenes/mixed.json --steps 18446744073709551615", "allowed: a whole number from 0 to 18446744073709551614"},
 		{"$C run scenes/mixed.json --time nan", "--time: found \"nan\"; allowed: seconds, 0 or more"},
 		{"$C run scenes/mixed.json --steps 1 --time 1", "--steps and --time exclude each other"},
 		{"$C run scenes/mixed.json --fps 25", "--fps needs --frames"},

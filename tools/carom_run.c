@@ -47,6 +47,15 @@ static carom_status read_fps(const char *text, void *target, carom_error *error)
 	return CAROM_OK;
 }
 
+static carom_status read_steps(const char *text, void *target, carom_error *error)
+{
+	uint64_t steps = 0;
+	if (read_count(text, &steps, error) != CAROM_OK || steps == NO_STEPS)
+		return wrong(error, "found \"%s\"; allowed: a whole number from 0 to %llu", text, (unsigned long long)NO_STEPS - 1);
+	*(uint64_t *)target = steps;
+	return CAROM_OK;
+}
+
 static carom_status read_time(const char *text, void *target, carom_error *error)
 {
 	double seconds = 0;
@@ -57,7 +66,7 @@ static carom_status read_time(const char *text, void *target, carom_error *error
 }
 
 static const struct option options_table[] = {
-	{"steps", "N", read_count, offsetof(struct run_options, steps), "run N steps"},
+	{"steps", "N", read_steps, offsetof(struct run_options, steps), "run N steps"},
 	{"time", "SECONDS", read_time, offsetof(struct run_options, time),
 		"run so many seconds of simulated time; 1 if neither --steps nor --time is given"},
 	{"out", "STATE.json", read_text, offsetof(struct run_options, out), "write the last state as a scene that goes on with the same bits"},
