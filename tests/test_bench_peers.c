@@ -79,15 +79,6 @@ static void check_scale(const char *options, const char *step, size_t devices)
 	assert_non_null(strstr(call.out, "kept in 1000 steps of 12 bodies"));
 }
 
-/* Whether every device has the step that is measured by itself. */
-static bool has_events(void)
-{
-	if (shell("$C run scenes/thin_wall.json --steps 1 --set step=events --device cpu") == 0)
-		return true;
-	print_message("SKIPPED step=events: %s", call.err);
-	return false;
-}
-
 static void scale_is_measured(void **state)
 {
 	(void)state;
@@ -97,8 +88,6 @@ static void scale_is_measured(void **state)
 		check_scale("--device opencl --storage buffer --set step=first_impact", "first_impact", 2);
 		assert_int_equal(count(STORAGE, "buffer"), 2 * 9);
 	}
-	if (!has_events())
-		return;
 	check_scale("--device cpu", "events", 1);
 	assert_null(strstr(call.out, "can't be compared"));
 }
@@ -200,8 +189,6 @@ static void check_heap(const char *options, size_t devices)
 static void heaps_are_measured(void **state)
 {
 	(void)state;
-	if (!has_events())
-		return;
 	check_heap("--device cpu", 1);
 	if (has_opencl())
 		check_heap("--device opencl", 2);
