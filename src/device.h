@@ -41,8 +41,8 @@ typedef struct carom_device_class {
 	/* Brings device->times up to date, after waiting. */
 	void (*profile)(carom_device *device);
 	/* How many texels the kernels have read since it was asked last, below 2^32, where the def said to count them; 0 where it
-	 * did not. The CPU device counts only in the alternatives of the slot reduce that halve, and in the slot vertices.
-	 * Waits. */
+	 * did not. The CPU device counts only in the slots reduce and vertices; and a pass of reduce that is counted asks each fragment,
+	 * while others first ask whether any of a row has a hit. Waits. */
 	carom_status (*reads)(carom_device *device, uint64_t *texels, carom_error *error);
 } carom_device_class;
 
