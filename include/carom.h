@@ -366,7 +366,8 @@ typedef struct carom_scene {
 } carom_scene;
 
 /** Reads a scene of the format "carom-scene/1". CAROM_INVALID_SCENE gives line and column, or the JSON path, what was
- * found and what is allowed; CAROM_IO a file that can't be read. */
+ * found and what is allowed; CAROM_IO a file that can't be read. A name of an open descriptor of this process, as /dev/stdin is, is read from the
+ * place on where that is. */
 CAROM_API carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error *error);
 /** The same from memory; `name` stands for the file in errors. The text need not end in a NUL. */
 CAROM_API carom_status carom_scene_parse(const char *text, size_t length, const char *name, carom_scene **scene, carom_error *error);
@@ -409,7 +410,8 @@ CAROM_API carom_status carom_png_write(const char *path, const uint8_t *pixels, 
 
 /** A file being written: until it is whole, what was there before stays. */
 typedef struct carom_file carom_file;
-/** Begins a file under a temporary name beside `path`; writes go to *stream. */
+/** Begins a file under a temporary name beside `path`; writes go to *stream. Symbolic links are followed. What is there and no file, a device or a
+ * pipe, is written into, and so is an open descriptor of this process that has a name: /dev/stdout, /dev/fd/N. All that write files do so. */
 CAROM_API carom_status carom_file_create(const char *path, carom_file **file, FILE **stream, carom_error *error);
 /** Flushes and renames it to its own name; on failure what was there before stays. Either way the file is released. */
 CAROM_API carom_status carom_file_commit(carom_file *file, carom_error *error);

@@ -1,5 +1,6 @@
-/* Files that are whole or not there: written under a temporary name in the same folder, then renamed.
+/* Files that are whole or not there: written under a temporary name in the same folder, then renamed. Only files are replaced: what is no file is written into.
  * SPDX-License-Identifier: MIT */
+#include "follow.h"
 #include "status.h"
 
 #include <errno.h>
@@ -14,8 +15,8 @@
 #define STREAM_BUFFER 65536
 
 struct carom_file {
-	char *path;      /* where it ends up, symbolic links followed */
-	char *temporary; /* NULL for a device or a pipe, which are written directly: renaming onto /dev/null would replace it */
+	carom_target target; /* where it ends up */
+	char *temporary;     /* NULL for a descriptor, a device or a pipe, which are written directly: renaming onto /dev/null would replace it */
 	FILE *stream;
 };
 
@@ -25,15 +26,17 @@ static carom_status fail_io(carom_error *error, const char *path, const char *di
 	return carom_fail(error, CAROM_IO, "%s: %s: %s; %s", path, did, carom_errno_text(number, reason, sizeof reason), advice);
 }
 
-/* Opens a name that nobody has: O_EXCL rather than a counter, which would be global state. */
+/* Opens a name that nobody has: O_EXCL rather than a counter, which would be global state. It is short, for the file's own may be as long as names get. */
 static int open_temporary(carom_file *file, mode_t mode)
 {
-	size_t size = strlen(file->path) + 48;
+	const char *path = file->target.path;
+	const int folder = (int)(strrchr(path, '/') - path);
+	const size_t size = (size_t)folder + 64;
 	file->temporary = malloc(size);
 	if (!file->temporary)
 		return -1;
 	for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
-		snprintf(file->temporary, size, "%s.tmp.%ld.%d", file->path, (long)getpid(), attempt);
+		snprintf(file->temporary, size, "%.*s/carom.tmp.%ld.%d", folder, path, (long)getpid(), attempt);
 		int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
 		if (descriptor >= 0 || errno != EEXIST)
 			return descriptor;
@@ -44,17 +47,18 @@ static int open_temporary(carom_file *file, mode_t mode)
 /* What is there now decides how to write: a file is replaced with its permissions kept, anything else is written into. */
 static int open_beside(carom_file *file)
 {
+	const char *path = file->target.path;
 	struct stat there;
 	int descriptor;
-	if (stat(file->path, &there) != 0)
+	if (stat(path, &there) != 0)
 		return errno == ENOENT ? open_temporary(file, 0666) : -1;
 	if (S_ISDIR(there.st_mode)) {
 		errno = EISDIR;
 		return -1;
 	}
 	if (!S_ISREG(there.st_mode))
-		return open(file->path, O_WRONLY | O_CLOEXEC);
-	if (access(file->path, W_OK) != 0)
+		return open(path, O_WRONLY | O_CLOEXEC);
+	if (access(path, W_OK) != 0)
 		return -1;
 	descriptor = open_temporary(file, 0600);
 	if (descriptor >= 0)
@@ -62,21 +66,38 @@ static int open_beside(carom_file *file)
 	return descriptor;
 }
 
+static int open_target(carom_file *file, const char *path, const char **advice)
+{
+	*advice = "give a file in a folder that exists and can be written to";
+	if (!carom_follow(path, &file->target))
+		return -1;
+	if (file->target.descriptor < 0)
+		return open_beside(file);
+	*advice = "this descriptor is closed, or open for reading only";
+	return carom_duplicate(file->target.descriptor, O_RDONLY);
+}
+
+/* Takes its name, unless something has come to stand there that is no file. */
+static bool take_name(const carom_file *file)
+{
+	struct stat there;
+	if (lstat(file->target.path, &there) != 0 || S_ISREG(there.st_mode))
+		return rename(file->temporary, file->target.path) == 0;
+	errno = S_ISDIR(there.st_mode) ? EISDIR : EEXIST;
+	return false;
+}
+
 carom_status carom_file_create(const char *path, carom_file **file, FILE **stream, carom_error *error)
 {
 	carom_file *made = NULL;
-	int descriptor = -1;
+	const char *advice;
+	int descriptor;
 	if (!path || !*path || !file || !stream)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_create: no path or no output");
 	made = calloc(1, sizeof *made);
 	if (!made)
 		goto no_memory;
-	made->path = realpath(path, NULL); /* so that a symbolic link stays one */
-	if (!made->path && errno != ENOMEM)
-		made->path = strdup(path);
-	if (!made->path)
-		goto no_memory;
-	descriptor = open_beside(made);
+	descriptor = open_target(made, path, &advice);
 	if (descriptor >= 0)
 		made->stream = fdopen(descriptor, "wb");
 	if (!made->stream) {
@@ -89,7 +110,7 @@ carom_status carom_file_create(const char *path, carom_file **file, FILE **strea
 		if (number == ENOMEM)
 			goto no_memory;
 		carom_file_destroy(made);
-		return fail_io(error, path, "can't be written", number, "give a file in a folder that exists and can be written to");
+		return fail_io(error, path, "can't be written", number, advice);
 	}
 	setvbuf(made->stream, NULL, _IOFBF, STREAM_BUFFER);
 	*file = made;
@@ -114,9 +135,9 @@ carom_status carom_file_commit(carom_file *file, carom_error *error)
 		number = errno;
 	file->stream = NULL;
 	if (number) {
-		status = fail_io(error, file->path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
-	} else if (file->temporary && rename(file->temporary, file->path) != 0) {
-		status = fail_io(error, file->path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
+		status = fail_io(error, file->target.path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
+	} else if (file->temporary && !take_name(file)) {
+		status = fail_io(error, file->target.path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
 	} else {
 		free(file->temporary);
 		file->temporary = NULL;
@@ -134,6 +155,5 @@ void carom_file_destroy(carom_file *file)
 	if (file->temporary)
 		unlink(file->temporary);
 	free(file->temporary);
-	free(file->path);
 	free(file);
 }

@@ -1,12 +1,15 @@
 /* What a scene file may hold, beside the bodies.
  * SPDX-License-Identifier: MIT */
+#include "follow.h"
 #include "scene_json.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <float.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define MOST_BYTES INT_MAX /* lines and columns are ints; the largest worlds take less */
 #define FORMAT "carom-scene/1"
@@ -169,6 +172,18 @@ static bool read_all(FILE *file, char **text, size_t *length)
 	return true;
 }
 
+static FILE *open_scene(const char *path)
+{
+	carom_target target;
+	if (!carom_follow(path, &target) || target.descriptor < 0)
+		return fopen(path, "rb");
+	const int descriptor = carom_duplicate(target.descriptor, O_WRONLY);
+	FILE *file = descriptor >= 0 ? fdopen(descriptor, "rb") : NULL;
+	if (descriptor >= 0 && !file)
+		close(descriptor);
+	return file;
+}
+
 carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error *error)
 {
 	carom_status status;
@@ -179,7 +194,7 @@ carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error
 	if (!path || !scene)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_read: no path or no scene");
 	errno = 0;
-	file = fopen(path, "rb");
+	file = open_scene(path);
 	if (file && read_all(file, &text, &length)) {
 		status = carom_scene_parse(text, length, path, scene, error);
 	} else if (errno == ENOMEM) {

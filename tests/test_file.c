@@ -3,6 +3,7 @@
 #include "carom.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static char folder[] = "/tmp/carom-test-XXXXXX";
 
 static const char *in_folder(const char *name)
 {
-	static char path[256];
+	static char path[512];
 	snprintf(path, sizeof path, "%s/%s", folder, name);
 	return path;
 }
@@ -90,11 +91,22 @@ static void a_file_given_up_leaves_the_old_one(void **state)
 	unlink(in_folder("old"));
 }
 
+static void assert_refused(const char *path, const char *reason)
+{
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	carom_error error = {0};
+	assert_int_equal(carom_file_create(path, &file, &stream, &error), CAROM_IO);
+	if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, reason))
+		fail_msg("expected \"%s\", got \"%s\"", reason, error.text);
+	assert_null(file);
+}
+
 static void links_and_permissions_stay(void **state)
 {
 	(void)state;
 	struct stat there;
-	char link[256];
+	char link[512];
 	put_file("target", "old");
 	assert_int_equal(chmod(in_folder("target"), 0640), 0);
 	snprintf(link, sizeof link, "%s", in_folder("link"));
@@ -109,15 +121,100 @@ static void links_and_permissions_stay(void **state)
 	unlink(in_folder("target"));
 }
 
-static void assert_refused(const char *path, const char *reason)
+static void links_may_lead_to_what_is_not_there_yet(void **state)
 {
+	(void)state;
+	struct stat there;
+	char link[512];
+	snprintf(link, sizeof link, "%s", in_folder("link"));
+	assert_int_equal(symlink("below/new", link), 0);
+	assert_refused(link, "No such file or directory");
+	assert_int_equal(mkdir(in_folder("below"), 0700), 0);
+	put_file("link", "new");
+	assert_text("below/new", "new");
+	assert_int_equal(lstat(link, &there), 0);
+	assert_true(S_ISLNK(there.st_mode));
+	unlink(link);
+	assert_int_equal(symlink("link", link), 0);
+	assert_refused(link, "Too many levels of symbolic links");
+	unlink(link);
+	unlink(in_folder("below/new"));
+	rmdir(in_folder("below"));
+}
+
+static void names_may_be_as_long_as_any(void **state)
+{
+	(void)state;
+	char name[256] = "";
+	memset(name, 'n', 255);
+	put_file(name, "long");
+	assert_text(name, "long");
+	unlink(in_folder(name));
+}
+
+/* A pipe comes to stand where the file is to go. */
+static void only_files_are_replaced(void **state)
+{
+	(void)state;
 	carom_file *file = NULL;
 	FILE *stream = NULL;
 	carom_error error = {0};
-	assert_int_equal(carom_file_create(path, &file, &stream, &error), CAROM_IO);
-	if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, reason))
-		fail_msg("expected \"%s\", got \"%s\"", reason, error.text);
-	assert_null(file);
+	struct stat there;
+	assert_int_equal(carom_file_create(in_folder("pipe"), &file, &stream, &error), CAROM_OK);
+	assert_int_equal(mkfifo(in_folder("pipe"), 0600), 0);
+	assert_int_equal(carom_file_commit(file, &error), CAROM_IO);
+	assert_non_null(strstr(error.text, "/pipe: can't be replaced: File exists"));
+	assert_int_equal(stat(in_folder("pipe"), &there), 0);
+	assert_true(S_ISFIFO(there.st_mode));
+	const int reader = open(in_folder("pipe"), O_RDONLY | O_NONBLOCK);
+	char text[8] = "";
+	put_file("pipe", "new");
+	assert_int_equal(read(reader, text, sizeof text), 3);
+	assert_string_equal(text, "new");
+	close(reader);
+	assert_int_equal(count_files(), 1);
+	unlink(in_folder("pipe"));
+}
+
+static void put_into_descriptor(const char *before, int descriptor, const char *text)
+{
+	char path[64];
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	carom_error error = {0};
+	snprintf(path, sizeof path, "%s%d", before, descriptor);
+	if (carom_file_create(path, &file, &stream, &error) != CAROM_OK)
+		fail_msg("%s", error.text);
+	fputs(text, stream);
+	assert_int_equal(carom_file_commit(file, &error), CAROM_OK);
+}
+
+/* Never replaced: there may be more in it, and more to come. */
+static void what_is_open_is_gone_on_with(void **state)
+{
+	(void)state;
+	char path[64], link[512], text[64] = "";
+	put_file("open", "first ");
+	const int descriptor = open(in_folder("open"), O_RDWR | O_APPEND);
+	put_into_descriptor("/dev/fd/", descriptor, "second ");
+	put_into_descriptor("/proc/self/fd/", descriptor, "third ");
+	snprintf(path, sizeof path, "/dev/fd/%d", descriptor);
+	snprintf(link, sizeof link, "%s", in_folder("link"));
+	assert_int_equal(symlink(path, link), 0);
+	put_file("link", "fourth ");
+	assert_text("open", "first second third fourth ");
+	unlink(in_folder("open"));
+	put_into_descriptor("/dev/fd/", descriptor, "fifth"); /* it has no name any more */
+	assert_int_equal(pread(descriptor, text, sizeof text, 0), 31);
+	assert_string_equal(text, "first second third fourth fifth");
+	close(descriptor);
+	assert_refused(path, "Bad file descriptor; this descriptor is closed, or open for reading only");
+	assert_refused(link, "Bad file descriptor");
+	assert_int_equal(open("/dev/null", O_RDONLY), descriptor);
+	assert_refused(path, "Bad file descriptor");
+	close(descriptor);
+	unlink(link);
+	assert_int_equal(count_files(), 0);
 }
 
 static void what_cannot_be_written_is_named(void **state)
@@ -221,7 +318,9 @@ static int remove_folder(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(a_file_appears_when_it_is_whole), cmocka_unit_test(a_file_given_up_leaves_the_old_one),
-		cmocka_unit_test(links_and_permissions_stay), cmocka_unit_test(what_cannot_be_written_is_named), cmocka_unit_test(a_full_disk_is_an_error),
-		cmocka_unit_test(pixels_read_back), cmocka_unit_test(bad_pictures_are_refused)};
+		cmocka_unit_test(links_and_permissions_stay), cmocka_unit_test(links_may_lead_to_what_is_not_there_yet),
+		cmocka_unit_test(names_may_be_as_long_as_any), cmocka_unit_test(only_files_are_replaced), cmocka_unit_test(what_is_open_is_gone_on_with),
+		cmocka_unit_test(what_cannot_be_written_is_named), cmocka_unit_test(a_full_disk_is_an_error), cmocka_unit_test(pixels_read_back),
+		cmocka_unit_test(bad_pictures_are_refused)};
 	return cmocka_run_group_tests_name("file", tests, make_folder, remove_folder);
 }

@@ -164,11 +164,11 @@ static void the_other_commands_leave_files_alone(void **state)
 		"exec $C bench table1 --device cpu --sizes 64,128,256,512 --runs 9 --seconds 0.02 --csv $D/new"};
 	for (size_t k = 0; k < COUNT(lines); k++) {
 		const pid_t process = start(lines[k]);
-		wait_for_file(process, "", "new.tmp.");
+		wait_for_file(process, "", "carom.tmp.");
 		kill(process, SIGINT);
 		assert_code(end_of(process), 130);
 		assert_non_null(strstr(call.err, "interrupted"));
-		assert_int_equal(count_files(call.folder, "new"), 0);
+		assert_int_equal(count_files(call.folder, "new") + count_files(call.folder, "carom.tmp."), 0);
 	}
 }
 

@@ -3,6 +3,8 @@
 #include "scenes.h"
 
 #include <dirent.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #define HEAD "{ \"format\": \"carom-scene/1\", \"bodies\": "
 
@@ -198,10 +200,32 @@ static void damaged_texts_do_no_harm(void **state)
 	}
 }
 
+/* A socket can't be opened by its name in /dev/fd. */
+static void a_socket_may_be_read(void **state)
+{
+	static const char text[] = HEAD "[{\"circle\": {\"radius\": 2}}] }";
+	int sockets[2];
+	char path[64];
+	carom_scene *scene = NULL;
+	carom_error error = {0};
+	(void)state;
+	assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, sockets), 0);
+	assert_int_equal(write(sockets[0], text, strlen(text)), strlen(text));
+	close(sockets[0]);
+	snprintf(path, sizeof path, "/dev/fd/%d", sockets[1]);
+	if (carom_scene_read(path, &scene, &error) != CAROM_OK)
+		fail_msg("%s", error.text);
+	assert_int_equal(scene->body_count, 1);
+	carom_scene_destroy(scene);
+	close(sockets[1]);
+	assert_int_equal(carom_scene_read(path, &scene, &error), CAROM_IO);
+	assert_non_null(strstr(error.text, ": can't be read: Bad file descriptor"));
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(bad_files_are_named), cmocka_unit_test(long_nonsense_fails_quickly),
 		cmocka_unit_test(unreadable_files_are_named), cmocka_unit_test(values_arrive), cmocka_unit_test(keys_may_be_escaped_and_bodies_none),
-		cmocka_unit_test(damaged_texts_do_no_harm)};
+		cmocka_unit_test(damaged_texts_do_no_harm), cmocka_unit_test(a_socket_may_be_read)};
 	return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }
