@@ -76,6 +76,15 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C run scenes/mixed.json --out --png", "--out: the value is missing: --out STATE.json"},
 		{"$C run scenes/mixed.json --out ''", "--out: found nothing; allowed: a text that is not empty"},
 		{"$C run scenes/mixed.json --out $D/a --png $D/a", "/a: two of --out, --png, --stats and --frames write there"},
+		{"$C run scenes/mixed.json --out $D/a --png $D/./a", "/a: two of --out, --png, --stats and --frames write there"},
+		{"ln -s a $D/l; $C run scenes/mixed.json --stats $D/a --png $D/l; code=$?; rm $D/l; exit $code", "/a: two of --out, --png, --stats and"},
+		{"ln -s a $D/l; touch $D/a; $C run scenes/mixed.json --out $D/l --png $D/a; code=$?; rm $D/a $D/l; exit $code", "/a: two of --out, "},
+		{"mkdir $D/f; $C run scenes/mixed.json --png $D/f/frame_000001.png --frames $D/./f; code=$?; rmdir $D/f; exit $code", "_000001.png: two of"},
+		{"$C run scenes/mixed.json --out /dev/stdout --png $D/out", "two of --out, --png, --stats and --frames write there"},
+		{"$C run scenes/mixed.json --frames -", "--frames: found \"-\", which would be standard output; allowed: a name; ./- is one"},
+		{"$C bench table1 --csv $D/c --plot $D/./c", "/c: --csv and --plot write there; give each a name of its own"},
+		{"$C bench all --csv $D/c-table2 --plot $D/c", "/c-table2: --csv and --plot write there"},
+		{"$C bench table1 --csv -", "--csv: found \"-\", which would be standard output"},
 		{"$C run scenes/mixed.json --quiet=yes", "--quiet takes no value"},
 		{"$C run scenes/mixed.json --storage disk", "--storage: found \"disk\"; allowed: image, buffer"},
 		{"$C run scenes/mixed.json --set toi", "--set: found \"toi\"; allowed: slot=alternative"},
@@ -220,6 +229,47 @@ static void a_scene_may_come_through_a_pipe(void **state)
 	check("rm $D/s.json", 0, "");
 }
 
+/* After `read` the rest is the scene: standard input is not opened anew. */
+static void a_scene_may_be_what_is_left_of_a_file(void **state)
+{
+	(void)state;
+	check("{ echo first; cat scenes/mixed.json; } >$D/s.json; { read x; $C run - --steps 0 --quiet; } <$D/s.json", 0, "");
+	check("rm $D/s.json; $C run - <&-", 2, "/dev/stdin: can't be read: Bad file descriptor");
+}
+
+static void standard_output_is_gone_on_with(void **state)
+{
+	(void)state;
+	check("echo first >$D/t; $C run scenes/mixed.json --steps 2 --stats /dev/stdout --quiet --device cpu >>$D/t; cut -c 1-9 $D/t", 0, "");
+	assert_string_equal(call.out, "first\nstep,time\n1,0.01666\n2,0.03333\n");
+	check("ln -s /dev/stdout $D/l; $C run scenes/mixed.json --steps 2 --out $D/l --hash --quiet --device cpu >$D/t; tail -n 1 $D/t >$D/h; "
+		  "sed '$d' $D/t >$D/s; $C run $D/s --steps 0 --hash --quiet --device cpu | cmp - $D/h",
+		0, "");
+	check("test -L $D/l; $C run scenes/mixed.json --steps 2 --out - --quiet --device cpu | cmp - $D/s", 0, "");
+	check("$C run scenes/mixed.json --steps 2 --out - --stats - --quiet --device cpu | tail -n +4 | cmp - $D/s", 0, "");
+	check("$C generate --shape circle --count 9 --out - --quiet >$D/t; $C generate --shape circle --count 9 --quiet | cmp - $D/t", 0, "");
+	check("rm $D/l $D/t $D/h $D/s", 0, "");
+}
+
+/* What is closed is an error, and no file that is opened takes its place. */
+static void a_closed_output_is_an_error(void **state)
+{
+	(void)state;
+	check("$C run scenes/mixed.json --time 1e9 --device cpu --out /dev/fd/9", 1, "/dev/fd/9: can't be written: Bad file descriptor");
+	check("$C run scenes/mixed.json --steps 1 --device cpu --quiet --hash --stats $D/t >&-", 1, "standard output can't be written: Bad file");
+	check("wc -l <$D/t; rm $D/t", 0, "");
+	assert_string_equal(call.out, "2\n");
+}
+
+/* The reader opens it once. */
+static void a_named_pipe_may_be_written(void **state)
+{
+	(void)state;
+	check("mkfifo $D/p; cat $D/p >$D/s & timeout 60 $C run scenes/mixed.json --steps 1 --device cpu --out $D/p && wait && "
+		  "$C run $D/s --steps 0 --device cpu; code=$?; : <>$D/p; rm $D/p $D/s; exit $code",
+		0, "");
+}
+
 static void failures_exit_with_1_and_keep_the_old(void **state)
 {
 	(void)state;
@@ -269,7 +319,9 @@ int main(void)
 	const struct CMUnitTest tests[] = {cmocka_unit_test(help_is_complete), cmocka_unit_test(version_is_the_librarys),
 		cmocka_unit_test(wrong_calls_exit_with_2), cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
 		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times),
-		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(failures_exit_with_1_and_keep_the_old),
-		cmocka_unit_test(any_time_can_be_run), cmocka_unit_test(an_interruption_writes_what_there_is)};
+		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
+		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_closed_output_is_an_error),
+		cmocka_unit_test(a_named_pipe_may_be_written), cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),
+		cmocka_unit_test(an_interruption_writes_what_there_is)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);
 }

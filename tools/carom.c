@@ -2,8 +2,10 @@
  * SPDX-License-Identifier: MIT */
 #include "carom_tool.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <string.h>
+#include <unistd.h>
 
 static const struct command *const commands[] = {
 	&run_command,
@@ -38,8 +40,18 @@ static int fail_call(const char *found)
 	return EXIT_WRONG;
 }
 
+/* A standard stream that is closed stays unusable: else the next file that is opened would be taken for it. */
+static void keep_closed(void)
+{
+	for (int k = STDIN_FILENO; k <= STDERR_FILENO; k++) {
+		if (fcntl(k, F_GETFD) < 0)
+			open("/dev/null", k == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+	}
+}
+
 int main(int argc, char **argv)
 {
+	keep_closed();
 	signal(SIGXFSZ, SIG_IGN); /* a file that may grow no further is an error like a full disk */
 	if (argc < 2)
 		return fail_call("the command is missing");

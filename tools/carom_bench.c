@@ -59,8 +59,8 @@ static carom_status read_sizes(const char *text, void *target, carom_error *erro
 }
 
 static const struct option options_table[] = {
-	{"csv", "FILE.csv", read_text, offsetof(struct bench_options, csv), "write a table with a row a measurement, of all tables"},
-	{"plot", "FILE.png", read_text, offsetof(struct bench_options, plot), "draw a chart; `all` draws one a table: FILE-table1.png and so on"},
+	{"csv", "FILE.csv", read_path, offsetof(struct bench_options, csv), "write a table with a row a measurement, of all tables"},
+	{"plot", "FILE.png", read_path, offsetof(struct bench_options, plot), "draw a chart; `all` draws one a table: FILE-table1.png and so on"},
 	{"runs", "N", read_runs, offsetof(struct bench_options, runs), "runs of each figure, 1 to 99; their median is shown; default 5"},
 	{"seconds", "S", read_positive, offsetof(struct bench_options, seconds),
 		"about how long a run may last: where 1,000 repetitions take longer, 10 to 500 are measured and scaled, of scale 1 to "
@@ -163,12 +163,27 @@ static carom_status check_name(const char *name, carom_error *error)
 	return strcmp(name, "all") == 0 ? CAROM_OK : wrong(error, "%.80s: no such table; allowed: %sall", name, known);
 }
 
+/* Whether no chart would replace the CSV file. */
+static carom_status check_paths(const struct bench_options *options, const char *name, carom_error *error)
+{
+	char path[4096];
+	const bool all = strcmp(name, "all") == 0;
+	for (size_t k = 0; options->csv && options->plot && k < TABLE_COUNT; k++) {
+		if ((all || strcmp(name, tables[k].name) == 0) && chart_path(options, tables[k].name, all, path, sizeof path)
+			&& are_one_file(options->csv, path))
+			return wrong(error, "%s: --csv and --plot write there; give each a name of its own", options->csv);
+	}
+	return CAROM_OK;
+}
+
 /* The CSV file, and whether charts can be written, is looked at before minutes are spent. */
 static carom_status run_bench(const struct bench_options *options, const char *name, carom_error *error)
 {
 	carom_file *file = NULL;
 	FILE *csv = NULL;
 	carom_status status = check_name(name, error);
+	if (status == CAROM_OK)
+		status = check_paths(options, name, error);
 	if (status == CAROM_OK && options->plot)
 		status = plot_check(options->plot, error);
 	if (status == CAROM_OK && options->csv)

@@ -63,7 +63,7 @@ static const struct option options_table[] = {
 	{"radius", "R", read_positive, offsetof(struct generate_options, placement.radius),
 		"m, of circles and of the circles around polygons; default 0.5"},
 	{"seed", "S", read_count, offsetof(struct generate_options, placement.seed), "the same seed gives the same scene on every machine; default 1"},
-	{"out", "SCENE.json", read_text, offsetof(struct generate_options, out), "write the scene there; default standard output"},
+	{"out", "SCENE.json", read_output, offsetof(struct generate_options, out), "write the scene there; - is standard output, the default"},
 	{NULL, NULL, NULL, 0, NULL},
 };
 

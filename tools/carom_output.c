@@ -21,16 +21,6 @@ carom_status allocate_pixels(const carom_render_def *render, uint8_t **pixels, c
 	return error->status;
 }
 
-/* Begins the file and gives it up: what could go wrong at the end goes wrong now. */
-static carom_status try_path(const char *path, carom_error *error)
-{
-	carom_file *file = NULL;
-	FILE *stream = NULL;
-	carom_status status = path ? carom_file_create(path, &file, &stream, error) : CAROM_OK;
-	carom_file_destroy(file);
-	return status;
-}
-
 static carom_status make_folder(const char *path, carom_error *error)
 {
 	struct stat there;
@@ -67,8 +57,8 @@ static void prepare_render(struct run *run)
 carom_status prepare_outputs(struct run *run, carom_error *error)
 {
 	const struct run_options *options = run->options;
-	carom_status status = try_path(options->out, error);
-	if (status == CAROM_OK)
+	carom_status status = options->out ? try_path(options->out, error) : CAROM_OK;
+	if (status == CAROM_OK && options->png)
 		status = try_path(options->png, error);
 	prepare_render(run);
 	if (status == CAROM_OK && options->frames)

@@ -247,9 +247,5 @@ carom_status plot_write(struct plot_figure *figure, const char *path, carom_erro
 
 carom_status plot_check(const char *path, carom_error *error)
 {
-	carom_file *file = NULL;
-	FILE *stream = NULL;
-	carom_status status = carom_file_create(path, &file, &stream, error);
-	carom_file_destroy(file);
-	return status;
+	return try_path(path, error);
 }

@@ -69,12 +69,12 @@ static const struct option options_table[] = {
 	{"steps", "N", read_steps, offsetof(struct run_options, steps), "run N steps"},
 	{"time", "SECONDS", read_time, offsetof(struct run_options, time),
 		"run so many seconds of simulated time; 1 if neither --steps nor --time is given"},
-	{"out", "STATE.json", read_text, offsetof(struct run_options, out), "write the last state as a scene that goes on with the same bits"},
-	{"png", "FRAME.png", read_text, offsetof(struct run_options, png), "write a picture of the last state"},
-	{"frames", "DIR", read_text, offsetof(struct run_options, frames),
+	{"out", "STATE.json", read_output, offsetof(struct run_options, out), "write the last state as a scene that goes on with the same bits"},
+	{"png", "FRAME.png", read_output, offsetof(struct run_options, png), "write a picture of the last state"},
+	{"frames", "DIR", read_path, offsetof(struct run_options, frames),
 		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing"},
 	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames for a simulated second, at most 1000000; default 30"},
-	{"stats", "FILE.csv", read_text, offsetof(struct run_options, stats),
+	{"stats", "FILE.csv", read_output, offsetof(struct run_options, stats),
 		"write a table with a row a step: time, hits, energy, momenta, deepest penetration"},
 	{"hash", NULL, NULL, offsetof(struct run_options, hash), "print a 64-bit hash of the last state, 16 hexadecimal digits"},
 	{"size", "WxH", read_size, offsetof(struct run_options, size), "pixels of the pictures; default 1280x720"},
@@ -84,15 +84,25 @@ static const struct option options_table[] = {
 	{NULL, NULL, NULL, 0, NULL},
 };
 
-/* Two outputs under one name: the first would be lost. */
+static bool is_frame(const char *path, const char *frames)
+{
+	char frame[4096];
+	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+	if (strncmp(name, "frame_", 6) != 0 || strcmp(name + 6 + strspn(name + 6, "0123456789"), ".png") != 0)
+		return false;
+	return snprintf(frame, sizeof frame, "%s/%s", frames, name) < (int)sizeof frame && are_one_file(path, frame);
+}
+
+/* Two outputs in one file: the first would be lost. */
 static carom_status check_paths(const struct run_options *options, carom_error *error)
 {
 	const char *const paths[] = {options->out, options->png, options->stats, options->frames};
-	for (size_t k = 1; k < sizeof paths / sizeof *paths; k++) {
-		for (size_t i = 0; i < k; i++) {
-			if (paths[i] && paths[k] && strcmp(paths[i], paths[k]) == 0 && strncmp(paths[i], "/dev/", 5) != 0)
-				return wrong(error, "%s: two of --out, --png, --stats and --frames write there; give each a name of its own", paths[i]);
-		}
+	for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
+		bool taken = paths[k] && options->frames && is_frame(paths[k], options->frames);
+		for (size_t i = 0; paths[k] && i < k; i++)
+			taken = taken || (paths[i] && are_one_file(paths[i], paths[k]));
+		if (taken)
+			return wrong(error, "%s: two of --out, --png, --stats and --frames write there; give each a name of its own", paths[k]);
 	}
 	return CAROM_OK;
 }
@@ -255,6 +265,7 @@ const struct command run_command = {
 	.most_arguments = 1,
 	.summary = "Simulates a scene and writes states, pictures and tables",
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
+			   "As --out, --png or --stats, - is standard output.\n"
 			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first\n"
 			   "hit, so --steps counts those, and --time counts simulated seconds. With --time, the step before the end\n"
 			   "or before a frame is cut short to end there.\n"

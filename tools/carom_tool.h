@@ -66,6 +66,15 @@ read_option read_positive; /* into a double, above 0 */
 /* What the common options say of the world. */
 carom_status apply_options(const struct common_options *options, carom_world_def *world, carom_error *error);
 
+/* ---- carom_paths.c */
+
+read_option read_output; /* into a const char *: the name of a file; - is /dev/stdout */
+read_option read_path;   /* the same where standard output can't be meant */
+/* Begins the file and gives it up: what could go wrong at the end goes wrong now. Pipes are left alone: their readers would take this for the end. */
+carom_status try_path(const char *path, carom_error *error);
+/* Would what is written to one be lost by writing to the other? Names are followed to where they lead. */
+bool are_one_file(const char *a, const char *b);
+
 /* ---- carom_interrupt.c */
 
 /* From now on the first SIGINT or SIGTERM is only taken down, the second ends the process. */
