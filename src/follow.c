@@ -13,15 +13,15 @@
 #define MOST_LINKS 40 /* one after the other, as in Linux */
 #define MOST_DIGITS 9
 
-static bool put_path(char *path, const char *folder, size_t length, const char *name)
+static bool put_path(char *whole, const char *folder, size_t length, const char *name)
 {
 	if (length + strlen(name) + 2 > PATH_MAX) {
 		errno = ENAMETOOLONG;
 		return false;
 	}
-	memmove(path, folder, length);
-	path[length] = '/';
-	memmove(path + length + 1, name, strlen(name) + 1);
+	memmove(whole, folder, length);
+	whole[length] = '/';
+	memmove(whole + length + 1, name, strlen(name) + 1);
 	return true;
 }
 

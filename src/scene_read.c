@@ -174,7 +174,7 @@ static bool read_all(FILE *file, char **text, size_t *length)
 
 static FILE *open_scene(const char *path)
 {
-	carom_target target;
+	carom_target target = {.descriptor = -1};
 	if (!carom_follow(path, &target) || target.descriptor < 0)
 		return fopen(path, "rb");
 	const int descriptor = carom_duplicate(target.descriptor, O_WRONLY);
