@@ -75,7 +75,7 @@ typedef struct passing {
 
 static passing begin(calls *c)
 {
-	const carom_report blank = {77, 77, 77, 77};
+	const carom_report blank = {77, 77, 77, 77, 77};
 	return (passing){measured(c), keeps_energy(c), carom_world_time(*c->slot), blank, fuzz_blank()};
 }
 
