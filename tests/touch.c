@@ -243,8 +243,7 @@ typedef struct search {
 	int wall;
 	double fastest, stillness;
 	double slop, skin; /* m */
-	double
-		creep; /* CONTRACT's: an approach that begins while they touch is seen by a creep later, in which they move by the slop or less, but not before CREEP_SHORT */
+	double creep;      /* CONTRACT's, or CREEP_SHORT: so late is an approach seen that begins while they touch; they move by the slop or less */
 } search;
 
 double touch_stillness(const exact_body *a, const exact_body *b)

@@ -255,9 +255,9 @@ const struct command bench_command = {
 			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"
 			   "states, alternatives take turns, and everything is warmed up before. The device is --device or CAROM_DEVICE,\n"
-			   "else one of OpenCL, where there is one; table4 measures the CPU fallback beside it. --set fills the slots that the table\n"
-			   "does not vary; the others are the defaults. The paper's tables are of the step first_impact;\n"
-			   "in scale, --set step=NAME measures that step.\n"
+			   "else one of OpenCL, where there is one; table4 measures the CPU fallback beside it. --set fills the\n"
+			   "slots that the table does not vary; the others are the defaults. The paper's tables are of the step\n"
+			   "first_impact; in scale, --set step=NAME measures that step.\n"
 			   "An interruption ends it after the figure at hand; then no file is written.\n",
 	.options = options_table,
 	.main = bench_main,
