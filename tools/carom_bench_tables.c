@@ -191,7 +191,7 @@ const struct bench_table bench_table4 = {
 			 "memory; we wait for no display. Beside our OpenCL-bisection of triangles without drawing stands the sum of the\n"
 			 "paper's table 5, the kernels alone: 11.6 ms a step at 2^11. For the rest it has no figure without drawing.\n"
 			 "The defaults are algebraic for circles (toi=circle_quadratic) and separating for triangles: no hit is missed.\n"
-			 "Walls are as in the paper: circles are reflected by a room's, triangles hit four static boxes beside the 2^n.\n"
+			 "Walls are as in the paper: circles are reflected by a room's; of the bodies with triangles four are static boxes.\n"
 			 "CPU is Carom's CPU fallback.\n",
 	.least = 8,
 	.most = 11,
@@ -227,9 +227,9 @@ const struct bench_table bench_table5 = {
 	.notes = "Update is the kernel aabb, Bisection toi_first with toi=bisection, Forward forward_no_collision and\n"
 			 "forward_collision. The paper runs Impulse and CollisionForward only after a collision. Ours run in each step,\n"
 			 "since the device decides whether it collides; what is not needed does nothing. Our Impulse has one texel, for the\n"
-			 "pair that hits, the paper's N x N. reduce and first are not in the paper's table: its reduction is table 2. Walls\n"
-			 "are four static boxes beside the bodies, as in the paper. whole step is the wall clock while kernels are measured: launches and "
-			 "waiting are in it.\n",
+			 "pair that hits, the paper's N x N. reduce and first are not in the paper's table: its reduction is table 2. Four of\n"
+			 "the bodies are walls, static boxes, as in the paper. whole step is the wall clock while kernels are measured: launches\n"
+			 "and waiting are in it.\n",
 	.least = 8,
 	.most = 11,
 	.parts = ITEMS(kernel_parts),

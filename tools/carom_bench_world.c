@@ -45,10 +45,11 @@ static carom_status add_boxes(carom_world *world, float half, carom_error *error
 	return carom_world_add(world, boxes, BOXES, NULL, error);
 }
 
-/* The bodies between their walls. */
+/* So many bodies between their walls, which are four of them if they are boxes. */
 static carom_status create(const struct bench_subject *subject, uint32_t count, carom_world_def *def, carom_world **world, carom_error *error)
 {
-	const struct placement_def placement = {.sides = subject->sides, .count = count, .fill = 0.25, .speed = 2, .radius = 0.5, .seed = 1};
+	const uint32_t moving = count - (subject->boxes ? BOXES : 0);
+	const struct placement_def placement = {.sides = subject->sides, .count = moving, .fill = 0.25, .speed = 2, .radius = 0.5, .seed = 1};
 	carom_body_def *bodies = NULL;
 	float half;
 	carom_status status = placement_create(&placement, &bodies, &half, error);
@@ -59,7 +60,7 @@ static carom_status create(const struct bench_subject *subject, uint32_t count, 
 	def->room_max = (carom_vec2){half, half};
 	status = carom_world_create(def, world, error);
 	if (status == CAROM_OK)
-		status = carom_world_add(*world, bodies, count, NULL, error);
+		status = carom_world_add(*world, bodies, moving, NULL, error);
 	if (status == CAROM_OK && subject->boxes)
 		status = add_boxes(*world, half, error);
 	free(bodies);
@@ -74,9 +75,8 @@ static carom_status no_memory(carom_error *error)
 
 /* ---- Paths ---- */
 
-static carom_status walk(carom_world *world, struct bench_path *path, carom_error *error)
+static carom_status walk(carom_world *world, uint32_t bodies, struct bench_path *path, carom_error *error)
 {
-	const size_t bodies = carom_world_body_count(world);
 	carom_status status = carom_world_get_states(world, 0, bodies, path->states, error);
 	for (size_t stop = 1; status == CAROM_OK && stop < path->stops; stop++) {
 		status = carom_world_step(world, REPETITIONS / path->stops, NULL, error);
@@ -93,12 +93,12 @@ carom_status bench_path_create(const struct bench_part *part, uint32_t bodies, s
 	def.device = "cpu";
 	def.pipeline.step = "first_impact";
 	path->stops = part->subjects[0].work == WORK_PICTURES ? 1 : STOPS;
-	path->states = malloc(path->stops * (bodies + BOXES) * sizeof *path->states);
+	path->states = malloc(path->stops * bodies * sizeof *path->states);
 	carom_status status = path->states ? CAROM_OK : no_memory(error);
 	if (status == CAROM_OK)
 		status = create(&part->subjects[0], bodies, &def, &world, error);
 	if (status == CAROM_OK)
-		status = walk(world, path, error);
+		status = walk(world, bodies, path, error);
 	carom_world_destroy(world);
 	if (status != CAROM_OK)
 		bench_path_destroy(path);
