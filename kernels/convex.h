@@ -287,16 +287,13 @@ float pair_stillness(body a, body b)
 	return (linear_speed + turning) * APPROACH;
 }
 
-/* How long to go on, at least, from the first contact that does not approach: no farther than the slop at the bodies' speeds. */
-float creep_time(float slop, float stillness)
+/* How long to go on, at least, from a contact that does not approach: from the first no farther than the slop at the bodies' speeds; from the next, after
+ * `before`, longer, so that a search comes to its end. */
+float creep_time(float before, float slop, float stillness)
 {
+	if (before > 0.0f)
+		return before < CREEP_SHORT ? smaller(before + before, CREEP_SHORT) : before;
 	return smaller(CREEP_MOST, (slop * APPROACH) / stillness);
-}
-
-/* From the one after it: longer, so that a search comes to its end. */
-float creep_on(float creep)
-{
-	return creep < CREEP_SHORT ? smaller(creep + creep, CREEP_SHORT) : creep;
 }
 
 /* What makes a touch a hit. */

@@ -476,9 +476,10 @@
 #define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
 #define MARGIN \
 	0.5f /* slops: a search goes on to where so much is left; from a contact that does not approach, to where the bodies overlap by so much */
-#define CREEP_MOST 0.000244140625f /* 2^-12 and 2^-20 of a step: from a contact that does not approach a search goes on for the time in which */
-#define CREEP_SHORT \
-	9.5367431640625e-7f /* bodies move by no more than the slop, at most for the first; each time twice as long while below the second */
+/* From a contact that does not approach a search goes on for the time in which bodies move by the slop, at most CREEP_MOST (2^-12 of a step); from the next
+ * for twice as long while that is below CREEP_SHORT (2^-20). */
+#define CREEP_MOST 0.000244140625f
+#define CREEP_SHORT 9.5367431640625e-7f
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */
 #define STALL_LIMIT 4096                 /* of those in a row, and 16 a body, are a stall */
 #define STALL_LIMIT_BODY 16

@@ -77,7 +77,7 @@ float circles_meet(body a, body b, float slop)
 float4 search_separating(VERTICES_IN, body a, body b, float until)
 {
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
-	float t = circles_touch(a, b, slop), creep = creep_time(slop, stillness);
+	float t = circles_touch(a, b, slop), creep = 0.0f;
 	for (int i = 0; i < 2 * SEARCH_LIMIT; i++) {
 		if (i == SEARCH_LIMIT) {
 			float meet = circles_meet(a, b, slop);
@@ -93,9 +93,9 @@ float4 search_separating(VERTICES_IN, body a, body b, float until)
 		if (touching && contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), threshold_of(k.gap, slop, stillness, 1.0f).rate))
 			return hit_at(t);
 		float safe = safe_time(VERTICES, a, b, p, k, t, (touching ? -MARGIN : MARGIN) * slop);
-		t = t + (touching ? larger(safe, creep) : safe);
 		if (touching)
-			creep = creep_on(creep);
+			creep = creep_time(creep, slop, stillness);
+		t = t + (touching ? larger(safe, creep) : safe);
 	}
 	return hit_pause(smaller(t, 1.0f));
 }

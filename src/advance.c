@@ -17,6 +17,12 @@ static float *texel(float *clock, int which)
 	return clock + 4 * which;
 }
 
+/* Of what is kept as two floats. */
+static double sum_at(float *clock, int which, int high, int low)
+{
+	return (double)texel(clock, which)[high] + (double)texel(clock, which)[low];
+}
+
 static carom_status start_clock(carom_world *world, carom_error *error)
 {
 	clock_texels clock = {0};
@@ -57,10 +63,10 @@ static carom_status read_clock(carom_world *world, double start, carom_report *r
 	if (status)
 		return status;
 	report->steps = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_STEPS];
-	report->hits = (uint64_t)((double)texel(clock, CLOCK_COUNTS)[COUNTS_HITS] + (double)texel(clock, CLOCK_COUNTS)[COUNTS_HITS_LOW]);
-	report->ruled = (uint64_t)((double)texel(clock, CLOCK_RULED)[RULED_HITS] + (double)texel(clock, CLOCK_RULED)[RULED_HITS_LOW]);
+	report->hits = (uint64_t)sum_at(clock, CLOCK_COUNTS, COUNTS_HITS, COUNTS_HITS_LOW);
+	report->ruled = (uint64_t)sum_at(clock, CLOCK_RULED, RULED_HITS, RULED_HITS_LOW);
 	report->held = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_HELD];
-	report->advanced = (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED] + (double)texel(clock, CLOCK_TIME)[TIME_ELAPSED_LOW];
+	report->advanced = sum_at(clock, CLOCK_TIME, TIME_ELAPSED, TIME_ELAPSED_LOW);
 	world->time = start + report->advanced;
 	world->remaining[0] = texel(clock, CLOCK_TIME)[TIME_REMAINING];
 	world->remaining[1] = texel(clock, CLOCK_TIME)[TIME_REMAINING_LOW];

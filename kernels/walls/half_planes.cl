@@ -32,7 +32,7 @@ float wall_safe_time(VERTICES_IN, body k, float2 n, float offset, float t, float
 /* As for pairs: conservative advancement. *done is 0 if the search was not finished. */
 float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 {
-	float slop = wall_slop(k), stillness = wall_stillness(k), creep = creep_time(slop, stillness), t = 0.0f;
+	float slop = wall_slop(k), stillness = wall_stillness(k), creep = 0.0f, t = 0.0f;
 	if (((inner(n, k.x) - offset) - k.radius) - (norm(k.v) + norm(k.a)) > slop)
 		return INFINITY;
 	for (int i = 0; i < SEARCH_LIMIT; i++) {
@@ -43,9 +43,9 @@ float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 		if (touching && contact_is_hit(wall_contact(VERTICES, k, n, t, slop), threshold_of(gap, slop, stillness, 1.0f).rate))
 			return t;
 		float safe = wall_safe_time(VERTICES, k, n, offset, t, (touching ? -MARGIN : MARGIN) * slop);
-		t = t + (touching ? larger(safe, creep) : safe);
 		if (touching)
-			creep = creep_on(creep);
+			creep = creep_time(creep, slop, stillness);
+		t = t + (touching ? larger(safe, creep) : safe);
 	}
 	*done = 0.0f;
 	return smaller(t, 1.0f);

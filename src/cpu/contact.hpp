@@ -99,16 +99,11 @@ void add_face_points(Contact<T> &contact, const Convex<T> &reference, const Conv
 		add(pose.to_a(incident.vertex(axis.deepest)));
 }
 
-/* The least a search goes on from a contact that does not approach, at first: the time in which the bodies move by the slop. */
-template <typename T> T creep_time(T slop, T stillness)
+/* The least a search goes on from a contact that does not approach: from the first the time in which the bodies move by the slop, and then, `before` being
+ * the last, longer, for what turns fast and does not get away within a few of them would take too many. */
+template <typename T> T creep_time(T before, T slop, T stillness)
 {
-	return smaller(T(CREEP_MOST), (slop * T(APPROACH)) / stillness);
-}
-
-/* From the next such contact: what turns fast and does not get away within a few of them would take too many. */
-template <typename T> T longer_creep(T creep)
-{
-	return larger(creep, smaller(2 * creep, T(CREEP_SHORT)));
+	return before > 0 ? larger(before, smaller(2 * before, T(CREEP_SHORT))) : smaller(T(CREEP_MOST), (slop * T(APPROACH)) / stillness);
 }
 
 template <typename T> Contact<T> contact_at(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose_of_a, const Axis<T> &axis, T slop)

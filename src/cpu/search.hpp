@@ -74,7 +74,7 @@ template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a,
 
 template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 {
-	T t = circles_touch(pair.a, pair.b, pair.slop), creep = creep_time(pair.slop, pair.stillness);
+	T t = circles_touch(pair.a, pair.b, pair.slop), creep = 0;
 	for (int k = 0; k < 2 * SEARCH_LIMIT; k++) {
 		if (k == SEARCH_LIMIT) {
 			const T meet = circles_meet(pair.a, pair.b, pair.slop);
@@ -90,8 +90,9 @@ template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 		if (touching && pair.is_hit(pose_at_t, axis))
 			return hit_at(t);
 		T safe = safe_time(pair, pose_at_t, axis, t, (touching ? T(-MARGIN) : T(MARGIN)) * pair.slop);
+		if (touching)
+			creep = creep_time(creep, pair.slop, pair.stillness);
 		t = t + (touching ? larger(safe, creep) : safe);
-		creep = touching ? longer_creep(creep) : creep;
 	}
 	return pause_at(smaller(t, T(1)));
 }

@@ -42,7 +42,7 @@ template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, con
 {
 	if ((wall.height(convex.x) - convex.radius) - (norm(convex.v) + norm(convex.a)) > slop)
 		return {NO_HIT, 1};
-	T t = 0, creep = creep_time(slop, stillness);
+	T t = 0, creep = 0;
 	for (int k = 0; k < SEARCH_LIMIT; k++) {
 		if (!(t <= 1))
 			return {NO_HIT, 1};
@@ -53,8 +53,9 @@ template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, con
 		if (touching && wall_contact(convex, wall, t, slop).is_below(Threshold<T>(gap, slop, stillness).rate))
 			return {t, 1};
 		T safe = safe_time(convex, wall, m, base, t, (touching ? T(-MARGIN) : T(MARGIN)) * slop);
+		if (touching)
+			creep = creep_time(creep, slop, stillness);
 		t = t + (touching ? larger(safe, creep) : safe);
-		creep = touching ? longer_creep(creep) : creep;
 	}
 	return {smaller(t, T(1)), 0};
 }
