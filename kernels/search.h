@@ -78,6 +78,8 @@ float4 search_separating(VERTICES_IN, body a, body b, float until)
 {
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
 	float t = circles_touch(a, b, slop), creep = 0.0f;
+	if (t <= until && polygons_stay_apart(VERTICES, a, b, t, until, slop))
+		return hit_none();
 	for (int i = 0; i < 2 * SEARCH_LIMIT; i++) {
 		if (i == SEARCH_LIMIT) {
 			float meet = circles_meet(a, b, slop);

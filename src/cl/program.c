@@ -11,9 +11,9 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][21] = {
-	{"layout", "texture", "numbers", "body", "convex", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster", "mend",
-		"answer", "heap", "queue", "seek", "rest"},
+static const char *const headers[2][22] = {
+	{"layout", "texture", "numbers", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster",
+		"mend", "answer", "heap", "queue", "seek", "rest"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
 };
 

@@ -3,7 +3,7 @@
 #ifndef CAROM_CPU_SEARCH_HPP
 #define CAROM_CPU_SEARCH_HPP
 
-#include "cpu/toi.hpp"
+#include "cpu/apart.hpp"
 
 namespace carom::cpu {
 
@@ -75,6 +75,8 @@ template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a,
 template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 {
 	T t = circles_touch(pair.a, pair.b, pair.slop), creep = 0;
+	if (t <= pair.until && polygons_stay_apart(pair, t))
+		return no_hit<T>();
 	for (int k = 0; k < 2 * SEARCH_LIMIT; k++) {
 		if (k == SEARCH_LIMIT) {
 			const T meet = circles_meet(pair.a, pair.b, pair.slop);

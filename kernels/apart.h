@@ -1,0 +1,65 @@
+/* Most pairs of polygons whose circles touch in a step stay apart, which can be proved faster than a search would find it out: CONTRACT.md, "toi". No result depends on
+ * what is proved here, so it need not be rounded in a certain way. */
+
+/* (cosine, sine), to a millionth for angles up to a thousand. */
+INLINE void rotations_of(float4 angle, float4 *c, float4 *s)
+{
+	float4 k = (angle * TWO_OVER_PI + 12582912.0f) - 12582912.0f; /* 3 2^22: what is added to it is rounded to an integer */
+	int4 quarters = convert_int4(k), odd = -(quarters & 1);
+	float4 x = ((angle - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3, z = x * x;
+	float4 sine = x + (x * z) * (SINE_3 + z * (SINE_5 + z * SINE_7));
+	float4 cosine = (1.0f - 0.5f * z) + (z * z) * (COSINE_4 + z * (COSINE_6 + z * COSINE_8));
+	*c = select(cosine, sine, odd) * convert_float4(1 - ((quarters + 1) & 2));
+	*s = select(sine, cosine, odd) * convert_float4(1 - (quarters & 2));
+}
+
+/* How far a face has to be from the other body at t, and at a time after that, so that it separates them in between, however they turn, and so that a search would get there in
+ * less than SEARCH_LIMIT steps, each of which is at least 2 gap / (2 rate + sqrt(2 bend gap)) long. Lengths are |x| + |y|, which is no less. */
+float apart_enough(body a, body b, float time, float slop)
+{
+	float push = span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), speed = span((float2)(b.v.x - a.v.x, b.v.y - a.v.y)) + push;
+	float reach = span((float2)(b.x.x - a.x.x, b.x.y - a.x.y)) + speed, radius = larger(a.radius, b.radius);
+	float twist = larger(magnitude(a.b), magnitude(b.b)), twisting = magnitude(a.b - b.b);
+	float spin = larger(magnitude(a.w), magnitude(b.w)) + twist, turning = magnitude(a.w - b.w) + twisting;
+	float rate = (speed + spin * reach + turning * radius) * time;
+	float bend = ((turning * turning * radius + spin * spin * reach + 2.0f * spin * speed) + (push + twist * reach + twisting * radius)) * (time * time);
+	return 0.125f * bend + larger(larger(rate * 0.03125f, bend * 0.01f), 8.0f * slop);
+}
+
+/* The corner and the normal of a side, the last one where there are no more. */
+INLINE float4 corner_load(VERTICES_IN, body k, int j)
+{
+	int at = j < k.count ? j : k.count - 1;
+	float2 from = vertex_load(VERTICES, k.first, at), to = vertex_load(VERTICES, k.first, at + 1 < k.count ? at + 1 : 0);
+	float2 n = normal_load(VERTICES, k.first, at, to);
+	return (float4)(from.x, from.y, n.x, n.y);
+}
+
+/* Do two polygons surely stay apart from t until then? The lanes are: from A at t, from A then, from B at t, from B then. */
+bool polygons_stay_apart(VERTICES_IN, body a, body b, float t, float until, float slop)
+{
+	if (a.count == 1 || b.count == 1 || !(magnitude(a.r) + magnitude(a.w) + magnitude(a.b) < 1000.0f && magnitude(b.r) + magnitude(b.w) + magnitude(b.b) < 1000.0f))
+		return false;
+	float2 x = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y), push = (float2)(b.a.x - a.a.x, b.a.y - a.a.y);
+	float2 d = place(x, v, push, t), e = place(x, v, push, until);
+	float4 angle = (float4)(place1(a.r, a.w, a.b, t), place1(a.r, a.w, a.b, until), place1(b.r, b.w, b.b, t), place1(b.r, b.w, b.b, until));
+	float4 dx = (float4)(d.x, e.x, -d.x, -e.x), dy = (float4)(d.y, e.y, -d.y, -e.y), own_c, own_s, far = (float4)(-INFINITY);
+	rotations_of(angle, &own_c, &own_s);
+	float4 c = own_c * own_c.zwxy + own_s * own_s.zwxy, s = own_c * own_s.zwxy - own_s * own_c.zwxy;
+	float4 own_x = own_c * dx + own_s * dy, own_y = own_c * dy - own_s * dx;
+	int most = max(a.count, b.count);
+	for (int j = 0; j < most; j++) {
+		float4 p = corner_load(VERTICES, a, j), q = corner_load(VERTICES, b, j);
+		float4 nx = (float4)(p.zz, q.zz), ny = (float4)(p.ww, q.ww), mx = c * nx + s * ny, my = c * ny - s * nx, low = (float4)(INFINITY);
+		for (int k = 0; k < most; k++) {
+			float2 at_a = vertex_load(VERTICES, a.first, min(k, a.count - 1)), at_b = vertex_load(VERTICES, b.first, min(k, b.count - 1));
+			float4 height = mx * (float4)(at_b.xx, at_a.xx) + my * (float4)(at_b.yy, at_a.yy);
+			low = select(low, height, height < low);
+		}
+		low += (nx * own_x + ny * own_y) - (nx * (float4)(p.xx, q.xx) + ny * (float4)(p.yy, q.yy));
+		low = select(low, low.yxwz, low.yxwz < low);
+		far = select(far, low, low > far);
+	}
+	float enough = apart_enough(a, b, until - t, slop);
+	return far.x > enough || far.z > enough;
+}
