@@ -153,7 +153,7 @@ static carom_body_def random_shape(scenery_random *random, carom_vec2 *corners)
 	return def;
 }
 
-/* In metres and radians a step of `length` seconds: up to 8 m and a whole turn, accelerations likewise. */
+/* In metres and radians in `length` seconds: up to 8 m and a whole turn, accelerations likewise. */
 static void set_moving(scenery_random *random, carom_body_def *def, double length)
 {
 	const double speed = pow(10.0, uniform(random, -1.0, 0.9)) / length, way = uniform(random, -3.1415926, 3.1415926);
@@ -167,15 +167,18 @@ static void set_moving(scenery_random *random, carom_body_def *def, double lengt
 	}
 }
 
-static void make_pair(scenery_random *random, carom_body_def *defs, carom_vec2 (*corners)[8], double length)
+static void make_pair(scenery_random *random, pairs_kind kind, carom_body_def *defs, carom_vec2 (*corners)[8], double length)
 {
 	const double far = uniform(random, 0.0, 1.0) < 0.8 ? 1.0 : 50.0;
+	const double slower = kind == PAIRS_PASSING ? pow(10.0, uniform(random, 0.0, 2.5)) : 1.0;
 	for (int i = 0; i < 2; i++) {
-		defs[i] = random_shape(random, corners[i]);
+		do
+			defs[i] = random_shape(random, corners[i]);
+		while (kind == PAIRS_PASSING && defs[i].shape == CAROM_CIRCLE);
 		defs[i].angle = (float)uniform(random, -3.1, 3.1);
 		defs[i].is_static = i == 0 && uniform(random, 0.0, 1.0) < 0.2;
 		if (!defs[i].is_static)
-			set_moving(random, &defs[i], length);
+			set_moving(random, &defs[i], length * slower);
 	}
 	defs[0].position = (carom_vec2){(float)uniform(random, -far, far), (float)uniform(random, -far, far)};
 }
@@ -221,15 +224,24 @@ static void let_graze(const exact_body *a, exact_body *b, double t, double apart
 	b->y += (rate * t + apart) * ny;
 }
 
+/* The second passes the first at any distance, from far less to more than its size, or would if it did not hit it a little. */
+static void pass(scenery_random *random, const exact_body *a, exact_body *b, double t)
+{
+	const double apart = pow(10.0, uniform(random, -5.0, 0.0));
+	let_graze(a, b, t, uniform(random, 0.0, 1.0) < 0.8 ? apart : -0.1 * apart);
+}
+
 /* Apart at the start, then touching, grazing or somewhere in the neighbourhood. */
-static void aim(scenery_random *random, const exact_body *a, exact_body *b)
+static void aim(scenery_random *random, pairs_kind kind, const exact_body *a, exact_body *b)
 {
 	const exact_body wish = *b;
 	do {
 		const double t = uniform(random, 0.05, 1.0), way = uniform(random, -3.1415926, 3.1415926), choice = uniform(random, 0.0, 1.0);
 		*b = wish;
 		put_touching(a, b, t, way);
-		if (choice < 0.4) {
+		if (kind == PAIRS_PASSING) {
+			pass(random, a, b, t);
+		} else if (choice < 0.4) {
 			const double least = choice < 0.25 ? 1e-4 : 1e-5;
 			let_graze(a, b, t, uniform(random, -least, least));
 		} else if (choice < 0.5) {
@@ -239,16 +251,16 @@ static void aim(scenery_random *random, const exact_body *a, exact_body *b)
 	} while (exact_distance(a, b, 0.0) < 1e-3);
 }
 
-void pairs_random(scenery_random *random, carom_world *world, pairs_batch *batch)
+void pairs_random(scenery_random *random, pairs_kind kind, carom_world *world, pairs_batch *batch)
 {
 	const double length = (double)carom_world_get_def(world)->time_step;
 	for (size_t k = 0; k < PAIRS_BODIES; k += 2)
-		make_pair(random, batch->bodies + k, batch->vertices + k, length);
+		make_pair(random, kind, batch->bodies + k, batch->vertices + k, length);
 	fill(world, batch->bodies, PAIRS_BODIES);
 	for (uint32_t k = 0; k < PAIRS_BODIES; k += 2) {
 		const exact_body a = exact_of(world, k);
 		exact_body b = exact_of(world, k + 1);
-		aim(random, &a, &b);
+		aim(random, kind, &a, &b);
 		batch->bodies[k + 1].position = (carom_vec2){(float)b.x, (float)b.y};
 		batch->bodies[k + 1].velocity = (carom_vec2){(float)(b.vx / length), (float)(b.vy / length)};
 	}

@@ -29,8 +29,14 @@ typedef struct pairs_batch {
 	carom_vec2 vertices[PAIRS_BODIES][8];
 } pairs_batch;
 
+/* What two bodies mostly do in the step. */
+typedef enum pairs_kind {
+	PAIRS_TOUCHING, /* they touch; two of five only just or only just not */
+	PAIRS_PASSING   /* polygons that pass each other, at any distance; one of five touches */
+} pairs_kind;
+
 /* Circles, triangles to octagons, irregular polygons and thin boxes, slow and fast, turning and not, some accelerated and
- * some against a static one: most touch in the step, two of five only just or only just not. `world` is for measuring them. */
-void pairs_random(scenery_random *random, carom_world *world, pairs_batch *batch);
+ * some against a static one. `world` is for measuring them. */
+void pairs_random(scenery_random *random, pairs_kind kind, carom_world *world, pairs_batch *batch);
 
 #endif
