@@ -22,7 +22,8 @@ float apart_enough(body a, body b, float time, float slop)
 	float twist = larger(magnitude(a.b), magnitude(b.b)), twisting = magnitude(a.b - b.b);
 	float spin = larger(magnitude(a.w), magnitude(b.w)) + twist, turning = magnitude(a.w - b.w) + twisting;
 	float rate = (speed + spin * reach + turning * radius) * time;
-	float bend = ((turning * turning * radius + spin * spin * reach + 2.0f * spin * speed) + (push + twist * reach + twisting * radius)) * (time * time);
+	float bend = ((turning * turning * radius + spin * spin * reach + 2.0f * spin * speed) + (push + twist * reach + twisting * radius))
+		* (time * time);
 	return 0.125f * bend + larger(larger(rate * 0.03125f, bend * 0.01f), 8.0f * slop);
 }
 
@@ -38,7 +39,8 @@ INLINE float4 corner_load(VERTICES_IN, body k, int j)
 /* Do two polygons surely stay apart from t until then? The lanes are: from A at t, from A then, from B at t, from B then. */
 bool polygons_stay_apart(VERTICES_IN, body a, body b, float t, float until, float slop)
 {
-	if (a.count == 1 || b.count == 1 || !(magnitude(a.r) + magnitude(a.w) + magnitude(a.b) < 1000.0f && magnitude(b.r) + magnitude(b.w) + magnitude(b.b) < 1000.0f))
+	if (a.count == 1 || b.count == 1
+		|| !(magnitude(a.r) + magnitude(a.w) + magnitude(a.b) < 1000.0f && magnitude(b.r) + magnitude(b.w) + magnitude(b.b) < 1000.0f))
 		return false;
 	float2 x = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y), push = (float2)(b.a.x - a.a.x, b.a.y - a.a.y);
 	float2 d = place(x, v, push, t), e = place(x, v, push, until);

@@ -363,7 +363,7 @@ static void bisection_misses_crossings(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test(random_pairs), cmocka_unit_test(passing_pairs), cmocka_unit_test(known_cases),
-		cmocka_unit_test(bisection_misses_crossings)};
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(random_pairs), cmocka_unit_test(passing_pairs), cmocka_unit_test(known_cases), cmocka_unit_test(bisection_misses_crossings)};
 	return cmocka_run_group_tests_name("separating", tests, NULL, NULL);
 }

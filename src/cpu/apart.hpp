@@ -51,7 +51,8 @@ public:
 
 	FourViews(const Convex<T> &a, const Convex<T> &b, T first, T second) : count(std::max(a.count, b.count))
 	{
-		const Vec<T> d = b.x - a.x, v = b.v - a.v, acceleration = b.a - a.a, d1 = place(d, v, acceleration, first), d2 = place(d, v, acceleration, second);
+		const Vec<T> d = b.x - a.x, v = b.v - a.v, acceleration = b.a - a.a, d1 = place(d, v, acceleration, first),
+					 d2 = place(d, v, acceleration, second);
 		const Lanes<T> angles{a.angle_at(first), a.angle_at(second), b.angle_at(first), b.angle_at(second)};
 		const Lanes<T> dx{d1.x(), d2.x(), -d1.x(), -d2.x()}, dy{d1.y(), d2.y(), -d1.y(), -d2.y()};
 		Lanes<T> own_c, own_s, other_c, other_s;
@@ -64,7 +65,8 @@ public:
 			Lanes<T> p, q, vertex_x, vertex_y, face_x, face_y;
 			std::memcpy(&p, a.corners + std::min(k, a.count - 1), sizeof p);
 			std::memcpy(&q, b.corners + std::min(k, b.count - 1), sizeof q);
-			pick<4, 4, 0, 0, T>(p, q, vertex_x), pick<5, 5, 1, 1, T>(p, q, vertex_y), pick<0, 0, 4, 4, T>(p, q, face_x), pick<1, 1, 5, 5, T>(p, q, face_y);
+			pick<4, 4, 0, 0, T>(p, q, vertex_x), pick<5, 5, 1, 1, T>(p, q, vertex_y), pick<0, 0, 4, 4, T>(p, q, face_x),
+				pick<1, 1, 5, 5, T>(p, q, face_y);
 			pick<2, 2, 6, 6, T>(p, q, normal_x[k]), pick<3, 3, 7, 7, T>(p, q, normal_y[k]);
 			x[k] = from_x + (c * vertex_x - s * vertex_y);
 			y[k] = from_y + (s * vertex_x + c * vertex_y);
