@@ -32,7 +32,7 @@ template <typename T> struct Haste {
 /* (cosine, sine), to a millionth for angles up to a thousand. */
 template <typename T> [[gnu::always_inline]] inline void find_rotations(const Lanes<T> &angle, Lanes<T> &c, Lanes<T> &s)
 {
-	typedef decltype(angle < angle) Quarters;
+	typedef decltype(angle < Lanes<T>{}) Quarters;
 	constexpr T whole = T(3) / (2 * std::numeric_limits<T>::epsilon()); /* what is added to it is rounded to an integer */
 	const Lanes<T> k = (angle * TWO_OVER_PI + whole) - whole, x = ((angle - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3, z = x * x;
 	const Lanes<T> sine = x + (x * z) * (SINE_3 + z * (SINE_5 + z * SINE_7));
@@ -63,8 +63,8 @@ public:
 		const Lanes<T> from_x = own_c * dx + own_s * dy, from_y = own_c * dy - own_s * dx;
 		for (int32_t k = 0; k < count; k++) {
 			Lanes<T> p, q, vertex_x, vertex_y, face_x, face_y;
-			std::memcpy(&p, a.corners + std::min(k, a.count - 1), sizeof p);
-			std::memcpy(&q, b.corners + std::min(k, b.count - 1), sizeof q);
+			load_corner(a, k, p);
+			load_corner(b, k, q);
 			pick<4, 4, 0, 0, T>(p, q, vertex_x), pick<5, 5, 1, 1, T>(p, q, vertex_y), pick<0, 0, 4, 4, T>(p, q, face_x),
 				pick<1, 1, 5, 5, T>(p, q, face_y);
 			pick<2, 2, 6, 6, T>(p, q, normal_x[k]), pick<3, 3, 7, 7, T>(p, q, normal_y[k]);
@@ -93,6 +93,12 @@ public:
 	}
 
 private:
+	/* A record of Outlines, whole. */
+	static void load_corner(const Convex<T> &body, int32_t k, Lanes<T> &corner)
+	{
+		std::memcpy(&corner, reinterpret_cast<const T *>(body.corners + std::min(k, body.count - 1)), sizeof corner);
+	}
+
 	int32_t count;
 	Lanes<T> x[most_corners], y[most_corners], normal_x[most_corners], normal_y[most_corners], offset[most_corners];
 };
