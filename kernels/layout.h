@@ -476,6 +476,12 @@
 #define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
 #define MARGIN \
 	0.5f /* slops: a search goes on to where so much is left; from a contact that does not approach, to where the bodies overlap by so much */
+/* A proof that two polygons stay apart asks for a gap that is so large, as a part of how far they move against each other in the time, of how far that bends, and in slops, that their search would
+ * take less than SEARCH_LIMIT steps: 1 / APART_RATE + 1 / sqrt(2 APART_BEND) at most, and a fifteenth more for MARGIN, which are 42. */
+#define APART_RATE 0.03125f
+#define APART_BEND 0.01f
+#define APART_SLOPS 8.0f
+#define APART_ANGLE 1000.0f /* larger ones are not turned exactly enough */
 /* From a contact that does not approach a search goes on for the time in which bodies move by the slop, at most CREEP_MOST (2^-12 of a step); from the next
  * for twice as long while that is below CREEP_SHORT (2^-20). */
 #define CREEP_MOST 0.000244140625f

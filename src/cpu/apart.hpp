@@ -25,11 +25,11 @@ template <typename T> struct Haste {
 	T enough(T time, T slop) const
 	{
 		const T bent = bend * (time * time);
-		return bent * T(1.0 / 8) + larger(larger(rate * time * T(1.0 / 32), bent * T(1.0 / 100)), 8 * slop);
+		return bent * T(1.0 / 8) + larger(larger(rate * time * T(APART_RATE), bent * T(APART_BEND)), T(APART_SLOPS) * slop);
 	}
 };
 
-/* (cosine, sine), to a millionth for angles up to a thousand. */
+/* (cosine, sine), to a millionth for angles up to APART_ANGLE: four at once, for four rotation_of make a step of triangles a twentieth longer. */
 template <typename T> [[gnu::always_inline]] inline void find_rotations(const Lanes<T> &angle, Lanes<T> &c, Lanes<T> &s)
 {
 	typedef decltype(angle < Lanes<T>{}) Quarters;
@@ -108,7 +108,8 @@ template <typename T> bool polygons_stay_apart(const Pair<T> &pair, T t)
 {
 	const Convex<T> &a = pair.a, &b = pair.b;
 	const auto is_easy = [](const Convex<T> &body) {
-		return !body.is_circle() && body.count <= FourViews<T>::most_corners && std::abs(body.r) + (std::abs(body.w) + std::abs(body.b)) < 1000;
+		return !body.is_circle() && body.count <= FourViews<T>::most_corners
+			&& std::abs(body.r) + (std::abs(body.w) + std::abs(body.b)) < T(APART_ANGLE);
 	};
 	return is_easy(a) && is_easy(b) && FourViews<T>(a, b, t, pair.until).are_apart(Haste<T>(a, b).enough(pair.until - t, pair.slop));
 }
