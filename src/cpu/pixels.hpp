@@ -8,7 +8,7 @@
 
 namespace carom::cpu {
 
-constexpr int32_t side = PIXEL_TILE, half = side / 2, area = side * side;
+constexpr int32_t side = PIXEL_TILE, half = side / 2, small = 4, area = side * side;
 
 /* Colours as squares: light adds up nearly as the squares of sRGB values do. */
 template <typename T> struct Light {
@@ -53,69 +53,64 @@ template <typename T> struct Edge {
 	T slope_x, slope_y, at, bend;
 };
 
-/* Some pixels of a row, as many as compilers make vectors of: counted from the first pixel of a shape's box. */
-template <typename T, int32_t width> struct Span {
-	T x[width], far[width];
+/* Some pixels of a tile, so many that compilers make vectors of them: counted from the first pixel of a shape's box. */
+template <typename T, int32_t columns, int32_t rows> struct Patch {
+	static constexpr int32_t count = columns * rows;
+	T x[count], y[count], far[count];
 
-	void begin(T from_x)
+	void begin(T from_x, T from_y)
 	{
 #pragma omp simd
-		for (int32_t i = 0; i < width; i++)
-			x[i] = from_x + static_cast<T>(i);
-	}
-
-	void reset()
-	{
-#pragma omp simd
-		for (int32_t i = 0; i < width; i++)
+		for (int32_t i = 0; i < count; i++) {
+			x[i] = from_x + static_cast<T>(i % columns);
+			y[i] = from_y + static_cast<T>(i / columns);
 			far[i] = -infinite<T>;
+		}
 	}
 
-	void beyond_line(const Edge<T> &edge, T y)
+	void beyond_line(const Edge<T> &edge)
 	{
-		const T a = edge.at + edge.slope_y * y;
 #pragma omp simd
-		for (int32_t i = 0; i < width; i++)
-			far[i] = larger(far[i], a + edge.slope_x * x[i]);
+		for (int32_t i = 0; i < count; i++)
+			far[i] = larger(far[i], (edge.at + edge.slope_y * y[i]) + edge.slope_x * x[i]);
 	}
 
-	void beyond_disc(const Edge<T> &edge, T y)
+	void beyond_disc(const Edge<T> &edge)
 	{
-		const T a = edge.at + (edge.slope_y + edge.bend * y) * y;
-		T s[width], square[width];
+		T s[count], square[count];
 #pragma omp simd
-		for (int32_t i = 0; i < width; i++) {
-			s[i] = a + (edge.slope_x + edge.bend * x[i]) * x[i];
+		for (int32_t i = 0; i < count; i++) {
+			s[i] = (edge.at + (edge.slope_y + edge.bend * y[i]) * y[i]) + (edge.slope_x + edge.bend * x[i]) * x[i];
 			square[i] = larger(T(0), 1 + (4 * edge.bend) * s[i]);
 		}
 #pragma omp simd
-		for (int32_t i = 0; i < width; i++)
+		for (int32_t i = 0; i < count; i++)
 			far[i] = larger(far[i], (2 * s[i]) / (1 + std::sqrt(square[i])));
 	}
 
 	/* What is outside the box is far. */
-	void mask(T box_width)
+	void mask(T width, T height)
 	{
 #pragma omp simd
-		for (int32_t i = 0; i < width; i++)
-			far[i] = ((x[i] >= 0) & (x[i] < box_width)) ? far[i] : T(1);
+		for (int32_t i = 0; i < count; i++)
+			far[i] = ((x[i] >= 0) & (x[i] < width) & (y[i] >= 0) & (y[i] < height)) ? far[i] : T(1);
 	}
 
 	/* (One loop a limit: in one for both compilers don't see that they are a minimum and a maximum.) */
 	void share(T *of, T outline) const
 	{
 #pragma omp simd
-		for (int32_t i = 0; i < width; i++)
+		for (int32_t i = 0; i < count; i++)
 			of[i] = larger(T(0), (T(0.5) - far[i]) - outline);
 #pragma omp simd
-		for (int32_t i = 0; i < width; i++)
+		for (int32_t i = 0; i < count; i++)
 			of[i] = smaller(T(1), of[i]);
 	}
 };
 
-/* What a shape does to some columns of the rows of a tile: how much of each pixel it covers, and how much of that is inside its outline. */
+/* What a shape does to some pixels of a tile, row by row: how much of each it covers, and how much of that is inside its outline. */
 template <typename T> struct Stroke {
-	int32_t width, left, top, bottom;
+	int32_t columns, rows, first; /* the first pixel */
 	T opacity;
 	Light<T> fill, outline;
 	T cover[area], inside[area];

@@ -10,18 +10,17 @@ enum : int { FROM_SHAPES, FROM_EDGES, FROM_FRAME, FROM_ENDS, FROM_LIST, LIGHT, T
 /* A shape as a tile sees it. */
 template <typename T> struct Seen {
 	int32_t shape;
-	T x0, y0, x1, width, opacity;
+	T x0, y0, x1, y1, width, opacity;
 	int32_t rest, count, top, bottom; /* edges; rows of the tile, from `top` to `bottom` - 1 */
 	T fill, outline;
 
 	Seen(const Records<T> &shapes, int32_t number, const Tile<T> &tile)
 		: shape(number), x0(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_X0)), y0(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_Y0)),
-		  x1(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_X1)), width(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_WIDTH)),
-		  opacity(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_OPACITY)),
+		  x1(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_X1)), y1(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_Y1)),
+		  width(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_WIDTH)), opacity(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_OPACITY)),
 		  rest(static_cast<int32_t>(shapes.of(SHAPES_WIDTH * shape + SHAPE_EDGES, EDGES_REST))),
 		  count(static_cast<int32_t>(shapes.of(SHAPES_WIDTH * shape + SHAPE_EDGES, EDGES_COUNT))),
-		  top(static_cast<int32_t>(larger(y0 - tile.y, T(0)))),
-		  bottom(static_cast<int32_t>(smaller(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_Y1) - tile.y, T(side)))),
+		  top(static_cast<int32_t>(larger(y0 - tile.y, T(0)))), bottom(static_cast<int32_t>(smaller(y1 - tile.y, T(side)))),
 		  fill(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_FILL)), outline(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_OUTLINE))
 	{
 	}
@@ -42,10 +41,12 @@ public:
 			finish(tile);
 		if (seen.count == 0)
 			cover(tile, seen, left, right);
-		else if (right - left <= side / 2)
-			begin<side / 2>(tile, seen, std::min(left, side / 2));
+		else if (right - left <= small && seen.bottom - seen.top <= small)
+			begin<small, small>(tile, seen, std::min(left, side - small), std::min(seen.top, side - small), small);
+		else if (right - left <= half)
+			begin<half, 1>(tile, seen, std::min(left, half), seen.top, seen.bottom - seen.top);
 		else
-			begin<side>(tile, seen, 0);
+			begin<side, 1>(tile, seen, 0, seen.top, seen.bottom - seen.top);
 	}
 
 	void finish(Tile<T> &tile)
@@ -53,10 +54,12 @@ public:
 		if (waiting > 0)
 			tile.spread();
 		for (int32_t k = 0; k < waiting; k++) {
-			if (strokes[k].width == side)
-				blend<side>(tile, strokes[k]);
+			if (strokes[k].columns == small)
+				blend<small>(tile, strokes[k], small);
+			else if (strokes[k].columns == half)
+				blend<half>(tile, strokes[k], strokes[k].rows);
 			else
-				blend<side / 2>(tile, strokes[k]);
+				blend<side>(tile, strokes[k], strokes[k].rows);
 		}
 		waiting = 0;
 	}
@@ -87,49 +90,46 @@ private:
 				std::fill(tile.light[c] + row * side + left, tile.light[c] + row * side + right, fill.channels[c]);
 	}
 
-	/* Measures `width` pixels of each row, from column `left` of the tile on. */
-	template <int32_t width> void begin(const Tile<T> &tile, const Seen<T> &seen, int32_t left)
+	/* Measures pixels from column `left` and row `top` of the tile on, `height` rows of them. */
+	template <int32_t columns, int32_t rows> void begin(const Tile<T> &tile, const Seen<T> &seen, int32_t left, int32_t top, int32_t height)
 	{
 		Stroke<T> &stroke = strokes[waiting++];
-		Span<T, width> span;
-		stroke.width = width;
-		stroke.left = left;
-		stroke.top = seen.top;
-		stroke.bottom = seen.bottom;
+		Patch<T, columns, rows> patch;
+		stroke.columns = columns;
+		stroke.rows = height;
+		stroke.first = top * side + left;
 		stroke.opacity = seen.opacity;
 		stroke.fill = Light<T>(seen.fill);
 		stroke.outline = Light<T>(seen.outline);
-		span.begin((tile.x - seen.x0) + static_cast<T>(left));
-		for (int32_t row = seen.top; row < seen.bottom; row++) {
-			const T y = (tile.y - seen.y0) + static_cast<T>(row);
-			span.reset();
-			measure(span, shapes, SHAPES_WIDTH * seen.shape + SHAPE_EDGE, y);
+		for (int32_t row = 0; row < height; row += rows) {
+			patch.begin((tile.x - seen.x0) + static_cast<T>(left), (tile.y - seen.y0) + static_cast<T>(top + row));
+			measure(patch, shapes, SHAPES_WIDTH * seen.shape + SHAPE_EDGE);
 			for (int32_t k = seen.rest; k < seen.rest + seen.count - 1; k++)
-				measure(span, edges, k, y);
-			span.mask(seen.x1 - seen.x0);
-			span.share(stroke.cover + row * side, 0);
-			span.share(stroke.inside + row * side, seen.width);
+				measure(patch, edges, k);
+			patch.mask(seen.x1 - seen.x0, seen.y1 - seen.y0);
+			patch.share(stroke.cover + row * columns, 0);
+			patch.share(stroke.inside + row * columns, seen.width);
 		}
 	}
 
-	template <int32_t width> static void measure(Span<T, width> &span, const Records<T> &edges, int32_t k, T y)
+	template <typename Patch> static void measure(Patch &patch, const Records<T> &edges, int32_t k)
 	{
 		const Edge<T> edge{edges.of(k, EDGE_SLOPE_X), edges.of(k, EDGE_SLOPE_Y), edges.of(k, EDGE_AT), edges.of(k, EDGE_BEND)};
 		if (edge.bend > 0)
-			span.beyond_disc(edge, y);
+			patch.beyond_disc(edge);
 		else
-			span.beyond_line(edge, y);
+			patch.beyond_line(edge);
 	}
 
-	template <int32_t width> static void blend(Tile<T> &tile, const Stroke<T> &stroke)
+	template <int32_t columns> static void blend(Tile<T> &tile, const Stroke<T> &stroke, int32_t rows)
 	{
-		for (int32_t at = stroke.top * side; at < stroke.bottom * side; at += side) {
-			const T *cover = stroke.cover + at, *inside = stroke.inside + at;
-			for (int c = 0; c < 3; c++) {
-				const T line = stroke.outline.channels[c], middle = stroke.fill.channels[c];
-				T *ground = tile.light[c] + at + stroke.left;
+		for (int c = 0; c < 3; c++) {
+			const T line = stroke.outline.channels[c], middle = stroke.fill.channels[c];
+			for (int32_t row = 0; row < rows; row++) {
+				const T *cover = stroke.cover + row * columns, *inside = stroke.inside + row * columns;
+				T *ground = tile.light[c] + stroke.first + row * side;
 #pragma omp simd
-				for (int32_t i = 0; i < width; i++)
+				for (int32_t i = 0; i < columns; i++)
 					ground[i] = ground[i] + stroke.opacity * ((line * (cover[i] - inside[i]) + middle * inside[i]) - cover[i] * ground[i]);
 			}
 		}
@@ -230,15 +230,22 @@ template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &fr
 }
 
 #if defined(__x86_64__)
-/* The same with longer vectors, where the processor has them: each lane is rounded as before. */
-[[gnu::target("avx2"), gnu::flatten]] static void draw_row_wide(const Job<float> &job, const Frame<float> &frame, int32_t row)
+/* The same with longer vectors, where the processor has them, or with more of them that are masked: each lane is rounded as before. */
+[[gnu::target("avx2"), gnu::flatten]] static void draw_row_avx2(const Job<float> &job, const Frame<float> &frame, int32_t row)
+{
+	draw_row(job, frame, row);
+}
+
+[[gnu::target("avx512f,avx512vl"), gnu::flatten]] static void draw_row_avx512(const Job<float> &job, const Frame<float> &frame, int32_t row)
 {
 	draw_row(job, frame, row);
 }
 
 static auto best_draw_row(float)
 {
-	return __builtin_cpu_supports("avx2") ? draw_row_wide : draw_row<float>;
+	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+		return draw_row_avx512;
+	return __builtin_cpu_supports("avx2") ? draw_row_avx2 : draw_row<float>;
 }
 #endif
 
