@@ -5,6 +5,9 @@
 
 namespace carom::cpu {
 
+/* From so many slots, or so many with hits, on what is looked at soon is fetched; fewer are in caches, and that would cost some hundredths of the time. */
+constexpr int32_t many_slots = 1 << 16, many_active = 1 << 12;
+
 /* The hits that a step begins with, of bodies that are awake: those of which it is not known that they go on without a hit. */
 template <typename T> class Seek
 {
@@ -16,7 +19,8 @@ public:
 	};
 
 	Seek(const Job<T> &job, std::vector<Seed> &room)
-		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), sieve(clusters.ahead), seeds(room)
+		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), fetched_end(job.domain[0] < many_slots ? 0 : job.domain[0]),
+		  sieve(clusters.ahead), seeds(room)
 	{
 		seeds.clear();
 	}
@@ -27,16 +31,18 @@ public:
 		const Slot<T> *const slots = clusters.slots; /* not known to stay as they are, else, where the sieve is written to */
 		const T length = clusters.length, ahead = clusters.ahead;
 		for (int32_t s = begin; s < end; s++) {
-			if (age > 0 && clusters.wakes[s].next > age)
+			if (const int32_t next = s + fetched_ahead; next < fetched_end && is_awake(next))
+				clusters.fetch_neighbours(next, clusters.watched_end(next), clusters.wakes);
+			if (!is_awake(s))
 				continue;
 			const Disc<T> disc(slots[s], length);
 			if (age == 0)
 				clusters.wakes[s].changed = 0; /* which nobody reads in this step */
-			const int32_t changed = clusters.wakes[s].changed;
+			const int32_t changed = clusters.wakes[s].changed, last = clusters.watched_end(s);
 			clusters.wake_at(s, clusters.ahead + 1);
 			if (!clusters.stays_inside(s, Trajectory<T>(clusters.slots[s]), clusters.ahead + 1))
 				walls(s);
-			clusters.each_neighbour(s, changed > 0 ? clusters.spans[s].end : clusters.spans[s].half, [&](int32_t other, bool is_first) {
+			clusters.each_neighbour(s, last, [&](int32_t other, bool is_first) {
 				const int32_t other_changed = age > 0 ? clusters.wakes[other].changed : 0;
 				if (is_first ? changed < other_changed : changed <= other_changed)
 					return;
@@ -51,6 +57,10 @@ public:
 	}
 
 private:
+	static constexpr int32_t fetched_ahead = 16; /* slots */
+
+	bool is_awake(int32_t s) const { return age == 0 || clusters.wakes[s].next <= age; }
+
 	void pair(int32_t s, int32_t other, const Approach<T> &approach)
 	{
 		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
@@ -114,7 +124,7 @@ private:
 	}
 
 	const Clusters<T> clusters;
-	const int32_t round, age;
+	const int32_t round, age, fetched_end;
 	Sieve<T> sieve;
 	std::vector<Seed> &seeds;
 };
@@ -164,6 +174,22 @@ template <typename T> static void muster(const Job<T> &job)
 	});
 }
 
+/* While one number's cluster is run, what those after it look at is fetched. */
+template <typename T>
+[[gnu::always_inline]] static inline void fetch_active(const Clusters<T> &clusters, const Box<T> *boxes, int32_t id, int32_t count)
+{
+	constexpr int32_t ahead = 4; /* numbers */
+	const auto slot_of = [&](int32_t number) { return number < count ? clusters.active[number] : -1; };
+	if (const int32_t s = slot_of(id + 3 * ahead); s >= 0)
+		clusters.fetch_span(s);
+	if (const int32_t s = slot_of(id + 2 * ahead); s >= 0) {
+		clusters.fetch_list(s);
+		__builtin_prefetch(&boxes[s]);
+	}
+	if (const int32_t s = slot_of(id + ahead); s >= 0)
+		clusters.fetch_neighbours(s, clusters.spans[s].end, clusters.owners);
+}
+
 template <typename T> static void resolve(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 15);
@@ -172,11 +198,14 @@ template <typename T> static void resolve(const Job<T> &job)
 		return;
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(12));
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(13));
-	job.pool.run(clusters.status[STATUS_SEEDS], 64, [&](int32_t begin, int32_t end) {
+	const int32_t count = clusters.status[STATUS_SEEDS];
+	job.pool.run(count, 64, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<int32_t> room;
 		Tally tally{};
 		for (int32_t id = begin; id < end; id++) {
 			const Member &member = clusters.members[id];
+			if (count >= many_active)
+				fetch_active(clusters, boxes, id, count);
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
 				tally += Queue<T>(clusters, work, boxes, job.list(14), id, round, room).run();
 		}
