@@ -6,7 +6,7 @@
 namespace carom::cpu {
 
 /* From so many slots, or so many with hits, on what is looked at soon is fetched; fewer are in caches, and that would cost some hundredths of the time. */
-constexpr int32_t many_slots = 1 << 16, many_active = 1 << 12;
+constexpr int32_t many_slots = 1 << 18, many_active = 1 << 12;
 
 /* The hits that a step begins with, of bodies that are awake: those of which it is not known that they go on without a hit. */
 template <typename T> class Seek
@@ -31,8 +31,8 @@ public:
 		const Slot<T> *const slots = clusters.slots; /* not known to stay as they are, else, where the sieve is written to */
 		const T length = clusters.length, ahead = clusters.ahead;
 		for (int32_t s = begin; s < end; s++) {
-			if (const int32_t next = s + fetched_ahead; next < fetched_end && is_awake(next))
-				clusters.fetch_neighbours(next, clusters.watched_end(next), clusters.wakes);
+			if (fetched_end > 0)
+				fetch(s);
 			if (!is_awake(s))
 				continue;
 			const Disc<T> disc(slots[s], length);
@@ -58,6 +58,18 @@ public:
 
 private:
 	static constexpr int32_t fetched_ahead = 16; /* slots */
+
+	/* What slots after this one look at. */
+	[[gnu::always_inline]] void fetch(int32_t s) const
+	{
+		const auto is_to_be_fetched = [&](int32_t slot) { return slot < fetched_end && is_awake(slot); };
+		if (is_to_be_fetched(s + 3 * fetched_ahead))
+			clusters.fetch_span(s + 3 * fetched_ahead);
+		if (is_to_be_fetched(s + 2 * fetched_ahead))
+			clusters.fetch_list(s + 2 * fetched_ahead);
+		if (const int32_t next = s + fetched_ahead; is_to_be_fetched(next))
+			clusters.fetch_neighbours(next, clusters.watched_end(next), clusters.wakes);
+	}
 
 	bool is_awake(int32_t s) const { return age == 0 || clusters.wakes[s].next <= age; }
 
