@@ -49,7 +49,11 @@ public:
 		__builtin_prefetch(&extra[s]);
 	}
 
-	[[gnu::always_inline]] void fetch_list(int32_t s) const { __builtin_prefetch(&neighbours[spans[s].start]); }
+	[[gnu::always_inline]] void fetch_list(int32_t s) const
+	{
+		__builtin_prefetch(&neighbours[spans[s].start]);
+		__builtin_prefetch(&neighbours[spans[s].end]);
+	}
 
 	template <typename Beside> [[gnu::always_inline]] void fetch_neighbours(int32_t s, int32_t end, const Beside *beside) const
 	{
