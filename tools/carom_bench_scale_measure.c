@@ -9,6 +9,7 @@
 #define START_SECONDS 10.0 /* the steps before all may take */
 #define WARM_BATCHES 2     /* the steps before, of each engine, last as long as that */
 #define LEAST_WARM 2
+#define LEAST_STEPS 10                 /* of Carom in a batch: every few steps it makes its lists of neighbours anew */
 #define UNTIMED 2                      /* steps after another engine had the caches; where batches are long it makes no difference */
 #define COPY_BYTES ((size_t)256 << 20) /* more than caches hold */
 
@@ -46,12 +47,13 @@ static carom_status warm_up(struct scale_runner *runner, double least, double *s
 	return status;
 }
 
-/* A round number. */
-static uint64_t choose_steps(double wanted)
+/* A round number, for what takes so many seconds a step. */
+static uint64_t choose_steps(const struct scale_runner *runner, double seconds, const struct bench_options *options)
 {
 	static const uint64_t rounds[] = {1000, 500, 200, 100, 50, 20, 10, 5, 2};
+	const double least = runner->world && seconds < SCALE_SLOW ? LEAST_STEPS : 1, wanted = options->seconds / seconds;
 	for (size_t k = 0; k < sizeof rounds / sizeof *rounds; k++) {
-		if ((double)rounds[k] <= wanted)
+		if ((double)rounds[k] <= (wanted > least ? wanted : least))
 			return rounds[k];
 	}
 	return 1;
@@ -104,7 +106,7 @@ static carom_status prepare(struct scale_result *result, size_t shape, size_t ro
 	if (status == CAROM_OK)
 		status = scale_runner_draw(runner, error);
 	if (status == CAROM_OK) {
-		cell->steps = choose_steps(options->seconds / seconds);
+		cell->steps = choose_steps(runner, seconds, options);
 		return CAROM_OK;
 	}
 	scale_runner_destroy(runner);
