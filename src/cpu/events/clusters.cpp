@@ -19,8 +19,8 @@ public:
 	};
 
 	Seek(const Job<T> &job, std::vector<Seed> &room)
-		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), fetched_end(job.domain[0] < many_slots ? 0 : job.domain[0]),
-		  sieve(clusters.ahead), seeds(room)
+		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), is_large(job.domain[0] >= many_slots), sieve(clusters.ahead),
+		  seeds(room)
 	{
 		seeds.clear();
 	}
@@ -31,8 +31,8 @@ public:
 		const Slot<T> *const slots = clusters.slots; /* not known to stay as they are, else, where the sieve is written to */
 		const T length = clusters.length, ahead = clusters.ahead;
 		for (int32_t s = begin; s < end; s++) {
-			if (fetched_end > 0)
-				fetch(s);
+			if (is_large)
+				fetch(s, end);
 			if (!is_awake(s))
 				continue;
 			const Disc<T> disc(slots[s], length);
@@ -59,10 +59,10 @@ public:
 private:
 	static constexpr int32_t fetched_ahead = 16; /* slots */
 
-	/* What slots after this one look at. */
-	[[gnu::always_inline]] void fetch(int32_t s) const
+	/* What slots after this one look at, up to an end: others are another thread's. */
+	[[gnu::always_inline]] void fetch(int32_t s, int32_t end) const
 	{
-		const auto is_to_be_fetched = [&](int32_t slot) { return slot < fetched_end && is_awake(slot); };
+		const auto is_to_be_fetched = [&](int32_t slot) { return slot < end && is_awake(slot); };
 		if (is_to_be_fetched(s + 3 * fetched_ahead))
 			clusters.fetch_span(s + 3 * fetched_ahead);
 		if (is_to_be_fetched(s + 2 * fetched_ahead))
@@ -136,7 +136,8 @@ private:
 	}
 
 	const Clusters<T> clusters;
-	const int32_t round, age, fetched_end;
+	const int32_t round, age;
+	const bool is_large;
 	Sieve<T> sieve;
 	std::vector<Seed> &seeds;
 };
