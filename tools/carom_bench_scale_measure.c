@@ -51,9 +51,11 @@ static carom_status warm_up(struct scale_runner *runner, double least, double *s
 static uint64_t choose_steps(const struct scale_runner *runner, double seconds, const struct bench_options *options)
 {
 	static const uint64_t rounds[] = {1000, 500, 200, 100, 50, 20, 10, 5, 2};
-	const double least = runner->world && seconds < SCALE_SLOW ? LEAST_STEPS : 1, wanted = options->seconds / seconds;
+	double wanted = options->seconds / seconds;
+	if (runner->world && seconds < SCALE_SLOW && wanted < LEAST_STEPS)
+		wanted = LEAST_STEPS;
 	for (size_t k = 0; k < sizeof rounds / sizeof *rounds; k++) {
-		if ((double)rounds[k] <= (wanted > least ? wanted : least))
+		if ((double)rounds[k] <= wanted)
 			return rounds[k];
 	}
 	return 1;
