@@ -48,7 +48,7 @@ void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spa
 	for (int level = 0; level < CELL_LEVELS; level++) {
 		if (!(status[STATUS_LEVELS] & (1 << level)))
 			continue;
-		int2 low, high = cells_around(box, level_side(status, level), columns, rows, &low);
+		int2 low, high = cells_around(box, level_side(status, level), columns, level_rows(rows, level), &low);
 		for (int y = low.y; y <= high.y; y++)
 			for (int x = low.x; x <= high.x; x++) {
 				int cell = CELL_WIDTH * cell_index((int2)(x, y), level, columns, rows);

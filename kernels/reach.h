@@ -92,12 +92,6 @@ float half_of(float4 box)
 	return 0.5f * larger(box.z - box.x, box.w - box.y);
 }
 
-/* Bodies of a level have boxes whose half is above the first, and at most the second. */
-float2 level_sizes(LIST_IN(status), int level)
-{
-	return (float2)(level > 0 ? level_side(status, level - 1) : -1.0f, level < CELL_LEVELS - 1 ? level_side(status, level) : INFINITY);
-}
-
 /* The level whose cells are at least half as large as the box, which is in the cell of its middle. */
 int reach_level(float4 box, float side)
 {
@@ -120,6 +114,20 @@ int2 cell_of(float2 x, float side)
 	return (int2)(cell_floor(x.x / side), cell_floor(x.y / side));
 }
 
+/* Each level of the grid is a torus with half as many rows as the one before. */
+int level_rows(int rows, int level)
+{
+	return max(rows >> level, 1);
+}
+
+int row_level(int rows, int row)
+{
+	int level = 0;
+	while (row >= CELL_FIRST_ROW(rows, level + 1))
+		level++;
+	return level;
+}
+
 /* The last and the first of the cells of a level in which bodies could be whose boxes touch this one; once round is enough. */
 int2 cells_around(float4 box, float side, int columns, int rows, int2 *low)
 {
@@ -128,10 +136,9 @@ int2 cells_around(float4 box, float side, int columns, int rows, int2 *low)
 	return (int2)(min(high.x, low->x + columns - 1), min(high.y, low->y + rows - 1));
 }
 
-/* The grid is a torus, and its levels lie upon one another, shifted. */
 int cell_index(int2 cell, int level, int columns, int rows)
 {
-	return ((cell.y + 7 * level) & (rows - 1)) * columns + ((cell.x + 11 * level) & (columns - 1));
+	return (CELL_FIRST_ROW(rows, level) + (cell.y & (level_rows(rows, level) - 1))) * columns + (cell.x & (columns - 1));
 }
 
 void member_reset(LIST_OUT(members), int id)
@@ -195,13 +202,12 @@ INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slo
 }
 
 /* The slots of one level in places [from, to) whose reach touches this one's. */
-INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, float2 sizes,
+INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box,
 	bool stands, bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	for (int other = from; other < to; other++) {
 		float4 b = reach[other];
-		float half_size = half_of(b);
-		int near = (other != s) & (b.x <= box.z) & (b.z >= box.x) & (b.y <= box.w) & (b.w >= box.y) & (half_size > sizes.x) & (half_size <= sizes.y);
+		int near = (other != s) & (b.x <= box.z) & (b.z >= box.x) & (b.y <= box.w) & (b.w >= box.y);
 		if (stands && near && slot_is_static(slots, other))
 			near = 0;
 		near_add(list, neighbours, half_at, other, !same_level || other > s, near);
@@ -220,18 +226,17 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
 			continue;
 		float side = level_side(status, level);
-		float2 sizes = level_sizes(status, level);
-		int2 low, high = cells_around(box, side, columns, rows, &low);
+		int2 low, high = cells_around(box, side, columns, level_rows(rows, level), &low);
 		for (int y = low.y; y <= high.y; y++) {
 			int first = cell_index((int2)(low.x, y), level, columns, rows), last = cell_index((int2)(high.x, y), level, columns, rows);
 			int row = first - (first & (columns - 1));
 			int from = cells[CELL_WIDTH * first + CELL_START], to = cells[CELL_WIDTH * last + CELL_END];
 			if (last < first) {
-				near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own, cells[CELL_WIDTH * row + CELL_START], to, list,
+				near_range(slots, reach, status, nodes, members, s, box, stands, level == own, cells[CELL_WIDTH * row + CELL_START], to, list,
 					neighbours, half_at);
 				to = cells[CELL_WIDTH * (row + columns - 1) + CELL_END];
 			}
-			near_range(slots, reach, status, nodes, members, s, box, sizes, stands, level == own, from, to, list, neighbours, half_at);
+			near_range(slots, reach, status, nodes, members, s, box, stands, level == own, from, to, list, neighbours, half_at);
 		}
 	}
 }

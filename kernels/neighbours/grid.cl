@@ -22,11 +22,11 @@ __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIS
 		atomic_or(&status[STATUS_LEVELS], 1 << level);
 }
 
-/* A row of cells gets its places together, so that cells beside each other are so in memory. */
+/* A row of cells gets its places together, so that cells beside each other are so in memory. Levels that have no bodies are not looked at. */
 __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 {
 	int row = get_global_id(0), sum = 0;
-	if (row >= domain.x)
+	if (row >= domain.x || !(status[STATUS_LEVELS] & (1 << row_level(domain.w, row))))
 		return;
 	__global int *first = cells + (size_t)CELL_WIDTH * (size_t)(row * domain.z);
 	for (int i = 0; i < domain.z; i++)

@@ -76,7 +76,7 @@ struct Cell {
 	int32_t x, y;
 };
 
-/* The grid is a torus; its levels lie upon one another, shifted. */
+/* Each level of the grid is a torus. */
 struct Grid {
 	float side;
 	int32_t columns, rows;
@@ -98,8 +98,10 @@ struct Grid {
 		return whole - (static_cast<T>(whole) > cells);
 	}
 	template <typename T> Cell cell_at(T x, T y, int32_t level) const { return {step(x, T(side_of(level))), step(y, T(side_of(level)))}; }
-	int32_t row_of(int32_t y, int32_t level) const { return ((y + 7 * level) & (rows - 1)) * columns; }
-	int32_t column_of(int32_t x, int32_t level) const { return (x + 11 * level) & (columns - 1); }
+	int32_t rows_of(int32_t level) const { return std::max(rows >> level, 1); }
+	/* The first cell of a row. */
+	int32_t row_of(int32_t y, int32_t level) const { return (CELL_FIRST_ROW(rows, level) + (y & (rows_of(level) - 1))) * columns; }
+	int32_t column_of(int32_t x) const { return x & (columns - 1); }
 };
 
 /* The slots by their cells. */
@@ -112,9 +114,10 @@ template <typename T> struct CellList {
 	{
 		const T side = T(grid.side_of(level));
 		const Cell low = grid.cell_at(box.min_x - side, box.min_y - side, level), high = grid.cell_at(box.max_x + side, box.max_y + side, level);
-		const int32_t last_x = std::min(high.x, low.x + grid.columns - 1), last_y = std::min(high.y, low.y + grid.rows - 1); /* once round */
+		const int32_t last_x = std::min(high.x, low.x + grid.columns - 1),
+					  last_y = std::min(high.y, low.y + grid.rows_of(level) - 1); /* once round */
 		for (int32_t y = low.y; y <= last_y; y++) {
-			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x, level), last = row + grid.column_of(last_x, level);
+			const int32_t row = grid.row_of(y, level), first = row + grid.column_of(low.x), last = row + grid.column_of(last_x);
 			if (last < first)
 				visit(start(row), finish(last));
 			visit(start(first), finish(last < first ? row + grid.columns - 1 : last));

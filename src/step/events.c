@@ -57,7 +57,7 @@ carom_status carom_events_find_neighbours(carom_world *world, carom_error *error
 	const int32_t tenths = events->doublings > 0 ? 4 << events->doublings : 1; /* of a radius, that all are taken to get */
 	TRY(carom_run(world, STAGE_PACE, 1, 1, count, tenths, error));
 	TRY(carom_run(world, STAGE_REACH, count, 1, columns, rows, error));
-	TRY(carom_run(world, STAGE_CELLS, rows, 1, columns, 0, error));
+	TRY(carom_run(world, STAGE_CELLS, CELL_ROWS(rows), 1, columns, rows, error));
 	TRY(carom_run(world, STAGE_SORT, count, 1, 0, 0, error));
 	carom_swap(world, ROLE_SLOTS);
 	carom_swap(world, ROLE_NEED);
@@ -239,7 +239,7 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 	return send_status(world, status, error);
 }
 
-/* Twice as many cells as bodies, in rows of a power of two. */
+/* Twice as many cells of the lowest level as bodies, in rows of a power of two. */
 static void choose_cells(carom_events *events, uint32_t capacity)
 {
 	events->rows = events->columns = 16; /* more than a body looks at in a row */
@@ -262,7 +262,7 @@ uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_d
 	const uint64_t corners = vertex_count > body_count ? 2 * (uint64_t)carom_capacity((vertex_count + body_count) / 2) : 1;
 	choose_cells(&cells, (uint32_t)n);
 	return 16 * corners + n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
-		+ 4 * (extra_of(n) + movers_of((uint32_t)n) + CELL_WIDTH * (uint64_t)cells.columns * cells.rows + STATUS_WIDTH);
+		+ 4 * (extra_of(n) + movers_of((uint32_t)n) + CELL_WIDTH * (uint64_t)cells.columns * CELL_ROWS(cells.rows) + STATUS_WIDTH);
 }
 
 carom_status carom_events_prepare(carom_world *world, carom_error *error)
@@ -286,7 +286,7 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_EXTRA, false, extra_of(n), error));
 	TRY(carom_events_create_list(world, ROLE_MOVERS, false, movers_of(world->capacity), error));
 	TRY(carom_events_create_list(world, ROLE_WAKE, false, WAKE_WIDTH * n, error));
-	TRY(carom_events_create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * events->rows, error));
+	TRY(carom_events_create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * CELL_ROWS(events->rows), error));
 	return carom_events_create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }
 

@@ -1,4 +1,5 @@
 #include "cpu/mender.hpp"
+#include "cpu/touching.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -66,7 +67,7 @@ template <typename T> static void reach(const Job<T> &job)
 			const Box<T> box = reach_box(slots[s], T(as_float(need[s])), rules, corners);
 			const int32_t level = grid.level_of(box);
 			const Cell at = grid.cell_at(box.middle_x(), box.middle_y(), level);
-			spans[s].found = grid.row_of(at.y, level) + grid.column_of(at.x, level);
+			spans[s].found = grid.row_of(at.y, level) + grid.column_of(at.x);
 			fetch_add(&cells[CELL_WIDTH * spans[s].found + CELL_COUNT], 1);
 			levels |= 1 << level;
 		}
@@ -77,20 +78,24 @@ template <typename T> static void reach(const Job<T> &job)
 template <typename T> static void cells(const Job<T> &job)
 {
 	int32_t *status = job.list(0), *all = job.list(1);
-	const int32_t columns = job.domain[2];
-	job.pool.run(job.domain[0], 16, [&](int32_t begin, int32_t end) {
-		int32_t *first = all + static_cast<size_t>(CELL_WIDTH) * static_cast<size_t>(begin) * static_cast<size_t>(columns), sum = 0;
-		const int32_t many = (end - begin) * columns;
-		for (int32_t i = 0; i < many; i++)
-			sum += first[CELL_WIDTH * i + CELL_COUNT];
-		int32_t next = fetch_add(&status[STATUS_PLACED], sum);
-		for (int32_t i = 0; i < many; i++) {
-			int32_t *cell = first + CELL_WIDTH * i;
-			cell[CELL_START] = cell[CELL_END] = next;
-			next += cell[CELL_COUNT];
-			cell[CELL_COUNT] = 0;
-		}
-	});
+	const Grid grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]};
+	for (int32_t level = 0; status[STATUS_LEVELS] >> level; level++) {
+		if (!(status[STATUS_LEVELS] & (1 << level)))
+			continue;
+		job.pool.run(grid.rows_of(level), 16, [&](int32_t begin, int32_t end) {
+			int32_t *first = all + static_cast<ptrdiff_t>(CELL_WIDTH) * grid.row_of(begin, level), sum = 0;
+			const int32_t many = (end - begin) * grid.columns;
+			for (int32_t i = 0; i < many; i++)
+				sum += first[CELL_WIDTH * i + CELL_COUNT];
+			int32_t next = fetch_add(&status[STATUS_PLACED], sum);
+			for (int32_t i = 0; i < many; i++) {
+				int32_t *cell = first + CELL_WIDTH * i;
+				cell[CELL_START] = cell[CELL_END] = next;
+				next += cell[CELL_COUNT];
+				cell[CELL_COUNT] = 0;
+			}
+		});
+	}
 }
 
 template <typename T> static void sort(const Job<T> &job)
@@ -120,33 +125,33 @@ template <typename T> static void sort(const Job<T> &job)
 	});
 }
 
-/* Slots that grow in number; there is always room for a few more. */
+/* Slots that grow in number. */
 class Finds
 {
 public:
 	void clear() { count = 0; }
-	int32_t *next(int32_t more)
+	/* From an end on there is room for more, and eight besides; where it moves, what lies before goes along. */
+	int32_t *room(int32_t *end, int32_t more)
 	{
-		if (slots.size() < count + static_cast<size_t>(more + block))
-			slots.resize(2 * (count + static_cast<size_t>(more + block)));
-		return slots.data() + count;
+		const size_t kept = static_cast<size_t>(end - slots.data()), needed = kept + static_cast<size_t>(more + eight);
+		if (slots.size() < needed)
+			slots.resize(2 * needed);
+		return slots.data() + kept;
 	}
 	void keep(const int32_t *end) { count = static_cast<size_t>(end - slots.data()); }
-	/* In blocks, for there are few: what is too much is not kept. */
+	/* In eights, for there are few: what is too much is not kept. */
 	void add(const Finds &other)
 	{
-		int32_t *to = next(other.size());
-		for (int32_t k = 0; k < other.size(); k += block)
-			std::copy_n(other.begin() + k, block, to + k);
+		int32_t *to = room(end(), other.size());
+		for (int32_t k = 0; k < other.size(); k += eight)
+			std::copy_n(other.begin() + k, eight, to + k);
 		keep(to + other.size());
 	}
 	int32_t size() const { return static_cast<int32_t>(count); }
 	const int32_t *begin() const { return slots.data(); }
-	const int32_t *end() const { return slots.data() + count; }
+	int32_t *end() { return slots.data() + count; }
 
 private:
-	static constexpr int32_t block = 16;
-
 	std::vector<int32_t> slots;
 	size_t count = 0;
 };
@@ -159,7 +164,7 @@ public:
 		: slots(slots_of(job, 0)), boxes(reinterpret_cast<Box<T> *>(job.records(1))), status(job.list(2)),
 		  spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), nodes(job.list(6)), members(reinterpret_cast<Member *>(job.list(7))),
 		  extra(job.list(8)), grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]}, cells{job.list(3), grid},
-		  levels(status[STATUS_LEVELS])
+		  levels(status[STATUS_LEVELS]), count(job.domain[0])
 	{
 	}
 
@@ -179,7 +184,7 @@ public:
 		const bool fits = start + many <= status[STATUS_ROOM];
 		std::fill(extra + begin, extra + end, -1);
 		if (fits)
-			std::copy(found.begin(), found.end(), neighbours + start);
+			std::copy_n(found.begin(), many, neighbours + start);
 		else
 			__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
 		for (int32_t s = begin; s < end; s++) {
@@ -189,72 +194,62 @@ public:
 	}
 
 private:
-	/* The half boxes of a level. */
-	struct Sizes {
-		T above, most;
-
-		bool have(const Box<T> &box) const
-		{
-			const T half = box.half();
-			return (half > above) & (half <= most);
-		}
-	};
-
-	Sizes sizes_of(int32_t level) const
-	{
-		return {level > 0 ? T(grid.side_of(level - 1)) : T(-1), level < CELL_LEVELS - 1 ? T(grid.side_of(level)) : infinite<T>};
-	}
-
 	void search(int32_t s, Finds &ahead, Finds &behind)
 	{
 		const Box<T> box = boxes[s];
 		const int32_t own = grid.level_of(box);
 		const bool stands = slots[s].is_static();
-		const Sizes sizes = sizes_of(own);
 		for (int32_t level = std::max(own - levels_below, 0); levels >> level; level++) {
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
 				continue;
 			if (level == own && !stands) {
-				cells.each(box, own, [&](int32_t first, int32_t end) { search_alike(s, box, first, end, sizes, ahead, behind); });
+				search_alike(s, box, own, ahead, behind);
 				continue;
 			}
 			cells.each(box, level, [&](int32_t first, int32_t end) {
 				for (int32_t other = first; other < end; other++)
-					if (are_near(s, box, other, level))
+					if (are_near(s, box, other))
 						meet(s, other, level == own, ahead, behind);
 			});
 		}
 	}
 
-	/* On the slot's own level, where most are. Without branches: whether boxes touch is hard to foretell. Those of this level are larger than
-	 * `above`, and not larger than `most`. */
-	void search_alike(int32_t s, const Box<T> &box, int32_t first, int32_t end, const Sizes &sizes, Finds &ahead, Finds &behind) const
+	/* On the slot's own level, where most are. */
+	void search_alike(int32_t s, const Box<T> &box, int32_t level, Finds &ahead, Finds &behind) const
 	{
-		const auto is_near = [&](int32_t other) {
-			return static_cast<int32_t>(box.touches(boxes[other])) & static_cast<int32_t>(sizes.have(boxes[other]));
-		};
-		int32_t *before = behind.next(end - first), *after = ahead.next(end - first);
-		for (int32_t other = first; other < std::min(end, s); other++) {
-			*before = other;
-			before += is_near(other);
-		}
-		for (int32_t other = std::max(first, s + 1); other < end; other++) {
-			*after = other;
-			after += is_near(other);
-		}
-		behind.keep(before);
+		int32_t *after = ahead.end(), *before = behind.end();
+		cells.each(box, level, [&](int32_t first, int32_t end) {
+			after = ahead.room(after, end - first);
+			before = behind.room(before, end - first);
+			for (; first < end; first += eight) {
+				const uint32_t bits = touching(box, first) & ((1U << std::min(end - first, eight)) - 1);
+				const int32_t own = std::min(std::max(s - first, -1), eight); /* its place among the eight */
+				before = places.put(bits & ((1U << std::max(own, 0)) - 1), first, before);
+				after = places.put(bits & (~0U << (own + 1)), first, after);
+			}
+		});
 		ahead.keep(after);
+		behind.keep(before);
 	}
 
-	bool are_near(int32_t s, const Box<T> &box, int32_t other, int32_t level) const
+	uint32_t touching(const Box<T> &box, int32_t first) const
 	{
-		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static()) && grid.level_of(boxes[other]) == level;
+		if (first + eight <= count)
+			return cpu::touching(box, boxes + first);
+		Box<T> last[eight] = {};
+		std::copy(boxes + first, boxes + count, last);
+		return cpu::touching(box, last);
+	}
+
+	bool are_near(int32_t s, const Box<T> &box, int32_t other) const
+	{
+		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static());
 	}
 
 	void meet(int32_t s, int32_t other, bool alike, Finds &ahead, Finds &behind)
 	{
 		Finds &to = !alike || other > s ? ahead : behind;
-		int32_t *end = to.next(1);
+		int32_t *end = to.room(to.end(), 1);
 		*end = other;
 		to.keep(end + 1);
 		if (!alike)
@@ -282,12 +277,36 @@ private:
 	int32_t *const extra;
 	const Grid grid;
 	const CellList<T> cells;
-	const int32_t levels;
+	const int32_t levels, count;
 };
+
+template <typename T> static void search_some(const Job<T> &job, int32_t begin, int32_t end)
+{
+	Search<T>(job).run(begin, end);
+}
+
+#if defined(__x86_64__)
+/* The same in fewer instructions, where the processor has them. */
+[[gnu::target("avx2"), gnu::flatten]] static void search_some_avx2(const Job<float> &job, int32_t begin, int32_t end)
+{
+	search_some(job, begin, end);
+}
+
+static auto best_search(float)
+{
+	return __builtin_cpu_supports("avx2") ? search_some_avx2 : search_some<float>;
+}
+#endif
+
+template <typename T> static auto best_search(T)
+{
+	return search_some<T>;
+}
 
 template <typename T> static void near(const Job<T> &job)
 {
-	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) { Search<T>(job).run(begin, end); });
+	const auto search = best_search(T());
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) { search(job, begin, end); });
 }
 
 template <typename T> static void gather(const Job<T> &job)
