@@ -44,7 +44,7 @@ public:
 	constexpr Places() : rows{}
 	{
 		for (uint32_t bits = 0; bits < 1U << eight; bits++)
-			for (uint8_t k = 0; k < eight; k++)
+			for (int32_t k = 0; k < eight; k++)
 				if (bits >> k & 1)
 					rows[bits].places[rows[bits].count++] = k;
 	}
@@ -52,14 +52,17 @@ public:
 	/* Writes eight numbers, of which those count that have a bit; returns their end. */
 	[[gnu::always_inline]] int32_t *put(uint32_t bits, int32_t first, int32_t *to) const
 	{
-		for (int32_t k = 0; k < eight; k++)
-			to[k] = first + rows[bits].places[k];
+		Eight numbers;
+		std::memcpy(&numbers, rows[bits].places, sizeof numbers);
+		numbers += first;
+		std::memcpy(to, &numbers, sizeof numbers);
 		return to + rows[bits].count;
 	}
 
 private:
+	typedef int32_t Eight __attribute__((vector_size(eight * sizeof(int32_t))));
 	struct alignas(16) Row {
-		uint8_t places[eight], count;
+		int32_t places[eight], count;
 	};
 	Row rows[1U << eight];
 };
