@@ -204,9 +204,14 @@ private:
 
 	[[gnu::always_inline]] bool may_leave(const Slot<T> &slot, const Box<T> &box) const
 	{
-		const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
 		const T way = std::max(speed_margin * way_of(slot), common) + slot.radius();
-		return (x - way < box.min_x) | (y - way < box.min_y) | (x + way > box.max_x) | (y + way > box.max_y);
+		const Lanes<T> sides{-1, -1, 1, 1};
+		Lanes<T> place, most;
+		std::memcpy(&place, slot.place, sizeof place);
+		std::memcpy(&most, &box, sizeof most);
+		pick<0, 1, 0, 1, T>(place, place, place);
+		const auto leaves = place * sides + way > most * sides;
+		return leaves[0] | leaves[1] | leaves[2] | leaves[3];
 	}
 
 	/* Few do: apart, it is not in the way of the others. */

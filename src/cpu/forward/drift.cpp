@@ -23,8 +23,7 @@ template <typename T> static void drift(const Job<T> &job)
 			if (commits && !slot.is_static()) {
 				Trajectory<T> way = id >= 0 ? work[id].trajectory(slot) : Trajectory<T>(slot);
 				mover.move(slot, way, T(1));
-				for (int32_t k = 0; k < 4; k++) /* one by one, as they were computed: to copy them at once would wait for all */
-					slot.place[k] = way.place[k];
+				std::memcpy(slot.place, way.place, sizeof way.place);
 				slot.turn[TURN_ANGLE] = way.angle;
 				slot.turn[TURN_VELOCITY] = way.velocity;
 				keeper.keep(s);
