@@ -358,7 +358,7 @@
 #define CONTACT_FAST 4.0f
 #define EASE 0.5f
 #define CUSHION 64.0f
-#define CONTACT_PART 0.25f
+#define CONTACT_PART 0.75f
 #define CONTACT_ITERATIONS 256
 
 /* ---- Rendering [3] */

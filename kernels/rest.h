@@ -149,28 +149,52 @@ float point_gives(float4 mass, float arm)
 	return CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm);
 }
 
-/* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together: a bound of the largest eigenvalue
- * of a matrix of x, y and turning. */
+/* A symmetric matrix of x, y and turning. */
+typedef struct response {
+	float xx, xy, yy, xt, yt, tt;
+} response;
+
+response response_squared(response m)
+{
+	response square;
+	square.xx = (m.xx * m.xx + m.xy * m.xy) + m.xt * m.xt;
+	square.xy = (m.xx * m.xy + m.xy * m.yy) + m.xt * m.yt;
+	square.yy = (m.xy * m.xy + m.yy * m.yy) + m.yt * m.yt;
+	square.xt = (m.xx * m.xt + m.xy * m.yt) + m.xt * m.tt;
+	square.yt = (m.xy * m.xt + m.yy * m.yt) + m.yt * m.tt;
+	square.tt = (m.xt * m.xt + m.yt * m.yt) + m.tt * m.tt;
+	return square;
+}
+
+/* The largest eigenvalue is not larger than its rows, nor than the root of the sum of all eigenvalues' eighth powers, which is near it. */
+float response_bound(response m)
+{
+	float row = larger(larger((fabs(m.xx) + fabs(m.xy)) + fabs(m.xt), (fabs(m.xy) + fabs(m.yy)) + fabs(m.yt)), (fabs(m.xt) + fabs(m.yt)) + fabs(m.tt));
+	response p = response_squared(response_squared(m));
+	float squares = ((p.xx * p.xx + p.yy * p.yy) + p.tt * p.tt) + 2.0f * ((p.xy * p.xy + p.xt * p.xt) + p.yt * p.yt);
+	return smaller(row, sqrt(sqrt(sqrt(squares))));
+}
+
+/* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together. */
 float rests_share(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), both = sqrt(straight) * sqrt(turning);
-	float xx = 0.0f, xy = 0.0f, yy = 0.0f, xt = 0.0f, yt = 0.0f, tt = 0.0f;
+	response all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
 	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
 		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
 		float x = CHANNEL(pair, PAIR_NORMAL_X), y = CHANNEL(pair, PAIR_NORMAL_Y);
 		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
 			float arm = CHANNEL(contacts[CONTACT(s, k, CONTACT_POINT + point)], POINT_ARM), gives = point_gives(mass, arm);
-			xx += (straight / gives) * (x * x);
-			xy += (straight / gives) * (x * y);
-			yy += (straight / gives) * (y * y);
-			xt += (both / gives) * (x * arm);
-			yt += (both / gives) * (y * arm);
-			tt += (turning / gives) * (arm * arm);
+			all.xx += (straight / gives) * (x * x);
+			all.xy += (straight / gives) * (x * y);
+			all.yy += (straight / gives) * (y * y);
+			all.xt += (both / gives) * (x * arm);
+			all.yt += (both / gives) * (y * arm);
+			all.tt += (turning / gives) * (arm * arm);
 		}
 	}
-	float row = larger(larger((fabs(xx) + fabs(xy)) + fabs(xt), (fabs(xy) + fabs(yy)) + fabs(yt)), (fabs(xt) + fabs(yt)) + fabs(tt));
-	return smaller(row, sqrt(((xx * xx + yy * yy) + tt * tt) + 2.0f * ((xy * xy + xt * xt) + yt * yt)));
+	return response_bound(all);
 }
 
 /* What acts on a body besides, in a step that is 1 long: on what is stopped at once nothing. */
@@ -208,7 +232,7 @@ bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST
 	float length)
 {
 	bool wanted = false;
-	float beta = (float)done / (float)(done + 3);
+	float beta = (float)done / (float)(done + 2);
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], next = load_begin(slots, status, s, length);
 	CHANNEL(next, LOAD_SHARE) = CHANNEL(load, LOAD_SHARE);
 	if (done == 0)

@@ -16,7 +16,7 @@ static const struct reference {
 	uint64_t state, picture;
 } references[] = {
 	{"events", 60, false, 0xa6f29ac5297f9562, 0xe429b8123bb1518c},
-	{"contacts", 12, true, 0xebd6044fe6d1ffc5, 0x1f04c80efdfade2b},
+	{"contacts", 12, true, 0x5583a4b3bdb70624, 0x170cafb21ef96acc},
 	{"first_impact", 60, false, 0xc211ecd13c4ba726, 0x30920f71e2e5992d},
 };
 

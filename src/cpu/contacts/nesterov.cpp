@@ -112,24 +112,50 @@ template <typename T> static void find(const Job<T> &job)
 	});
 }
 
-/* A bound of the largest eigenvalue of the matrix of what all points do, each as if it alone gave way by 1. */
+/* A symmetric matrix of x, y and torque: its diagonal, and beside it xy, xt, yt. */
+template <typename T> struct Response {
+	T own[3] = {}, beside[3] = {};
+
+	Response squared() const
+	{
+		const T(&d)[3] = own, xy = beside[0], xt = beside[1], yt = beside[2];
+		return {{(d[0] * d[0] + xy * xy) + xt * xt, (xy * xy + d[1] * d[1]) + yt * yt, (xt * xt + yt * yt) + d[2] * d[2]},
+			{(d[0] * xy + xy * d[1]) + xt * yt, (d[0] * xt + xy * yt) + xt * d[2], (xy * xt + d[1] * yt) + yt * d[2]}};
+	}
+
+	/* The sum of the squares of all its eigenvalues. */
+	T squares() const
+	{
+		return ((own[0] * own[0] + own[1] * own[1]) + own[2] * own[2])
+			+ 2 * ((beside[0] * beside[0] + beside[1] * beside[1]) + beside[2] * beside[2]);
+	}
+
+	/* Of its eigenvalues: by its rows, and by their eighth powers, of which the largest is the most of the sum. */
+	T bound() const
+	{
+		const T xy = std::abs(beside[0]), xt = std::abs(beside[1]), yt = std::abs(beside[2]);
+		const T rows[] = {(std::abs(own[0]) + xy) + xt, (xy + std::abs(own[1])) + yt, (xt + yt) + std::abs(own[2])};
+		return smaller(larger(larger(rows[0], rows[1]), rows[2]), std::sqrt(std::sqrt(std::sqrt(squared().squared().squares()))));
+	}
+};
+
+/* A bound of what all points do together, each as if it alone gave way by 1. */
 template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const T straight = slot.mass[MASS_INVERSE], turning = slot.mass[MASS_INVERSE_INERTIA], both = std::sqrt(straight) * std::sqrt(turning);
-	T xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
+	Response<T> all;
 	rests.each(s, [&](const Points<T> &points) {
 		const Lanes<T> x = points.normal_x, y = points.normal_y, arm = points.arm, give = straight + turning * (arm * arm);
 		const Lanes<T> a = straight / give, b = both / give, c = turning / give;
 		const Lanes<T> by_xx = a * (x * x), by_xy = a * (x * y), by_yy = a * (y * y), by_xt = b * (x * arm), by_yt = b * (y * arm),
 					   by_tt = c * (arm * arm);
-		for (int32_t i = 0; i < lane_count; i++)
-			xx += by_xx[i], xy += by_xy[i], yy += by_yy[i], xt += by_xt[i], yt += by_yt[i], tt += by_tt[i];
+		for (int32_t i = 0; i < lane_count; i++) {
+			all.own[0] += by_xx[i], all.own[1] += by_yy[i], all.own[2] += by_tt[i];
+			all.beside[0] += by_xy[i], all.beside[1] += by_xt[i], all.beside[2] += by_yt[i];
+		}
 	});
-	const T rows[] = {
-		(std::abs(xx) + std::abs(xy)) + std::abs(xt), (std::abs(xy) + std::abs(yy)) + std::abs(yt), (std::abs(xt) + std::abs(yt)) + std::abs(tt)};
-	const T squares = ((xx * xx + yy * yy) + tt * tt) + 2 * ((xy * xy + xt * xt) + yt * yt);
-	return smaller(larger(larger(rows[0], rows[1]), rows[2]), std::sqrt(squares));
+	return all.bound();
 }
 
 /* Contacts of which one body has too many are none. */
@@ -173,7 +199,7 @@ template <typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *l
 {
 	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
-	const T beta = static_cast<T>(done) / static_cast<T>(done + 3);
+	const T beta = static_cast<T>(done) / static_cast<T>(done + 2);
 	Lanes<T> next;
 	decltype(load < zero) wanted{};
 	rests.begin(s, load[LOAD_SHARE], next);
