@@ -42,6 +42,15 @@ template <typename T> [[gnu::always_inline]] inline void transpose(Lanes<T> (&ro
 	pick<2, 3, 6, 7, T>(high[0], high[1], rows[3]);
 }
 
+/* wrapped of each. */
+template <typename T> [[gnu::always_inline]] inline void wrap(Lanes<T> &angle)
+{
+	const Lanes<T> zero{}, half = zero + T(0.5), turns = angle * T(0.25f * TWO_OVER_PI), most = zero + T(LARGEST_TURN);
+	const auto whole = __builtin_convertvector(turns + (turns < 0 ? -half : half), decltype(turns < 0));
+	const Lanes<T> k = ((turns < most) & (turns > -most)) ? __builtin_convertvector(whole, Lanes<T>) : zero;
+	angle = ((angle - k * T(4 * HALF_PI_1)) - k * T(4 * HALF_PI_2)) - k * T(4 * HALF_PI_3);
+}
+
 /* Corners of a polygon from one on; where there are no more, the last one again. */
 template <typename T> struct FourCorners {
 	Lanes<T> x, y, nx, ny;

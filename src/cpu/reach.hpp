@@ -184,6 +184,34 @@ public:
 		return leaves;
 	}
 
+	/* Of four, whose places and pushes have the four of a component side by side. */
+	template <typename Which>
+	[[gnu::always_inline]] void may_leave(const Lanes<T> *place, const Lanes<T> *push, const Lanes<T> &radius, const Lanes<T> *box,
+		Which &which) const
+	{
+		const Lanes<T> zero{}, squares = place[LINEAR_VX] * place[LINEAR_VX] + place[LINEAR_VY] * place[LINEAR_VY];
+		Lanes<T> speed;
+		for (int32_t i = 0; i < lane_count; i++)
+			speed[i] = std::sqrt(squares[i]);
+		const Lanes<T> push_x = push[PUSH_X] < 0 ? -push[PUSH_X] : push[PUSH_X], push_y = push[PUSH_Y] < 0 ? -push[PUSH_Y] : push[PUSH_Y];
+		const Lanes<T> far = T(speed_margin) * ((speed + (push_x + push_y) * step) * step), way = (far < common ? zero + common : far) + radius;
+		which &= (place[LINEAR_X] - way < box[0]) | (place[LINEAR_Y] - way < box[1]) | (place[LINEAR_X] + way > box[2])
+			| (place[LINEAR_Y] + way > box[3]);
+	}
+
+	/* Few do: apart, it is not in the way of the others. */
+	[[gnu::noinline]] void move(int32_t s) const
+	{
+		const int32_t k = fetch_add(&status[STATUS_MOVERS], 1);
+		if (k >= room) {
+			__atomic_store_n(&status[STATUS_STALE], 1, __ATOMIC_RELAXED);
+			return;
+		}
+		movers[k] = s;
+		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>(status));
+		rouse(s);
+	}
+
 	/* Of a body whose push is another one: all around looks at it again. */
 	bool pushed(int32_t s) const
 	{
@@ -212,19 +240,6 @@ private:
 		pick<0, 1, 0, 1, T>(place, place, place);
 		const auto leaves = place * sides + way > most * sides;
 		return leaves[0] | leaves[1] | leaves[2] | leaves[3];
-	}
-
-	/* Few do: apart, it is not in the way of the others. */
-	[[gnu::noinline]] void move(int32_t s) const
-	{
-		const int32_t k = fetch_add(&status[STATUS_MOVERS], 1);
-		if (k >= room) {
-			__atomic_store_n(&status[STATUS_STALE], 1, __ATOMIC_RELAXED);
-			return;
-		}
-		movers[k] = s;
-		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>(status));
-		rouse(s);
 	}
 
 	const Slot<T> *const slots;

@@ -2,42 +2,119 @@
 
 namespace carom::cpu {
 
+/* Bodies that move on, four side by side as if none of them had been hit; of those that were one by one counts. */
+template <typename T> class Drift
+{
+public:
+	explicit Drift(const Job<T> &job)
+		: slots(reinterpret_cast<Slot<T> *>(job.records(2))), boxes(reinterpret_cast<const Box<T> *>(job.records(3))), status(job.list(4)),
+		  members(reinterpret_cast<Member *>(job.list(5))), work(reinterpret_cast<const Work<T> *>(job.records(6))), owners(job.list(7)),
+		  parents(job.list(8)), spans(reinterpret_cast<Span *>(job.list(9))), wakes(reinterpret_cast<Wake *>(job.list(10))),
+		  mover(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH)),
+		  keeper(slots, job.records(3), status, job.list(10), job.list(11), job.domain[2], job.texels(0))
+	{
+	}
+
+	void run(int32_t begin, int32_t end, bool commits) const
+	{
+		int32_t s = begin;
+		for (; commits && s + lane_count <= end; s += lane_count)
+			move_four(s);
+		for (; s < end; s++) {
+			if (owners[s] >= 0)
+				finish(s, commits);
+			else if (commits)
+				move(s, Trajectory<T>(slots[s]));
+		}
+	}
+
+private:
+	void move(int32_t s, Trajectory<T> way) const
+	{
+		Slot<T> &slot = slots[s];
+		if (slot.is_static())
+			return;
+		mover.move(slot, way, T(1));
+		std::memcpy(slot.place, way.place, sizeof way.place);
+		slot.turn[TURN_ANGLE] = way.angle;
+		slot.turn[TURN_VELOCITY] = way.velocity;
+		keeper.keep(s);
+	}
+
+	/* Of a body that has a number. */
+	void finish(int32_t s, bool commits) const
+	{
+		const int32_t id = owners[s];
+		if (commits)
+			move(s, work[id].trajectory(slots[s]));
+		/* one that no event changed has not looked how it goes on */
+		(members[id].events > 0 ? wakes[s].changed : wakes[s].next) = status[STATUS_AGE];
+		members[id].reset();
+		owners[s] = -1;
+		parents[s] = s;
+		spans[s].found = FOUND_NONE;
+	}
+
+	/* As `move` from the step's beginning. */
+	[[gnu::always_inline]] void move_four(int32_t s) const
+	{
+		Slot<T> *const four = slots + s;
+		Lanes<T> place[lane_count], turn[lane_count], push[lane_count], box[lane_count];
+		for (int32_t i = 0; i < lane_count; i++) {
+			std::memcpy(&place[i], four[i].place, sizeof place[i]);
+			std::memcpy(&turn[i], four[i].turn, sizeof turn[i]);
+			std::memcpy(&push[i], four[i].push, sizeof push[i]);
+			std::memcpy(&box[i], &boxes[s + i], sizeof box[i]);
+		}
+		transpose<T>(place), transpose<T>(turn), transpose<T>(push), transpose<T>(box);
+		const T length = mover.length, part = 1 / length, half = T(0.5);
+		const Lanes<T> ax = (push[PUSH_X] * length) * length, ay = (push[PUSH_Y] * length) * length, b = (push[PUSH_TORQUE] * length) * length;
+		Lanes<T> angle = turn[TURN_ANGLE] + (turn[TURN_VELOCITY] * length + half * b);
+		wrap<T>(angle);
+		const Lanes<T> inverse{four[0].mass[MASS_INVERSE], four[1].mass[MASS_INVERSE], four[2].mass[MASS_INVERSE], four[3].mass[MASS_INVERSE]};
+		const auto moves = inverse > 0;
+		const auto becomes = [&moves](Lanes<T> &component, const Lanes<T> &next) { component = moves ? next : component; };
+		becomes(place[LINEAR_X], place[LINEAR_X] + (place[LINEAR_VX] * length + half * ax));
+		becomes(place[LINEAR_Y], place[LINEAR_Y] + (place[LINEAR_VY] * length + half * ay));
+		becomes(place[LINEAR_VX], place[LINEAR_VX] + part * ax);
+		becomes(place[LINEAR_VY], place[LINEAR_VY] + part * ay);
+		becomes(turn[TURN_ANGLE], angle);
+		becomes(turn[TURN_VELOCITY], turn[TURN_VELOCITY] + part * b);
+		auto leave = moves;
+		keeper.may_leave(place, push, turn[TURN_RADIUS], box, leave);
+		transpose<T>(place), transpose<T>(turn);
+		for (int32_t i = 0; i < lane_count; i++) {
+			std::memcpy(four[i].place, &place[i], sizeof place[i]);
+			std::memcpy(four[i].turn, &turn[i], sizeof turn[i]);
+		}
+		for (int32_t i = 0; i < lane_count; i++) {
+			if (owners[s + i] >= 0)
+				finish(s + i, true);
+			else if (leave[i])
+				keeper.move(s + i);
+		}
+	}
+
+	Slot<T> *const slots;
+	const Box<T> *const boxes;
+	int32_t *const status;
+	Member *const members;
+	const Work<T> *const work;
+	int32_t *const owners, *const parents;
+	Span *const spans;
+	Wake *const wakes;
+	const Mover<T> mover;
+	const ReachKeeper<T> keeper;
+};
+
 template <typename T> static void drift(const Job<T> &job)
 {
-	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
-	int32_t *status = job.list(4), *owners = job.list(7), *parents = job.list(8);
-	Span *spans = reinterpret_cast<Span *>(job.list(9));
-	Wake *wakes = reinterpret_cast<Wake *>(job.list(10));
-	Member *members = reinterpret_cast<Member *>(job.list(5));
-	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(6));
+	int32_t *status = job.list(4);
 	const bool commits = status[STATUS_COMMIT] != 0;
-	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH);
-	const ReachKeeper<T> keeper(slots, job.records(3), status, job.list(10), job.list(11), job.domain[2], job.texels(0));
 	if (!commits && !status[STATUS_LEFT])
 		return;
-	const Mover<T> mover{length};
-	job.pool.run(job.domain[0], 1024, [=](int32_t begin, int32_t end) {
-		for (int32_t s = begin; s < end; s++) {
-			const int32_t id = owners[s];
-			Slot<T> &slot = slots[s];
-			if (commits && !slot.is_static()) {
-				Trajectory<T> way = id >= 0 ? work[id].trajectory(slot) : Trajectory<T>(slot);
-				mover.move(slot, way, T(1));
-				std::memcpy(slot.place, way.place, sizeof way.place);
-				slot.turn[TURN_ANGLE] = way.angle;
-				slot.turn[TURN_VELOCITY] = way.velocity;
-				keeper.keep(s);
-			}
-			if (id >= 0) {
-				/* one that no event changed has not looked how it goes on */
-				(members[id].events > 0 ? wakes[s].changed : wakes[s].next) = status[STATUS_AGE];
-				members[id].reset();
-				owners[s] = -1;
-				parents[s] = s;
-				spans[s].found = FOUND_NONE;
-			}
-		}
-	});
+	const Drift<T> bodies(job);
+	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) { bodies.run(begin, end, commits); });
 	if (commits)
 		status[STATUS_PASS] = 0;
 }
