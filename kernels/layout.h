@@ -223,14 +223,13 @@
 #define HORIZON 6      /* steps that one look is good for; 1 where a BUSY-th of the bodies or more are in clusters: it would not pay */
 #define BUSY 6
 
-/* Cells: three ints a cell. Each level has rows of its own, as long as all are, half as many as the level before; one is left between levels, so that
- * there is one for each. */
+/* Cells: three ints a cell. Each level has rows of its own, half as many as the level before, and one at least. */
 #define CELL_WIDTH 3
 #define CELL_COUNT 0
 #define CELL_START 1
 #define CELL_END 2
-#define CELL_LEVELS 24 /* each with cells twice as large as the one before */
-#define CELL_ROWS(rows) (2 * (rows) + CELL_LEVELS)                      /* of all levels */
+#define CELL_LEVELS 24                             /* each with cells twice as large as the one before */
+#define CELL_ROWS(rows) (2 * (rows) + CELL_LEVELS) /* of all levels */
 #define CELL_FIRST_ROW(rows, level) (2 * (rows) - (2 * (rows) >> (level)) + (level))
 
 /* Nodes: two ints; small bodies found beside a large one */

@@ -202,8 +202,8 @@ INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slo
 }
 
 /* The slots of one level in places [from, to) whose reach touches this one's. */
-INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box,
-	bool stands, bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
+INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, bool stands,
+	bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	for (int other = from; other < to; other++) {
 		float4 b = reach[other];

@@ -169,7 +169,8 @@ response response_squared(response m)
 /* The largest eigenvalue is not larger than its rows, nor than the root of the sum of all eigenvalues' eighth powers, which is near it. */
 float response_bound(response m)
 {
-	float row = larger(larger((fabs(m.xx) + fabs(m.xy)) + fabs(m.xt), (fabs(m.xy) + fabs(m.yy)) + fabs(m.yt)), (fabs(m.xt) + fabs(m.yt)) + fabs(m.tt));
+	float row = larger(larger((fabs(m.xx) + fabs(m.xy)) + fabs(m.xt), (fabs(m.xy) + fabs(m.yy)) + fabs(m.yt)),
+		(fabs(m.xt) + fabs(m.yt)) + fabs(m.tt));
 	response p = response_squared(response_squared(m));
 	float squares = ((p.xx * p.xx + p.yy * p.yy) + p.tt * p.tt) + 2.0f * ((p.xy * p.xy + p.xt * p.xt) + p.yt * p.yt);
 	return smaller(row, sqrt(sqrt(sqrt(squares))));
