@@ -184,18 +184,20 @@ public:
 		return leaves;
 	}
 
-	/* Of four, whose places and pushes have the four of a component side by side. */
+	/* Which of the four from a slot on might leave their boxes; their places and pushes have the four of a component side by side. */
 	template <typename Which>
-	[[gnu::always_inline]] void may_leave(const Lanes<T> *place, const Lanes<T> *push, const Lanes<T> &radius, const Lanes<T> *box,
-		Which &which) const
+	[[gnu::always_inline]] void may_leave(int32_t s, const Lanes<T> *place, const Lanes<T> *push, const Lanes<T> &radius, Which &which) const
 	{
+		Lanes<T> box[lane_count];
+		std::memcpy(box, boxes + s, sizeof box);
+		transpose<T>(box);
 		const Lanes<T> zero{}, squares = place[LINEAR_VX] * place[LINEAR_VX] + place[LINEAR_VY] * place[LINEAR_VY];
 		Lanes<T> speed;
 		for (int32_t i = 0; i < lane_count; i++)
 			speed[i] = std::sqrt(squares[i]);
 		const Lanes<T> push_x = push[PUSH_X] < 0 ? -push[PUSH_X] : push[PUSH_X], push_y = push[PUSH_Y] < 0 ? -push[PUSH_Y] : push[PUSH_Y];
 		const Lanes<T> far = T(speed_margin) * ((speed + (push_x + push_y) * step) * step), way = (far < common ? zero + common : far) + radius;
-		which &= (place[LINEAR_X] - way < box[0]) | (place[LINEAR_Y] - way < box[1]) | (place[LINEAR_X] + way > box[2])
+		which = (place[LINEAR_X] - way < box[0]) | (place[LINEAR_Y] - way < box[1]) | (place[LINEAR_X] + way > box[2])
 			| (place[LINEAR_Y] + way > box[3]);
 	}
 
@@ -232,14 +234,9 @@ private:
 
 	[[gnu::always_inline]] bool may_leave(const Slot<T> &slot, const Box<T> &box) const
 	{
+		const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y];
 		const T way = std::max(speed_margin * way_of(slot), common) + slot.radius();
-		const Lanes<T> sides{-1, -1, 1, 1};
-		Lanes<T> place, most;
-		std::memcpy(&place, slot.place, sizeof place);
-		std::memcpy(&most, &box, sizeof most);
-		pick<0, 1, 0, 1, T>(place, place, place);
-		const auto leaves = place * sides + way > most * sides;
-		return leaves[0] | leaves[1] | leaves[2] | leaves[3];
+		return (x - way < box.min_x) | (y - way < box.min_y) | (x + way > box.max_x) | (y + way > box.max_y);
 	}
 
 	const Slot<T> *const slots;

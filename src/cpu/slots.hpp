@@ -224,18 +224,15 @@ template <typename T> struct Mover {
 	{
 		if (u == way.time || way.held > 0 || slot.is_static())
 			return;
-		const T dt = u - way.time, part = dt / length, b = (slot.push[PUSH_TORQUE] * length) * length;
-		Lanes<T> from, push, v, a;
-		std::memcpy(&from, way.place, sizeof from);
-		std::memcpy(&push, slot.push, sizeof push);
-		pick<2, 3, 4, 4, T>(from * length, Lanes<T>{}, v);
-		pick<0, 1, 0, 1, T>((push * length) * length, push, a);
-		/* a place goes on by dt (v + (dt / 2) a), a velocity by part a */
-		const T half = T(0.5) * dt;
-		const Lanes<T> to = from + Lanes<T>{dt, dt, part, part} * (v + Lanes<T>{half, half, 1, 1} * a);
-		std::memcpy(way.place, &to, sizeof to);
-		way.angle = wrapped(place(way.angle, way.velocity * length, b, dt));
-		way.velocity = way.velocity + part * b;
+		const Body<T> at = body(slot, way);
+		const T dt = u - way.time, part = dt / length;
+		const Vec<T> x = at.place_at(dt);
+		way.place[LINEAR_X] = x.x();
+		way.place[LINEAR_Y] = x.y();
+		way.place[LINEAR_VX] = way.place[LINEAR_VX] + part * at.a.x();
+		way.place[LINEAR_VY] = way.place[LINEAR_VY] + part * at.a.y();
+		way.angle = wrapped(at.angle_at(dt));
+		way.velocity = way.velocity + part * at.b;
 		way.time = u;
 	}
 };

@@ -7,9 +7,9 @@ template <typename T> class Drift
 {
 public:
 	explicit Drift(const Job<T> &job)
-		: slots(reinterpret_cast<Slot<T> *>(job.records(2))), boxes(reinterpret_cast<const Box<T> *>(job.records(3))), status(job.list(4)),
-		  members(reinterpret_cast<Member *>(job.list(5))), work(reinterpret_cast<const Work<T> *>(job.records(6))), owners(job.list(7)),
-		  parents(job.list(8)), spans(reinterpret_cast<Span *>(job.list(9))), wakes(reinterpret_cast<Wake *>(job.list(10))),
+		: slots(reinterpret_cast<Slot<T> *>(job.records(2))), status(job.list(4)), members(reinterpret_cast<Member *>(job.list(5))),
+		  work(reinterpret_cast<const Work<T> *>(job.records(6))), owners(job.list(7)), parents(job.list(8)),
+		  spans(reinterpret_cast<Span *>(job.list(9))), wakes(reinterpret_cast<Wake *>(job.list(10))),
 		  mover(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH)),
 		  keeper(slots, job.records(3), status, job.list(10), job.list(11), job.domain[2], job.texels(0))
 	{
@@ -59,14 +59,13 @@ private:
 	[[gnu::always_inline]] void move_four(int32_t s) const
 	{
 		Slot<T> *const four = slots + s;
-		Lanes<T> place[lane_count], turn[lane_count], push[lane_count], box[lane_count];
+		Lanes<T> place[lane_count], turn[lane_count], push[lane_count];
 		for (int32_t i = 0; i < lane_count; i++) {
 			std::memcpy(&place[i], four[i].place, sizeof place[i]);
 			std::memcpy(&turn[i], four[i].turn, sizeof turn[i]);
 			std::memcpy(&push[i], four[i].push, sizeof push[i]);
-			std::memcpy(&box[i], &boxes[s + i], sizeof box[i]);
 		}
-		transpose<T>(place), transpose<T>(turn), transpose<T>(push), transpose<T>(box);
+		transpose<T>(place), transpose<T>(turn), transpose<T>(push);
 		const T length = mover.length, part = 1 / length, half = T(0.5);
 		const Lanes<T> ax = (push[PUSH_X] * length) * length, ay = (push[PUSH_Y] * length) * length, b = (push[PUSH_TORQUE] * length) * length;
 		Lanes<T> angle = turn[TURN_ANGLE] + (turn[TURN_VELOCITY] * length + half * b);
@@ -80,8 +79,8 @@ private:
 		becomes(place[LINEAR_VY], place[LINEAR_VY] + part * ay);
 		becomes(turn[TURN_ANGLE], angle);
 		becomes(turn[TURN_VELOCITY], turn[TURN_VELOCITY] + part * b);
-		auto leave = moves;
-		keeper.may_leave(place, push, turn[TURN_RADIUS], box, leave);
+		decltype(inverse > 0) leave;
+		keeper.may_leave(s, place, push, turn[TURN_RADIUS], leave);
 		transpose<T>(place), transpose<T>(turn);
 		for (int32_t i = 0; i < lane_count; i++) {
 			std::memcpy(four[i].place, &place[i], sizeof place[i]);
@@ -90,13 +89,12 @@ private:
 		for (int32_t i = 0; i < lane_count; i++) {
 			if (owners[s + i] >= 0)
 				finish(s + i, true);
-			else if (leave[i])
+			else if (moves[i] & leave[i])
 				keeper.move(s + i);
 		}
 	}
 
 	Slot<T> *const slots;
-	const Box<T> *const boxes;
 	int32_t *const status;
 	Member *const members;
 	const Work<T> *const work;
