@@ -1,8 +1,8 @@
 /* Where a body may get while the lists of neighbours are good, and the cells in which it is looked for. */
 
 #define REACH_FACTOR 1.25f  /* of a body's speed: hits may make it faster */
-#define PACE_FACTOR 1.6f    /* of the mean speed, which counts for bodies that are slower */
-#define CELL_FACTOR 2.5f    /* of the mean speed: few bodies are too fast for the cells of their size */
+#define PACE_FACTOR 1.3f    /* of the mean speed, which counts for bodies that are slower */
+#define CELL_FACTOR 3.0f    /* of the mean speed: few bodies are too fast for the cells of their size */
 #define TYPICAL_FACTOR 1.8f /* of the mean of the speeds' roots, squared, which a few fast bodies change little */
 #define NEAR_LEVELS 2       /* a body looks for smaller ones so many levels below; those farther below look for it */
 #define FAST_FACTOR 4.0f    /* of the pace: bodies that get farther are not looked for so long, for they would know too many */

@@ -8,8 +8,8 @@ namespace carom::cpu {
 
 /* None of these changes a result: they decide how long lists last. */
 constexpr float speed_margin = 1.25f; /* of a body's speed: hits may make it faster */
-constexpr float pace_part = 1.6f;     /* of the mean speed, which counts for bodies that are slower */
-constexpr float cell_part = 2.5f;     /* of the mean speed: few bodies are too fast for the cells of their size */
+constexpr float pace_part = 1.3f;     /* of the mean speed, which counts for bodies that are slower */
+constexpr float cell_part = 3.0f;     /* of the mean speed: few bodies are too fast for the cells of their size */
 constexpr float typical_part = 1.8f;  /* of the mean of the speeds' roots, squared, which a few fast bodies change little */
 constexpr float fast_part = 4.0f;     /* of the pace: bodies that get farther are not looked for so long, for they would know too many */
 constexpr float drift_part = 1.34f;   /* of what the pace is for a step */
