@@ -46,10 +46,12 @@ template <typename T> struct Rests {
 	Points<T> *points;
 	const Touching *touching;
 	T length;
+	bool impulses;
 
 	explicit Rests(const Job<T> &job)
 		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
-		  touching(reinterpret_cast<const Touching *>(job.list(5))), length(step_length(job.texels(1), job.texels(0)))
+		  touching(reinterpret_cast<const Touching *>(job.list(5))), length(step_length(job.texels(1), job.texels(0))),
+		  impulses(status[STATUS_PASS] == PASS_IMPULSES)
 	{
 	}
 
@@ -65,7 +67,7 @@ template <typename T> struct Rests {
 	void begin(int32_t s, T share, Lanes<T> &load) const
 	{
 		const T *p = slots[s].push;
-		if (status[STATUS_PASS] == PASS_IMPULSES)
+		if (impulses)
 			load = Lanes<T>{0, 0, 0, share};
 		else
 			load = Lanes<T>{(p[PUSH_X] * length) * length, (p[PUSH_Y] * length) * length, (p[PUSH_TORQUE] * length) * length, share};
@@ -234,7 +236,7 @@ template <typename T> static void iterate(const Job<T> &job)
 		bool wanted = false;
 		for (int32_t k = from; k < to; k++)
 			wanted |= iterate_one(rests, loads, rests.touching[k].slot, number & 1, done);
-		if (wanted && done + 1 < CONTACT_ITERATIONS)
+		if (wanted && done + 1 < CONTACT_ITERATIONS && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
 			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
 	});
 }
@@ -248,14 +250,13 @@ template <typename T> static void apply(const Job<T> &job)
 		return;
 	rests.status[STATUS_BORNE] = 1;
 	const ReachKeeper<T> keeper(slots, job.records(6), rests.status, job.list(7), job.list(8), job.domain[2], job.texels(0));
-	const bool impulses = rests.status[STATUS_PASS] == PASS_IMPULSES;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
 			Lanes<T> sum{};
 			rests.each(s, [&](const Points<T> &points) { add(points, points.force, slots[s], sum); });
 			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
-			if (impulses) {
+			if (rests.impulses) {
 				slots[s].place[LINEAR_VX] += x;
 				slots[s].place[LINEAR_VY] += y;
 				slots[s].turn[TURN_VELOCITY] += torque;
