@@ -2,10 +2,12 @@
  * SPDX-License-Identifier: MIT */
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
 #include "scenery.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* `status` with an error that begins with `said`. */
 static void assert_fails(carom_status status, const carom_error *error, carom_status expected, const char *said)
@@ -357,36 +359,12 @@ static void devices_by_name(void **unused)
 	carom_device_list_destroy(list);
 }
 
-/* A machine with an OpenCL loader and no driver, and one without a loader: two files that are no libraries stand for none. */
-static void without_opencl_the_cpu_works(void **unused)
-{
-	(void)unused;
-	static const char *const machines[] = {
-		"mkdir -p $D/none && OCL_ICD_VENDORS=$D/none",
-		"mkdir -p $D/broken && : >$D/broken/libOpenCL.so && : >$D/broken/libOpenCL.so.1 && LD_LIBRARY_PATH=$D/broken",
-	};
-	char line[512], hash[64];
-	check("$C run scenes/thin_wall.json --steps 5 --hash --device cpu", 0, "runs on Carom: cpu");
-	snprintf(hash, sizeof hash, "%.63s", call.out);
-	for (size_t i = 0; i < COUNT(machines); i++) {
-		snprintf(line, sizeof line, "%s $C run scenes/thin_wall.json --steps 5 --hash --device auto", machines[i]);
-		check(line, 0, "runs on Carom: cpu");
-		assert_string_equal(call.out, hash);
-		snprintf(line, sizeof line, "%s $C run scenes/thin_wall.json --steps 5 --device opencl", machines[i]);
-		check(line, 2, "there is no device 'opencl'; use auto, cpu, opencl or part of one of these names: 'cpu");
-		assert_non_null(strstr(call.err, "no OpenCL device was found"));
-		snprintf(line, sizeof line, "%s $C devices", machines[i]);
-		check(line, 0, NULL);
-		assert_ptr_equal(strstr(call.out, "Carom: cpu"), call.out);
-	}
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(statuses_have_names), cmocka_unit_test(version_is_the_headers),
 		cmocka_unit_test(null_is_released), cmocka_unit_test(errors_are_optional), cmocka_unit_test(definitions_out_of_range),
 		cmocka_unit_test(definitions_in_range), cmocka_unit_test(any_number_of_iterations), cmocka_unit_test(steps_start_within_floats),
 		cmocka_unit_test(unknown_names_list_the_known), cmocka_unit_test(stages_are_listed), cmocka_unit_test(devices_are_listed),
-		cmocka_unit_test(devices_by_name), cmocka_unit_test(without_opencl_the_cpu_works)};
-	return cmocka_run_group_tests_name("api", tests, make_folder, remove_folder);
+		cmocka_unit_test(devices_by_name)};
+	return cmocka_run_group_tests_name("api", tests, NULL, NULL);
 }

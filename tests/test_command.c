@@ -314,6 +314,30 @@ static void an_interruption_writes_what_there_is(void **state)
 	check("rm $D/state.json $D/table.csv", 0, "");
 }
 
+/* A machine with an OpenCL loader and no driver, and one without a loader: two files that are no libraries stand for none. */
+static void without_opencl_the_cpu_works(void **state)
+{
+	(void)state;
+	static const char *const machines[] = {
+		"mkdir -p $D/none && OCL_ICD_VENDORS=$D/none",
+		"mkdir -p $D/broken && : >$D/broken/libOpenCL.so && : >$D/broken/libOpenCL.so.1 && LD_LIBRARY_PATH=$D/broken",
+	};
+	char line[512], hash[64];
+	check("$C run scenes/thin_wall.json --steps 5 --hash --device cpu", 0, "runs on Carom: cpu");
+	snprintf(hash, sizeof hash, "%.63s", call.out);
+	for (size_t i = 0; i < COUNT(machines); i++) {
+		snprintf(line, sizeof line, "%s $C run scenes/thin_wall.json --steps 5 --hash --device auto", machines[i]);
+		check(line, 0, "runs on Carom: cpu");
+		assert_string_equal(call.out, hash);
+		snprintf(line, sizeof line, "%s $C run scenes/thin_wall.json --steps 5 --device opencl", machines[i]);
+		check(line, 2, "there is no device 'opencl'; use auto, cpu, opencl or part of one of these names: 'cpu");
+		assert_non_null(strstr(call.err, "no OpenCL device was found"));
+		snprintf(line, sizeof line, "%s $C devices", machines[i]);
+		check(line, 0, NULL);
+		assert_ptr_equal(strstr(call.out, "Carom: cpu"), call.out);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(help_is_complete), cmocka_unit_test(version_is_the_librarys),
@@ -322,6 +346,6 @@ int main(void)
 		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
 		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_closed_output_is_an_error),
 		cmocka_unit_test(a_named_pipe_may_be_written), cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),
-		cmocka_unit_test(an_interruption_writes_what_there_is)};
+		cmocka_unit_test(an_interruption_writes_what_there_is), cmocka_unit_test(without_opencl_the_cpu_works)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);
 }
