@@ -4,6 +4,7 @@
 #define CAROM_TESTS_COMMAND_H
 
 #include "carom.h"
+#include "count.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,8 +14,6 @@
 #include <unistd.h>
 
 #include <cmocka.h>
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* What the last call printed, and the folder for the files of the tests. */
 struct call {

@@ -4,6 +4,7 @@
 #define CAROM_TESTS_PICTURES_H
 
 #include "carom.h"
+#include "count.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,8 +12,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 typedef struct picture {
 	uint32_t width, height;

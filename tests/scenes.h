@@ -4,6 +4,7 @@
 #define CAROM_TESTS_SCENES_H
 
 #include "carom.h"
+#include "count.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -12,8 +13,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 static const char everything[] =
 	"\xEF\xBB\xBF{ \"pipeline\": { \"toi\": \"bisection\", \"epsilon\": 0.0009765625, \"iterations\": 3 },\n"

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "count.h"
 #include "scenery.h"
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* `status` with an error that begins with `said`. */
 static void assert_fails(carom_status status, const carom_error *error, carom_status expected, const char *said)

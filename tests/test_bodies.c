@@ -4,9 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "count.h"
 #include "scenery.h"
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 static carom_world *new_world(void)
 {

@@ -1,6 +1,7 @@
 /* carom_world_measure: sums against sums by hand, overlaps against known ones and against every pair.
  * SPDX-License-Identifier: MIT */
 #include "carom.h"
+#include "count.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -9,7 +10,6 @@
 
 #include <cmocka.h>
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define PI 3.14159265358979323846
 
 static const carom_vec2 square[4] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};

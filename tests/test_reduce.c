@@ -3,14 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "count.h"
 #include "layout.h"
 #include "scenery.h"
 #include "world.h"
 
 static const char *const alternatives[] = {"classic", "six", "four_six", "tiled"};
 static const size_t sizes[] = {2, 3, 8, 9, 64, 100, 257, 1000};
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* What was read in a pass to m x m from a live size of `from`. */
 typedef struct pass {

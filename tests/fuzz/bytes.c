@@ -2,6 +2,7 @@
  * most of it gets past the first check.
  * SPDX-License-Identifier: MIT */
 #include "bytes.h"
+#include "count.h"
 
 #include "fuzz.h"
 
@@ -10,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define PI 3.14159265358979323846
 
 /* ---- Numbers */

@@ -1,12 +1,11 @@
 /* Calls that make worlds, ask and change them.
  * SPDX-License-Identifier: MIT */
 #include "calls.h"
+#include "count.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* ---- Judging */
 

@@ -46,7 +46,7 @@ template <typename T> struct Rests {
 	Points<T> *points;
 	const Touching *touching;
 	T length;
-	bool impulses;
+	bool impulses; /* of the pass; read once, for in Status it lies beside what an iteration writes */
 
 	explicit Rests(const Job<T> &job)
 		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
