@@ -97,6 +97,7 @@ typedef enum carom_shape {
 	CAROM_REGULAR, /**< `sides` vertices on a circle of `radius`, the first on the body's +x axis */
 } carom_shape;
 
+#define CAROM_MAX_FRICTION 1000.0f /**< of a coefficient of friction; more would make no difference */
 #define CAROM_COLOR_AUTO 0xFF000000u /**< a colour of the palette, by the body's index */
 
 /** What a body is made from. Start from carom_default_body_def() and set the shape. */
@@ -114,6 +115,8 @@ typedef struct carom_body_def {
 	float mass;                 /**< kg, > 0; 0 (the default) takes it from the density */
 	float restitution;          /**< 0..1: the part of the normal speed a hit gives back; a pair takes the larger of its two;
 	                               NaN (the default) takes the world's */
+	float friction;             /**< 0..1000: a hit's, or a force's, part along the surfaces is at most so many times that along the normal (Coulomb); a
+	                               pair takes the geometric mean of its two; NaN (the default) takes the world's */
 	carom_vec2 force;           /**< N, constant, at the centre of mass; default (0, 0) */
 	float torque;               /**< N m, constant; default 0 */
 	bool is_static;             /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
@@ -140,6 +143,7 @@ typedef struct carom_body_info {
 	float inertia;              /**< kg m^2 about the centre of mass; infinite for a static body */
 	float density;              /**< kg/m^2, as given; 0 where the mass was given */
 	float restitution;          /**< 0..1 */
+	float friction;             /**< 0..1000 */
 	carom_vec2 force;           /**< N */
 	float torque;               /**< N m */
 	bool is_static;             /**< never moves */
@@ -230,6 +234,7 @@ typedef struct carom_world_def {
 	float time_step;         /**< s, >= 1.17549435e-38: how long a step of events or contacts lasts, the longest of first_impact; default 1/60 */
 	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
 	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
+	float friction;          /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
 	bool has_room;           /**< four walls that nothing passes; default none. Centres of mass must start inside; what of a body is
 	                          beyond a wall at the start may stay there, but gets no farther */
 	carom_vec2 room_min;     /**< m, the lower left corner */

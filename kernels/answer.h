@@ -77,9 +77,10 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 	return !(k.held > 0.0f) && !slot_is_static(slots, s);
 }
 
-rules_of_hit event_rules(float restitution, bool rapid, int events, bool borne, float weight)
+rules_of_hit event_rules(float restitution, float friction, bool rapid, int events, bool borne, float weight)
 {
 	rules_of_hit rules;
+	rules.friction = friction;
 	rules.restitution = restitution;
 	rules.micro = restitution < 1.0f ? MICRO : 0.0f;
 	rules.crowd = rules.shake = 0.0f;
@@ -99,8 +100,8 @@ rules_of_hit event_rules(float restitution, bool rapid, int events, bool borne, 
 
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. If a body leaves its reach the step begins again, but
  * goes on as long as it tells what others need, too. */
-void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), LIST_OUT(need),
-	float4 rules, int s, int id, int other_id, float4 next, float length)
+void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
+	RECORD_OUT(work), LIST_OUT(need), float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
 	bool borne = status[STATUS_BORNE];
@@ -115,7 +116,8 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 	k = moved(slots, s, k, u, length);
 	body b = body_of(slots, s, k, length);
 	if (wall && !pause) {
-		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), had_enough(members, id, rapid), events, borne,
+		float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
+		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub, had_enough(members, id, rapid), events, borne,
 			weight);
 		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &hit);
 	} else if (!wall) {
@@ -127,7 +129,8 @@ void answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), RECORD_IN(reach), L
 		events = other_id >= 0 ? max(events, members[MEMBER(other_id, MEMBER_EVENTS)]) : events;
 		other_rapid = is_rapid(members, other_id, other_was, u);
 		bool enough = had_enough(members, id, rapid) || had_enough(members, other_id, other_rapid);
-		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), enough, events, borne, weight);
+		float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), slot_body(slots, other));
+		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rub, enough, events, borne, weight);
 		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &hit) : pair_push(VERTICES, c, b, 0.0f, how, length, &hit);
 	}
 	if (hit.total > 0.0f) {

@@ -57,6 +57,21 @@ float2 body_rotation(body k, float t)
 	return rotation_of(place1(k.r, k.w, k.b, t));
 }
 
+/* The coefficient of friction of two bodies, by their indices, or of one and the walls: -1. */
+float friction_of(TEX_IN(uniforms), TEX_IN(friction), int body, int other)
+{
+	float4 rubs = TEX_LOAD(uniforms, UNIFORMS_RUBS, 0);
+	float two[2] = {0.0f, CHANNEL(rubs, RUBS_WALLS)};
+	if (!(CHANNEL(rubs, RUBS_ANY) > 0.0f))
+		return 0.0f;
+	for (int k = 0; k < (other < 0 ? 1 : 2); k++) {
+		int index = k ? other : body, place = index & (FRICTION_BODIES - 1);
+		float4 four = ROW_LOAD(friction, index >> FRICTION_LOG2);
+		two[k] = place < 2 ? (place ? four.y : four.x) : (place > 2 ? four.w : four.z);
+	}
+	return sqrt(two[0] * two[1]);
+}
+
 /* How long the step that begins may last; 0 when the time is over. */
 float step_length(TEX_IN(uniforms), TEX_IN(clock))
 {

@@ -31,6 +31,7 @@ typedef struct rules_of_hit {
 	float restitution, micro, crowd, shake, part;
 	float slow;        /* below so much of what the stronger push makes of a speed in a step */
 	float weight;      /* what gravity makes of one: a push that a crowd counts, though forces may bear it */
+	float friction;    /* coefficient */
 	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
 
@@ -62,10 +63,11 @@ float least_speed(rules_of_hit rules, float micro, float push, float still)
 	return larger(micro, larger(rules.crowd * larger(push, rules.weight), rules.shake * still));
 }
 
-rules_of_hit first_impact_rules(float restitution)
+rules_of_hit first_impact_rules(float restitution, float friction)
 {
 	rules_of_hit rules;
 	rules.restitution = restitution;
+	rules.friction = friction;
 	rules.micro = rules.crowd = rules.shake = rules.weight = 0.0f;
 	rules.part = rules.slow = 1.0f;
 	rules.rapid = rules.event = false;
@@ -80,11 +82,39 @@ impact impact_of(rules_of_hit rules, contact c, float push, float restitution, f
 	return hit;
 }
 
+/* Where impulses at the points of a contact come to, from a body's centre: `sign` times the normal from there to the rim of a circle. */
+float2 push_lever(body k, contact c, float2 lever0, float2 lever1, float part, float sign)
+{
+	if (k.count == 1)
+		return (float2)((sign * k.radius) * c.n.x, (sign * k.radius) * c.n.y);
+	if (c.count == 1)
+		return lever0;
+	return (float2)(lever0.x + part * (lever1.x - lever0.x), lever0.y + part * (lever1.y - lever0.y));
+}
+
+/* What the impulses j along the normal do to the incident body (x, y, torque) and about the reference's centre, and what friction does then: it takes
+ * as much of the sliding as it can, and no more than there is. v, wa and wb are the bodies' motion from each other before. */
+float4 contact_push(body a, body b, contact c, float2 v, float wa, float wb, float2 j, float friction)
+{
+	float total = j.x + j.y, on_b = torque_of(c, c.inc[0], c.inc[1], j), on_a = -torque_of(c, c.ref[0], c.ref[1], j);
+	float4 push = (float4)(total * c.n.x, total * c.n.y, on_b, on_a);
+	if (!(friction > 0.0f && total > 0.0f))
+		return push;
+	float2 way = (float2)(-c.n.y, c.n.x);
+	float2 from_a = push_lever(a, c, c.ref[0], c.ref[1], j.y / total, 1.0f), from_b = push_lever(b, c, c.inc[0], c.inc[1], j.y / total, -1.0f);
+	float arm_a = cross2(from_a, way), arm_b = cross2(from_b, way);
+	float slip = (inner(way, v) + (wa + a.inverse_inertia * on_a) * cross2(way, from_a)) - (wb + b.inverse_inertia * on_b) * cross2(way, from_b);
+	float gives = ((a.inverse_mass + b.inverse_mass) + a.inverse_inertia * (arm_a * arm_a)) + b.inverse_inertia * (arm_b * arm_b);
+	float most = friction * total, force = larger(smaller(-slip / gives, most), -most);
+	return (float4)(push.x + force * way.x, push.y + force * way.y, push.z + force * arm_b, push.w - force * arm_a);
+}
+
 /* Of body k's contact with a wall at time t of its step. */
 float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_hit rules, float length, impact *hit)
 {
 	float offset;
 	body walls = k;
+	walls.count = 0; /* no circle */
 	float2 n = wall_normal(room, wall, &offset);
 	contact c = wall_contact(VERTICES, k, n, t, wall_slop(k));
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
@@ -93,8 +123,9 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 	float restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, norm(k.a), still);
 	float2 j = contact_impulses(walls, k, c, restitution, h.rate, larger(least, h.mended), rules.event);
 	*hit = impact_of(rules, c, norm(k.a), restitution, least, j);
-	float torque = torque_of(c, c.inc[0], c.inc[1], j);
-	return (float4)((hit->total * n.x) / length, (hit->total * n.y) / length, torque / length, 0.0f);
+	float2 v = (float2)(k.v.x + t * k.a.x, k.v.y + t * k.a.y);
+	float4 push = contact_push(walls, k, c, v, 0.0f, k.w + t * k.b, j, rules.friction);
+	return (float4)(push.x / length, push.y / length, push.z / length, 0.0f);
 }
 
 /* Of the contact of bodies a and b, the row's and the column's, at time t of their step. */
@@ -108,30 +139,30 @@ float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
 	float push = larger(norm(a.a), norm(b.a)), restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, push, still),
 		  parting = larger(least, h.mended);
-	float2 j = c.swapped ? contact_impulses(b, a, c, restitution, h.rate, parting, rules.event)
-						 : contact_impulses(a, b, c, restitution, h.rate, parting, rules.event);
+	body ref = c.swapped ? b : a, inc = c.swapped ? a : b;
+	pose seen = c.swapped ? pose_swapped(p) : p;
+	float2 j = contact_impulses(ref, inc, c, restitution, h.rate, parting, rules.event);
 	*hit = impact_of(rules, c, push, restitution, least, j);
-	float ref = -torque_of(c, c.ref[0], c.ref[1], j) / length;
-	float inc = torque_of(c, c.inc[0], c.inc[1], j) / length;
-	float2 along = (float2)((hit->total * c.n.x) / length, (hit->total * c.n.y) / length);
-	return c.swapped ? (float4)(along.x, along.y, inc, ref) : (float4)(-along.x, -along.y, ref, inc);
+	float4 done = contact_push(ref, inc, c, seen.v, seen.wa, seen.wb, j, rules.friction);
+	float2 along = (float2)(done.x / length, done.y / length);
+	return c.swapped ? (float4)(along.x, along.y, done.z / length, done.w / length) : (float4)(-along.x, -along.y, done.w / length, done.z / length);
 }
 
-float4 hit_push(STATE_IN, VERTICES_IN, float4 hit, float length)
+float4 hit_push(STATE_IN, VERTICES_IN, TEX_IN(friction), float4 hit, float length)
 {
-	int column = (int)CHANNEL(hit, HIT_COLUMN);
-	float t = CHANNEL(hit, HIT_TIME);
+	int row = (int)CHANNEL(hit, HIT_ROW), column = (int)CHANNEL(hit, HIT_COLUMN);
+	float t = CHANNEL(hit, HIT_TIME), rub = friction_of(TEX(uniforms), TEX(friction), row, max(column, -1));
 	impact done;
-	body a = body_load(STATE, (int)CHANNEL(hit, HIT_ROW), length);
+	body a = body_load(STATE, row, length);
 	if (column >= 0) {
 		body b = body_load(STATE, column, length);
-		return pair_push(VERTICES, a, b, t, first_impact_rules(larger(a.restitution, b.restitution)), length, &done);
+		return pair_push(VERTICES, a, b, t, first_impact_rules(larger(a.restitution, b.restitution), rub), length, &done);
 	}
 	return wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), a, -1 - column, t,
-		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION))), length, &done);
+		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION)), rub), length, &done);
 }
 
-__kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(impulse), int4 domain)
+__kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_IN(friction), TEX_OUT(impulse), int4 domain)
 {
 	(void)domain;
 	if (get_global_id(0) > 0)
@@ -140,6 +171,6 @@ __kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(impulse), in
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	float4 result = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	if (CHANNEL(hit, HIT_TIME) <= 1.0f && CHANNEL(hit, HIT_DONE) > 0.0f)
-		result = hit_push(STATE, VERTICES, hit, length);
+		result = hit_push(STATE, VERTICES, TEX(friction), hit, length);
 	TEX_STORE(impulse, 0, 0, result);
 }

@@ -37,8 +37,12 @@
 #define FORCES_TORQUE 2 /* N m */
 #define FORCES_RESTITUTION 3
 
-/* Uniforms: what is the same for every body; three texels in a row */
-#define UNIFORMS_WIDTH 3
+/* Friction: the coefficients of four bodies a texel; a pair takes the geometric mean of its two */
+#define FRICTION_LOG2 2
+#define FRICTION_BODIES (1 << FRICTION_LOG2)
+
+/* Uniforms: what is the same for every body; four texels in a row */
+#define UNIFORMS_WIDTH 4
 #define UNIFORMS_WORLD 0 /* texel */
 #define WORLD_COUNT 0    /* bodies */
 #define WORLD_TIME_STEP 1
@@ -54,6 +58,9 @@
 #define RULES_ITERATIONS 1  /* bisections a pass */
 #define RULES_HAS_ROOM 2    /* 0 or 1 */
 #define RULES_RESTITUTION 3 /* of the walls */
+#define UNIFORMS_RUBS 3     /* texel */
+#define RUBS_WALLS 0        /* their coefficient of friction */
+#define RUBS_ANY 1          /* 0 or 1: something has friction */
 
 /* Clock: how far the simulation is; five texels in a row, ping-pong */
 #define CLOCK_WIDTH 5

@@ -144,8 +144,8 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 		atomic_add(&status[STATUS_HELD], held);
 }
 
-void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), LIST_OUT(owners),
-	LIST_OUT(parents), int leader, int round, float length)
+void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
+	LIST_OUT(owners), LIST_OUT(parents), int leader, int round, float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	int head = int_load(members, MEMBER(leader, MEMBER_HEAD));
@@ -187,7 +187,7 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 				continue;
 			}
 		}
-		answer(VERTICES, TEX(uniforms), slots, reach, status, members, work, need, rules, active[id], id, other_id, next, length);
+		answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, rules, active[id], id, other_id, next, length);
 		found_with = (float2)(0.0f, -1.0f);
 		look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, id, leader, length, other_id, &found_with);
 		first = heap_update(members, work, first, id);

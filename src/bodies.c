@@ -8,7 +8,7 @@
 
 carom_body_def carom_default_body_def(void)
 {
-	carom_body_def def = {.shape = CAROM_CIRCLE, .density = 1.0f, .restitution = NAN, .color = CAROM_COLOR_AUTO};
+	carom_body_def def = {.shape = CAROM_CIRCLE, .density = 1.0f, .restitution = NAN, .friction = NAN, .color = CAROM_COLOR_AUTO};
 	return def;
 }
 
@@ -109,6 +109,8 @@ static carom_status check_numbers(const carom_body_def *def, size_t index, carom
 		return fail(error, index, "torque", "must be a finite number (N m)");
 	if (!isnan(def->restitution) && !(def->restitution >= 0.0f && def->restitution <= 1.0f))
 		return fail_number(error, index, "restitution", (double)def->restitution, "from 0 to 1");
+	if (!isnan(def->friction) && !(def->friction >= 0.0f && def->friction <= CAROM_MAX_FRICTION))
+		return fail_number(error, index, "friction", (double)def->friction, "from 0 to 1000");
 	if (!(def->mass >= 0.0f) || !isfinite(def->mass))
 		return fail_number(error, index, "mass", (double)def->mass, "above 0 (kg), or 0 for the density's");
 	if (def->mass == 0.0f && (!(def->density > 0.0f) || !isfinite(def->density)))
@@ -256,6 +258,7 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world *world
 	memset(body, 0, sizeof *body);
 	body->shape = def->shape;
 	body->restitution = isnan(def->restitution) ? world->def.restitution : def->restitution;
+	body->friction = isnan(def->friction) ? world->def.friction : def->friction;
 	body->force = def->force;
 	body->torque = def->torque;
 	body->color = def->color;

@@ -105,6 +105,7 @@ static const struct scene_field scene_fields[] = {
 	{"time_step", scene_read_number, NULL, offsetof(carom_scene, world.time_step), &time_step, false},
 	{"gravity", scene_read_pair, NULL, offsetof(carom_scene, world.gravity), &scene_any, false},
 	{"restitution", scene_read_number, NULL, offsetof(carom_scene, world.restitution), &scene_part, false},
+	{"friction", scene_read_number, NULL, offsetof(carom_scene, world.friction), &scene_friction, false},
 	{"room", read_room, NULL, offsetof(carom_scene, world), NULL, false},
 	{"pipeline", read_pipeline, NULL, offsetof(carom_scene, world), NULL, false},
 	{"camera", read_camera, NULL, 0, NULL, false},

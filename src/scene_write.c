@@ -135,6 +135,7 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 		put_number_key(stream, "mass", info->mass, defaults->mass);
 	}
 	put_number_key(stream, "restitution", info->restitution, writer->world->restitution);
+	put_number_key(stream, "friction", info->friction, writer->world->friction);
 	put_pair_key(stream, "force", info->force, defaults->force);
 	put_number_key(stream, "torque", info->torque, defaults->torque);
 	if (info->is_static)
@@ -202,6 +203,10 @@ static void put_world(const struct writer *writer, const carom_camera *camera)
 	put_pair(stream, world->gravity);
 	fputs(",\n  \"restitution\": ", stream);
 	put_number(stream, world->restitution);
+	if (world->friction > 0) {
+		fputs(",\n  \"friction\": ", stream);
+		put_number(stream, world->friction);
+	}
 	if (world->has_room) {
 		fputs(",\n  \"room\": { \"min\": ", stream);
 		put_pair(stream, world->room_min);

@@ -15,6 +15,7 @@ typedef enum carom_role {
 	ROLE_ROTATIONAL, /* pair */
 	ROLE_GEOMETRY,
 	ROLE_FORCES,
+	ROLE_FRICTION,       /* one texel FRICTION_BODIES bodies */
 	ROLE_VERTICES,       /* one texel two vertices */
 	ROLE_UNIFORMS,       /* UNIFORMS_WIDTH x 1 */
 	ROLE_CLOCK,          /* pair, CLOCK_WIDTH x 1 */
@@ -118,7 +119,7 @@ typedef enum carom_stage {
 	STAGE_COUNT
 } carom_stage;
 
-#define CAROM_MAX_TEXTURES 17
+#define CAROM_MAX_TEXTURES 20
 
 typedef struct carom_stage_def {
 	const char *slot;

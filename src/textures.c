@@ -42,6 +42,7 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_ROTATIONAL] = "Rotational",
 	[ROLE_GEOMETRY] = "Geometry",
 	[ROLE_FORCES] = "Forces",
+	[ROLE_FRICTION] = "Friction",
 	[ROLE_VERTICES] = "Vertices",
 	[ROLE_UNIFORMS] = "Uniforms",
 	[ROLE_CLOCK] = "Clock",
@@ -173,6 +174,11 @@ static uint32_t circle_texels(const carom_world *world)
 	return circles;
 }
 
+static uint32_t friction_texels(uint32_t capacity)
+{
+	return (capacity + FRICTION_BODIES - 1) >> FRICTION_LOG2;
+}
+
 /* The textures that every step has. */
 static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t vertex_capacity, carom_error *error)
 {
@@ -187,6 +193,9 @@ static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t v
 		status = carom_textures_create(world, a_body[i].role, a_body[i].pair && pairs, carom_row_width(capacity), carom_row_count(capacity), zero,
 			error);
 	if (!status)
+		status = carom_textures_create(world, ROLE_FRICTION, false, carom_row_width(friction_texels(capacity)),
+			carom_row_count(friction_texels(capacity)), zero, error);
+	if (!status)
 		status = carom_textures_create(world, ROLE_VERTICES, false, carom_row_width(vertex_capacity), carom_row_count(vertex_capacity), zero, error);
 	if (!status)
 		status = carom_textures_create(world, ROLE_UNIFORMS, false, UNIFORMS_WIDTH, 1, zero, error);
@@ -197,7 +206,8 @@ static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t v
 
 uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs)
 {
-	uint64_t texels = (uint64_t)carom_capacity(body_count) * (pairs ? 6 : 4) + carom_capacity((vertex_count + body_count) / 2);
+	const uint32_t capacity = carom_capacity(body_count);
+	uint64_t texels = (uint64_t)capacity * (pairs ? 6 : 4) + friction_texels(capacity) + carom_capacity((vertex_count + body_count) / 2);
 	return 16 * (texels + UNIFORMS_WIDTH + 2 * CLOCK_WIDTH);
 }
 
@@ -210,7 +220,7 @@ static carom_status upload(carom_world *world, carom_role role, uint32_t count, 
 static void fill_uniforms(const carom_world *world, float *u)
 {
 	const carom_world_def *def = &world->def;
-	float *room = u + 4 * UNIFORMS_ROOM, *rules = u + 4 * UNIFORMS_RULES;
+	float *room = u + 4 * UNIFORMS_ROOM, *rules = u + 4 * UNIFORMS_RULES, *rubs = u + 4 * UNIFORMS_RUBS;
 	u[WORLD_COUNT] = (float)world->body_count;
 	u[WORLD_TIME_STEP] = def->time_step;
 	u[WORLD_GRAVITY_X] = def->gravity.x;
@@ -223,6 +233,8 @@ static void fill_uniforms(const carom_world *world, float *u)
 	rules[RULES_ITERATIONS] = def->iterations && def->iterations < ENOUGH_ITERATIONS ? (float)def->iterations : (float)ENOUGH_ITERATIONS;
 	rules[RULES_HAS_ROOM] = def->has_room ? 1.0f : 0.0f;
 	rules[RULES_RESTITUTION] = def->restitution;
+	rubs[RUBS_WALLS] = def->friction;
+	rubs[RUBS_ANY] = world->rubs ? 1.0f : 0.0f;
 }
 
 static void fill_geometry(const carom_world *world, float *texels)
@@ -248,6 +260,12 @@ static void fill_forces(const carom_world *world, float *texels)
 	}
 }
 
+static void fill_friction(const carom_world *world, float *texels)
+{
+	for (size_t i = 0; i < world->body_count; i++)
+		texels[i] = carom_world_bodies(world)[i].friction;
+}
+
 /* Those of polygons as the host has them; a circle's only vertex is (radius, 0). */
 static void fill_vertices(const carom_world *world, float *texels)
 {
@@ -271,7 +289,8 @@ static carom_status upload_bodies(carom_world *world, carom_error *error)
 		uint32_t count;
 		void (*fill)(const carom_world *world, float *texels);
 	} parts[] = {{ROLE_GEOMETRY, world->capacity, fill_geometry}, {ROLE_FORCES, world->capacity, fill_forces},
-		{ROLE_VERTICES, world->vertex_capacity, fill_vertices}, {ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms}};
+		{ROLE_FRICTION, friction_texels(world->capacity), fill_friction}, {ROLE_VERTICES, world->vertex_capacity, fill_vertices},
+		{ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms}};
 	carom_status status = CAROM_OK;
 	for (size_t i = 0; !status && i < sizeof parts / sizeof *parts; i++) {
 		float *texels = calloc(parts[i].count, 4 * sizeof *texels);

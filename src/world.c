@@ -48,6 +48,8 @@ static carom_status check_def(const carom_world_def *def, carom_error *error)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "gravity: must be two finite numbers (m/s^2)");
 	if (!(def->restitution >= 0.0f && def->restitution <= 1.0f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "restitution: found %g, must be from 0 to 1", (double)def->restitution);
+	if (!(def->friction >= 0.0f && def->friction <= CAROM_MAX_FRICTION))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "friction: found %g, must be from 0 to 1000", (double)def->friction);
 	if (!(def->epsilon >= 2.384185791015625e-7f && def->epsilon <= 0.5f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "epsilon: found %g, must be from 2^-22 to 0.5 (of a step)", (double)def->epsilon);
 	if (def->storage != CAROM_STORAGE_AUTO && def->storage != CAROM_STORAGE_IMAGE && def->storage != CAROM_STORAGE_BUFFER)
@@ -169,6 +171,10 @@ static bool append_body(carom_world *world, const carom_body_def *def, carom_bod
 	}
 	*slot = *body;
 	world->body_count++;
+	if (body->friction > 0.0f && !world->rubs) {
+		world->rubs = true;
+		world->prepared = false; /* the step may need more */
+	}
 	return true;
 }
 
@@ -277,6 +283,7 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 		.inertia = body->inertia,
 		.density = body->density,
 		.restitution = body->restitution,
+		.friction = body->friction,
 		.force = body->force,
 		.torque = body->torque,
 		.is_static = body->is_static,

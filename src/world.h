@@ -12,7 +12,7 @@ typedef struct carom_body {
 	float radius;                        /* as given; 0 for a polygon */
 	float bound;                         /* of the circle about the centre of mass */
 	uint32_t vertex_first, vertex_count; /* in world->vertices, the first an even number; count 1 and none there for a circle */
-	float mass, inertia, density, restitution, torque;
+	float mass, inertia, density, restitution, friction, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color;
 	bool is_static;
@@ -84,6 +84,7 @@ struct carom_world {
 	carom_array names;
 	carom_array linear, rotational; /* four floats a body */
 	size_t body_count;
+	bool rubs;           /* a body has friction */
 	bool bodies_current; /* the device's constant textures are those of the bodies */
 	bool device_current; /* the device has the host's state */
 	bool host_current;   /* the host has the device's state */

@@ -133,6 +133,27 @@ private:
 	const Texels<T> vertices;
 };
 
+/* How bodies rub, by their indices: CONTRACT.md, "Friction". */
+template <typename T> class Rubs
+{
+public:
+	Rubs(const Texels<T> &uniforms, const Texels<T> &friction)
+		: any(uniforms.fact(UNIFORMS_RUBS, RUBS_ANY) > 0), walls(uniforms.fact(UNIFORMS_RUBS, RUBS_WALLS)), coefficients(friction)
+	{
+	}
+
+	T at_wall(int32_t i) const { return any ? std::sqrt(of(i) * walls) : T(0); }
+	T between(int32_t i, int32_t k) const { return any ? std::sqrt(of(i) * of(k)) : T(0); }
+
+	const bool any;
+
+private:
+	T of(int32_t i) const { return coefficients.of(i >> FRICTION_LOG2, i & (FRICTION_BODIES - 1)); }
+
+	const T walls;
+	const Texels<T> coefficients;
+};
+
 /* How long the step that begins may last, by the clock as the step before left it. */
 template <typename T> T step_length(const Texels<T> &clock, const Texels<T> &uniforms)
 {

@@ -6,6 +6,14 @@
 
 namespace carom::cpu {
 
+/* How two bodies slide along each other, where they rub: seen from the reference, whose parts are 0 where it is a wall. */
+template <typename T> struct Slide {
+	T friction = 0;
+	Vec<T> v{0, 0}; /* of the incident body's centre */
+	T ref_spin = 0, inc_spin = 0;
+	T ref_rim = 0, inc_rim = 0; /* radii of circles */
+};
+
 /* A contact with what resists at it. */
 template <typename T> struct Collision {
 	Contact<T> contact;
@@ -16,6 +24,7 @@ template <typename T> struct Collision {
 	bool event = false;                             /* of the step events: it adds no energy */
 	bool slow = false;                              /* slower than what a push makes in a step, and lossy */
 	bool ruled = false;                             /* answered otherwise than by its restitution */
+	Slide<T> slide{};
 
 	/* How fast the points' parting at i grows by an impulse of 1 at k. */
 	T coupling(int i, int k) const
@@ -39,25 +48,47 @@ template <typename T> struct Impulses {
 	T at[2];
 };
 
-template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
+template <typename T> T rim_of(const Body<T> &body)
+{
+	return body.is_circle() ? body.radius : T(0);
+}
+
+template <typename T> Slide<T> wall_slide(const Body<T> &body, T friction, T t)
+{
+	return {friction, body.velocity_at(t), 0, body.angular_velocity_at(t), 0, rim_of(body)};
+}
+
+/* By the pose of A and B, of which `from_b` says whether B is the reference. */
+template <typename T> Slide<T> pair_slide(const Body<T> &a, const Body<T> &b, const Pose<T> &pose, bool from_b, T friction)
+{
+	if (from_b)
+		return {friction, -pose.v, pose.wb, pose.wa, rim_of(b), rim_of(a)};
+	return {friction, pose.v, pose.wa, pose.wb, rim_of(a), rim_of(b)};
+}
+
+template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const Rubs<T> &rubs, const FirstHit<T> &hit)
 {
 	const HeldConvex<T> body = shapes.convex(hit.row);
 	const Wall<T> wall = room_wall(shapes, hit.wall());
 	const T restitution = larger(shapes.restitution(hit.row), shapes.rule(RULES_RESTITUTION)), slop = wall_slop(body);
-	return {wall_contact(body, wall, hit.time, slop), {wall_gap(body, wall, hit.time), slop, wall_stillness(body)}, restitution, 0, body.inverse_mass,
-		0, body.inverse_inertia};
+	Collision<T> collision{wall_contact(body, wall, hit.time, slop), {wall_gap(body, wall, hit.time), slop, wall_stillness(body)}, restitution, 0,
+		body.inverse_mass, 0, body.inverse_inertia};
+	collision.slide = wall_slide<T>(body, rubs.at_wall(hit.row), hit.time);
+	return collision;
 }
 
-template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const FirstHit<T> &hit)
+template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const Rubs<T> &rubs, const FirstHit<T> &hit)
 {
 	const HeldConvex<T> a = shapes.convex(hit.row), b = shapes.convex(hit.column);
 	const Pose<T> at_hit = pose(a, b, hit.time);
 	const Axis<T> axis = best_axis(a, b, at_hit);
 	const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
 	const T slop = pair_slop(a, b);
-	return {contact_at(a, b, at_hit, axis, slop), {axis.gap, slop, pair_stillness(a, b)},
+	Collision<T> collision{contact_at(a, b, at_hit, axis, slop), {axis.gap, slop, pair_stillness(a, b)},
 		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
 		inc.inverse_inertia};
+	collision.slide = pair_slide<T>(a, b, at_hit, axis.from_b, rubs.between(hit.row, hit.column));
+	return collision;
 }
 
 /* Of the impulses about a body's centre; what is not there adds a 0 without a sign. */
@@ -67,13 +98,53 @@ template <typename T> T torque(const Contact<T> &contact, const Vec<T> levers[2]
 	return first + (contact.count > 1 ? cross(levers[1], contact.n) * j.at[1] : T(0));
 }
 
-template <typename T> void put_impulse(const Texels<T> &impulse, const Collision<T> &collision, const Impulses<T> &j, T length)
+/* What a hit does to the incident body, and the torque on the reference, which gets the opposite push. */
+template <typename T> struct Blow {
+	T x, y, on_inc, on_ref;
+};
+
+/* Where the impulses at the points come to, so that friction acts there. */
+template <typename T> Vec<T> middle(const Contact<T> &contact, const Vec<T> levers[2], T part)
+{
+	return contact.count > 1 ? Vec<T>(levers[0] + part * (levers[1] - levers[0])) : levers[0];
+}
+
+/* Against the sliding that the impulses along the normal leave: all of it, or as much as friction can. */
+template <typename T> void rub(const Collision<T> &collision, const Impulses<T> &j, Blow<T> &blow)
 {
 	const Contact<T> &c = collision.contact;
-	T sum = j.at[0] + j.at[1];
-	T push_x = (sum * c.n.x()) / length, push_y = (sum * c.n.y()) / length;
-	T on_inc = torque(c, c.inc, j) / length, on_ref = -torque(c, c.ref, j) / length;
-	if (c.from_b)
+	const Slide<T> &slide = collision.slide;
+	const T sum = j.at[0] + j.at[1], part = j.at[1] / sum, most = slide.friction * sum;
+	const Vec<T> along(-c.n.y(), c.n.x());
+	const Vec<T> ref = slide.ref_rim > 0 ? Vec<T>(slide.ref_rim * c.n) : middle(c, c.ref, part);
+	const Vec<T> inc = slide.inc_rim > 0 ? Vec<T>(-(slide.inc_rim * c.n)) : middle(c, c.inc, part);
+	const T ref_spin = slide.ref_spin + collision.ref_inertia * blow.on_ref, inc_spin = slide.inc_spin + collision.inc_inertia * blow.on_inc;
+	const T slip = (inner(along, slide.v) + ref_spin * cross(along, ref)) - inc_spin * cross(along, inc);
+	const T ref_arm = cross(ref, along), inc_arm = cross(inc, along);
+	const T gives = ((collision.ref_mass + collision.inc_mass) + collision.ref_inertia * (ref_arm * ref_arm))
+		+ collision.inc_inertia * (inc_arm * inc_arm);
+	const T force = larger(smaller(-slip / gives, most), -most);
+	blow.x += force * along.x();
+	blow.y += force * along.y();
+	blow.on_inc += force * inc_arm;
+	blow.on_ref -= force * ref_arm;
+}
+
+template <typename T> Blow<T> blow_of(const Collision<T> &collision, const Impulses<T> &j)
+{
+	const Contact<T> &c = collision.contact;
+	const T sum = j.at[0] + j.at[1];
+	Blow<T> blow{sum * c.n.x(), sum * c.n.y(), torque(c, c.inc, j), -torque(c, c.ref, j)};
+	if (collision.slide.friction > 0 && sum > 0)
+		rub(collision, j, blow);
+	return blow;
+}
+
+template <typename T> void put_impulse(const Texels<T> &impulse, const Collision<T> &collision, const Impulses<T> &j, T length)
+{
+	const Blow<T> blow = blow_of(collision, j);
+	const T push_x = blow.x / length, push_y = blow.y / length, on_inc = blow.on_inc / length, on_ref = blow.on_ref / length;
+	if (collision.contact.from_b)
 		impulse.set(0, 0, push_x, push_y, on_inc, on_ref);
 	else
 		impulse.set(0, 0, -push_x, -push_y, on_ref, on_inc);
@@ -82,14 +153,15 @@ template <typename T> void put_impulse(const Texels<T> &impulse, const Collision
 /* Runs the slot: `resolve(collision)` gives the impulses at the points. */
 template <typename T, typename Resolve> void find_impulse(const Job<T> &job, Resolve resolve)
 {
-	const Texels<T> impulse = job.texels(STATE_COUNT + 2);
+	const Texels<T> impulse = job.texels(STATE_COUNT + 3);
 	const FirstHit<T> hit(job.texels(STATE_COUNT + 1));
 	if (!hit.in_step() || !hit.done) {
 		impulse.set(0, 0, 0, 0, 0, 0);
 		return;
 	}
 	const Shapes<T> shapes(job, hit.length);
-	Collision<T> collision = hit.at_wall() ? wall_collision(shapes, hit) : pair_collision(shapes, hit);
+	const Rubs<T> rubs(shapes.uniforms, job.texels(STATE_COUNT + 2));
+	Collision<T> collision = hit.at_wall() ? wall_collision(shapes, rubs, hit) : pair_collision(shapes, rubs, hit);
 	put_impulse(impulse, collision, resolve(collision), hit.length);
 	if (hit.at_wall())
 		impulse.fact(0, IMPULSE_TORQUE_B) = 0;

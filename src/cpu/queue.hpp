@@ -26,9 +26,11 @@ struct Tally {
 template <typename T> class Queue
 {
 public:
-	Queue(const Clusters<T> &all, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round, std::vector<int32_t> &room)
-		: clusters(all), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs), heap(all.members, work_of, room),
-		  leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), borne(all.status[STATUS_BORNE] > 0)
+	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round,
+		std::vector<int32_t> &room)
+		: clusters(all), rubs(friction), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs),
+		  heap(all.members, work_of, room), leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)),
+		  borne(all.status[STATUS_BORNE] > 0)
 	{
 	}
 
@@ -282,8 +284,9 @@ private:
 	{
 		const Contact<T> &c = collision.contact;
 		const Impulses<T> j = clusters.functions.impulses(collision);
-		const T total = j.at[0] + j.at[1], length = clusters.length, x = (total * c.n.x()) / length, y = (total * c.n.y()) / length;
-		const T on_inc = torque(c, c.inc, j) / length, on_ref = -torque(c, c.ref, j) / length;
+		const Blow<T> blow = blow_of(collision, j);
+		const T total = j.at[0] + j.at[1], length = clusters.length, x = blow.x / length, y = blow.y / length;
+		const T on_inc = blow.on_inc / length, on_ref = blow.on_ref / length;
 		if (c.from_b)
 			return {x, y, on_inc, on_ref, total, collision.slow, collision.ruled};
 		return {-x, -y, on_ref, on_inc, total, collision.slow, collision.ruled};
@@ -299,6 +302,7 @@ private:
 			body.inverse_mass, 0, body.inverse_inertia};
 		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a),
 			larger(norm(body.a), clusters.weight()), stillness, past);
+		collision.slide = wall_slide<T>(body, rubs.at_wall(slots[s].body()), T(0));
 		return impact(collision);
 	}
 
@@ -316,6 +320,7 @@ private:
 		const Vec<T> between = inc.a - ref.a;
 		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
 			inner(collision.contact.n, between), larger(larger(norm(a.a), norm(b.a)), clusters.weight()), stillness, past);
+		collision.slide = pair_slide<T>(a, b, at, axis.from_b, rubs.between(slots[row].body(), slots[column].body()));
 		return impact(collision);
 	}
 
@@ -372,6 +377,7 @@ private:
 	}
 
 	const Clusters<T> &clusters;
+	const Rubs<T> &rubs;
 	const Slot<T> *const slots;
 	Member *const members;
 	Work<T> *const work;
