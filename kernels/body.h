@@ -57,12 +57,16 @@ float2 body_rotation(body k, float t)
 	return rotation_of(place1(k.r, k.w, k.b, t));
 }
 
+bool anything_rubs(TEX_IN(uniforms))
+{
+	return CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RUBS, 0), RUBS_ANY) > 0.0f;
+}
+
 /* The coefficient of friction of two bodies, by their indices, or of one and the walls: -1. */
 float friction_of(TEX_IN(uniforms), TEX_IN(friction), int body, int other)
 {
-	float4 rubs = TEX_LOAD(uniforms, UNIFORMS_RUBS, 0);
-	float two[2] = {0.0f, CHANNEL(rubs, RUBS_WALLS)};
-	if (!(CHANNEL(rubs, RUBS_ANY) > 0.0f))
+	float two[2] = {0.0f, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RUBS, 0), RUBS_WALLS)};
+	if (!anything_rubs(TEX(uniforms)))
 		return 0.0f;
 	for (int k = 0; k < (other < 0 ? 1 : 2); k++) {
 		int index = k ? other : body, place = index & (FRICTION_BODIES - 1);

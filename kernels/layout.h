@@ -268,6 +268,16 @@
 #define CONTACT_STEPS 4   /* record: two, kg: by how much a rate changes a force in an iteration; and */
 #define STEPS_TOLERANCE 2 /* m a step */
 
+/* Grips, where bodies rub: how the points of Contacts slide along u = (-n.y, n.x); four records a contact */
+#define GRIP_WIDTH 4
+#define GRIP_POINT 0     /* two records, of a point each */
+#define GRIP_ARM 0       /* m: u's arm about this body's centre, */
+#define GRIP_OTHER_ARM 1 /* and about the partner's */
+#define GRIP_RATE 2      /* m a step: how fast this body slides */
+#define GRIP_FORCE 3     /* kg m / step^2 */
+#define GRIP_STARTS 2    /* record: two forces from which the next iteration starts; two steps */
+#define GRIP_BOUNDS 3    /* record: the coefficient; two, kg m / step^2, that the forces may not exceed now */
+
 /* Touching: two ints a slot */
 #define TOUCHING_WIDTH 2
 #define TOUCHING_COUNT 0 /* of the slot's contacts; -1: too many */
@@ -360,7 +370,17 @@
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,
  * at the points that approach more slowly than CONTACT_FAST |a|. Impulses stop what would come nearer in the step than to half a cushion: CUSHION slops, or
  * |a| / 2 if that is less. Then forces let them come nearer by EASE of the gap in a step, down to a cushion. Both are found within a CONTACT_PART of
- * EASE of a cushion, or by CONTACT_ITERATIONS iterations. */
+ * EASE of a cushion, or by CONTACT_ITERATIONS iterations.
+ *
+ * Where bodies rub, the bound of a force of friction follows what the normal force allows at once in the first GRIP_FOLLOW iterations, and then by a
+ * GRIP_BLEND of what is missing: in many iterations the two would drive each other on, and so would more momentum than GRIP_MOMENTUM. What does not slide may
+ * creep by GRIP_CREEP of what normal forces are found within: little is left of that when coordinates are rounded; what slides is slowed within a
+ * GRIP_SLIDE of it. */
+#define GRIP_FOLLOW 16
+#define GRIP_BLEND 0.0625f
+#define GRIP_MOMENTUM 0.9375f
+#define GRIP_CREEP 0.0078125f
+#define GRIP_SLIDE 0.25f
 #define CONTACT_FAST 4.0f
 #define EASE 0.5f
 #define CUSHION 64.0f

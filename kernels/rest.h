@@ -2,23 +2,27 @@
 
 #define CONTACT(s, k, record) (CONTACT_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
 #define TOUCH(s, field) (TOUCHING_WIDTH * (s) + (field))
+#define GRIP(s, k, record) (GRIP_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
 #define CONTACTS_ALONE 512 /* bodies for which one group iterates alone */
 
 /* The contacts of one slot, while they are found. */
 typedef struct rests {
 	int count, keys[CONTACTS_MOST];
+	bool rub; /* something does, somewhere */
 } rests;
 
 /* A contact, and what its points are judged by: how much the stronger push makes in a step, how near it may come, and how much of its gap it may
  * lose in a step, of a gap that is so much larger than `spared`. */
 typedef struct rest {
-	float4 pair, points[2];
-	float force, cushion, ease, spared;
+	float4 pair, points[2], grips[2];
+	float force, cushion, ease, spared, friction;
 } rest;
 
-rest rest_begin(int partner, float2 n, float force, float slop, int pass)
+rest rest_begin(int partner, float2 n, float force, float slop, int pass, float friction)
 {
 	rest r;
+	r.friction = friction;
+	r.grips[0] = r.grips[1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	r.pair = (float4)((float)partner, 0.0f, n.x, n.y);
 	r.points[0] = r.points[1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	r.force = force;
@@ -28,17 +32,38 @@ rest rest_begin(int partner, float2 n, float force, float slop, int pass)
 	return r;
 }
 
+/* Along a contact: the normal turned by a quarter. */
+float2 aside(float2 n)
+{
+	return (float2)(-n.y, n.x);
+}
+
+/* From a body's centre to where another one touches it, if contacts have `lever`, which is 0 for circles; n is away from it. */
+float2 touch_lever(body k, float2 lever, float2 n)
+{
+	return k.count == 1 ? (float2)(k.radius * n.x, k.radius * n.y) : lever;
+}
+
+/* How the body slides at a point, as a record of Grips. */
+float4 grip_of(float2 n, float2 v, float w, float2 lever, float other_w, float2 other_lever)
+{
+	float2 way = aside(n);
+	float arm = cross2(lever, way), other_arm = cross2(other_lever, way);
+	return (float4)(arm, other_arm, inner(way, v) + (w * arm - other_w * other_arm), 0.0f);
+}
+
 /* A point, if it does not come too fast. */
-void rest_add(rest *r, float rate, float gap, float arm, float other_arm)
+void rest_add(rest *r, float rate, float gap, float arm, float other_arm, float4 grip)
 {
 	if (rate < -(CONTACT_FAST * r->force))
 		return;
 	r->points[(int)CHANNEL(r->pair, PAIR_POINTS)] = (float4)(arm, other_arm, rate + r->ease * (larger(gap, 0.0f) - r->spared), 0.0f);
+	r->grips[(int)CHANNEL(r->pair, PAIR_POINTS)] = grip;
 	CHANNEL(r->pair, PAIR_POINTS) += 1.0f;
 }
 
-/* Where its key says; the count is more than CONTACTS_MOST once there are too many. */
-void rests_insert(rests *all, RECORD_OUT(contacts), int s, rest r, int key)
+/* Where its key says; the count is more than CONTACTS_MOST once there are too many. Grips only where there is friction at all. */
+void rests_insert(rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s, rest r, int key)
 {
 	if (!(CHANNEL(r.pair, PAIR_POINTS) > 0.0f) || all->count > CONTACTS_MOST)
 		return;
@@ -49,6 +74,8 @@ void rests_insert(rests *all, RECORD_OUT(contacts), int s, rest r, int key)
 		all->keys[k] = all->keys[k - 1];
 		for (int i = 0; i < CONTACT_WIDTH; i++)
 			contacts[CONTACT(s, k, i)] = contacts[CONTACT(s, k - 1, i)];
+		for (int i = 0; all->rub && i < GRIP_WIDTH; i++)
+			grips[GRIP(s, k, i)] = grips[GRIP(s, k - 1, i)];
 	}
 	all->keys[k] = key;
 	contacts[CONTACT(s, k, CONTACT_PAIR)] = r.pair;
@@ -56,9 +83,16 @@ void rests_insert(rests *all, RECORD_OUT(contacts), int s, rest r, int key)
 	contacts[CONTACT(s, k, CONTACT_POINT + 1)] = r.points[1];
 	contacts[CONTACT(s, k, CONTACT_START)] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	contacts[CONTACT(s, k, CONTACT_STEPS)] = (float4)(0.0f, 0.0f, CONTACT_PART * (EASE * r.cushion), 0.0f);
+	if (!all->rub)
+		return;
+	grips[GRIP(s, k, GRIP_POINT)] = r.grips[0];
+	grips[GRIP(s, k, GRIP_POINT + 1)] = r.grips[1];
+	grips[GRIP(s, k, GRIP_STARTS)] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	grips[GRIP(s, k, GRIP_BOUNDS)] = (float4)(r.friction, 0.0f, 0.0f, 0.0f);
 }
 
-void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, int other, float length, int pass, rests *all)
+void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), int s, int other,
+	float length, int pass, rests *all)
 {
 	body own = body_of(slots, s, trajectory_start(slots, s), length), partner = body_of(slots, other, trajectory_start(slots, other), length);
 	float force = larger(norm(own.a), norm(partner.a));
@@ -76,24 +110,27 @@ void rest_on_body(VERTICES_IN, RECORD_IN(slots), RECORD_OUT(contacts), int s, in
 	contact c = contact_at(VERTICES, a, b, p, k, force - k.gap);
 	bool is_incident = is_row == c.swapped;
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
-	rest r = rest_begin(other, n, force, slop, pass);
+	rest r = rest_begin(other, n, force, slop, pass, friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key));
+	float2 v = (float2)(own.v.x - partner.v.x, own.v.y - partner.v.y), back = (float2)(-n.x, -n.y);
 	for (int i = 0; i < c.count; i++) {
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
 		float ref = cross2(c.ref[i], n), inc = cross2(c.inc[i], n);
-		rest_add(&r, c.rate[i], gap, is_incident ? inc : ref, is_incident ? ref : inc);
+		float2 lever = touch_lever(own, is_incident ? c.inc[i] : c.ref[i], back),
+			   other_lever = touch_lever(partner, is_incident ? c.ref[i] : c.inc[i], n);
+		rest_add(&r, c.rate[i], gap, is_incident ? inc : ref, is_incident ? ref : inc, grip_of(n, v, own.w, lever, partner.w, other_lever));
 	}
-	rests_insert(all, contacts, s, r, key);
+	rests_insert(all, contacts, grips, s, r, key);
 }
 
-void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), body k, int s, int wall, int pass, rests *all)
+void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), RECORD_OUT(grips), body k, int s, int wall, int pass, float friction, rests *all)
 {
 	float offset, force = norm(k.a);
-	float2 n = wall_normal(room, wall, &offset);
+	float2 n = wall_normal(room, wall, &offset), none = (float2)(0.0f, 0.0f);
 	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
-	rest r = rest_begin(-1 - wall, n, force, wall_slop(k), pass);
+	rest r = rest_begin(-1 - wall, n, force, wall_slop(k), pass, friction);
 	if (k.count == 1) {
 		if (height - k.radius <= force)
-			rest_add(&r, speed, height - k.radius, 0.0f, 0.0f);
+			rest_add(&r, speed, height - k.radius, 0.0f, 0.0f, grip_of(n, k.v, k.w, touch_lever(k, none, (float2)(-n.x, -n.y)), 0.0f, none));
 	} else {
 		float2 rotation = body_rotation(k, 0.0f), m = turn_back(rotation, n);
 		int deepest;
@@ -106,28 +143,31 @@ void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), body k, int s,
 			float gap = height + inner(m, ends[i]);
 			float2 lever = turn(rotation, ends[i]);
 			if (gap <= force)
-				rest_add(&r, speed - k.w * cross2(n, lever), gap, cross2(lever, n), 0.0f);
+				rest_add(&r, speed - k.w * cross2(n, lever), gap, cross2(lever, n), 0.0f, grip_of(n, k.v, k.w, lever, 0.0f, none));
 		}
 	}
-	rests_insert(all, contacts, s, r, -1 - wall);
+	rests_insert(all, contacts, grips, s, r, -1 - wall);
 }
 
 /* How many contacts the body in a slot has; -1: too many. */
-int rests_find(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), int s, float length)
+int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), RECORD_OUT(grips), int s,
+	float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	rests all;
 	int pass = status[STATUS_PASS];
 	all.count = 0;
+	all.rub = anything_rubs(TEX(uniforms));
 	if (slot_is_static(slots, s))
 		return 0;
 	body k = body_of(slots, s, trajectory_start(slots, s), length);
 	bool by_walls = CHANNEL(rules, RULES_HAS_ROOM) > 0.0f && larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)) < 1.0f && norm(k.a) > 0.0f;
+	float rub = by_walls ? friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1) : 0.0f;
 	for (int wall = 0; by_walls && wall < 4; wall++)
-		rest_on_wall(VERTICES, room, contacts, k, s, wall, pass, &all);
+		rest_on_wall(VERTICES, room, contacts, grips, k, s, wall, pass, rub, &all);
 	int end = spans[SPAN(s, SPAN_END)];
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i))
-		rest_on_body(VERTICES, slots, contacts, s, neighbour_of(neighbours, extra, i), length, pass, &all);
+		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, contacts, grips, s, neighbour_of(neighbours, extra, i), length, pass, &all);
 	return all.count > CONTACTS_MOST ? -1 : all.count;
 }
 
@@ -176,23 +216,31 @@ float response_bound(response m)
 	return smaller(row, sqrt(sqrt(sqrt(squares))));
 }
 
+/* Adds a force along n with that arm, as if it alone pushed the body. */
+void response_add(response *all, float4 mass, float2 n, float arm)
+{
+	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), both = sqrt(straight) * sqrt(turning);
+	float gives = point_gives(mass, arm);
+	all->xx += (straight / gives) * (n.x * n.x);
+	all->xy += (straight / gives) * (n.x * n.y);
+	all->yy += (straight / gives) * (n.y * n.y);
+	all->xt += (both / gives) * (n.x * arm);
+	all->yt += (both / gives) * (n.y * arm);
+	all->tt += (turning / gives) * (arm * arm);
+}
+
 /* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together. */
-float rests_share(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s)
+float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
-	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), both = sqrt(straight) * sqrt(turning);
 	response all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
 	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
 		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-		float x = CHANNEL(pair, PAIR_NORMAL_X), y = CHANNEL(pair, PAIR_NORMAL_Y);
+		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
 		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
-			float arm = CHANNEL(contacts[CONTACT(s, k, CONTACT_POINT + point)], POINT_ARM), gives = point_gives(mass, arm);
-			all.xx += (straight / gives) * (x * x);
-			all.xy += (straight / gives) * (x * y);
-			all.yy += (straight / gives) * (y * y);
-			all.xt += (both / gives) * (x * arm);
-			all.yt += (both / gives) * (y * arm);
-			all.tt += (turning / gives) * (arm * arm);
+			response_add(&all, mass, n, CHANNEL(contacts[CONTACT(s, k, CONTACT_POINT + point)], POINT_ARM));
+			if (rub && grips[GRIP(s, k, GRIP_BOUNDS)].x > 0.0f)
+				response_add(&all, mass, aside(n), CHANNEL(grips[GRIP(s, k, GRIP_POINT + point)], GRIP_ARM));
 		}
 	}
 	return response_bound(all);
@@ -209,35 +257,57 @@ float4 load_begin(RECORD_IN(slots), LIST_IN(status), int s, float length)
 }
 
 /* By how much rates change forces, once all bodies have their share. */
-void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(loads), int s, int now)
+void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, int now, bool rub)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now];
 	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
 		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)];
 		int other = (int)CHANNEL(contacts[CONTACT(s, k, CONTACT_PAIR)], PAIR_PARTNER);
-		bool moves = other >= 0 && !slot_is_static(slots, other);
-		float gives[2];
-		for (int point = 0; point < 2; point++) {
-			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
-			gives[point] = CHANNEL(load, LOAD_SHARE) * point_gives(mass, CHANNEL(at, POINT_ARM));
-			if (moves)
-				gives[point] += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE)
+		float gives[4]; /* of the normals, then of friction */
+		for (int i = 0; i < (rub ? 4 : 2); i++) {
+			float4 at = i < 2 ? contacts[CONTACT(s, k, CONTACT_POINT + i)] : grips[GRIP(s, k, GRIP_POINT + i - 2)]; /* both begin with arms */
+			gives[i] = CHANNEL(load, LOAD_SHARE) * point_gives(mass, CHANNEL(at, POINT_ARM));
+			if (other >= 0 && !slot_is_static(slots, other))
+				gives[i] += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE)
 					* point_gives(SLOT_LOAD(slots, other, SLOT_MASS), CHANNEL(at, POINT_OTHER_ARM));
 		}
 		contacts[CONTACT(s, k, CONTACT_STEPS)] = (float4)(1.0f / gives[0], 1.0f / gives[1], CHANNEL(steps, STEPS_TOLERANCE), 0.0f);
+		if (rub)
+			grips[GRIP(s, k, GRIP_STARTS)] = (float4)(0.0f, 0.0f, 1.0f / gives[2], 1.0f / gives[3]);
 	}
 }
 
+/* An iteration of the friction at a point of contact k, whose normal force is `force` now: the force from which the next one starts. */
+float grip_iterate(RECORD_OUT(grips), int s, int k, int point, float force, float4 load, float4 other_load, float2 n, float tolerance, int done,
+	float beta, bool *wanted)
+{
+	float4 at = grips[GRIP(s, k, GRIP_POINT + point)], starts = grips[GRIP(s, k, GRIP_STARTS)], bounds = grips[GRIP(s, k, GRIP_BOUNDS)];
+	float2 way = aside(n);
+	float slip = CHANNEL(at, GRIP_RATE) + (load_along(load, way, CHANNEL(at, GRIP_ARM)) - load_along(other_load, way, CHANNEL(at, GRIP_OTHER_ARM)));
+	float allowed = bounds.x * force, before = point ? bounds.z : bounds.y, from = point ? starts.y : starts.x, step = point ? starts.w : starts.z;
+	float most = done < GRIP_FOLLOW ? allowed : before + GRIP_BLEND * (allowed - before);
+	float held = larger(smaller(from - slip * step, most), -most), to = held + beta * (held - CHANNEL(at, GRIP_FORCE));
+	if (fabs(held) < most)
+		*wanted = *wanted || fabs(slip) > GRIP_CREEP * tolerance;
+	else
+		*wanted = *wanted || fabs(allowed - most) > (GRIP_SLIDE * tolerance) * step;
+	CHANNEL(at, GRIP_FORCE) = held;
+	grips[GRIP(s, k, GRIP_POINT + point)] = at;
+	grips[GRIP(s, k, GRIP_STARTS)] = point ? (float4)(starts.x, to, starts.z, starts.w) : (float4)(to, starts.y, starts.z, starts.w);
+	grips[GRIP(s, k, GRIP_BOUNDS)] = point ? (float4)(bounds.x, bounds.y, most, 0.0f) : (float4)(bounds.x, most, bounds.z, 0.0f);
+	return to;
+}
+
 /* One iteration of a body's contacts, after so many, from the loads of one parity to the other. True if another is wanted. */
-bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching), RECORD_OUT(loads), int s, int now, int done,
-	float length)
+bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), int s, int now,
+	int done, float length, bool rub)
 {
 	bool wanted = false;
-	float beta = (float)done / (float)(done + 2);
+	float usual = (float)done / (float)(done + 2), beta = rub ? smaller(usual, GRIP_MOMENTUM) : usual;
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], next = load_begin(slots, status, s, length);
 	CHANNEL(next, LOAD_SHARE) = CHANNEL(load, LOAD_SHARE);
 	if (done == 0)
-		rests_steps(slots, contacts, touching, loads, s, now);
+		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
 	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
 		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)], start = contacts[CONTACT(s, k, CONTACT_START)];
 		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)], other_load = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
@@ -255,6 +325,11 @@ bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST
 			CHANNEL(at, POINT_FORCE) = force;
 			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
 			next = load_add(next, to, n, arm, mass);
+			if (rub) {
+				float tolerance = CHANNEL(steps, STEPS_TOLERANCE), grip_arm = CHANNEL(grips[GRIP(s, k, GRIP_POINT + point)], GRIP_ARM);
+				float grip = grip_iterate(grips, s, k, point, force, load, other_load, n, tolerance, done, beta, &wanted);
+				next = load_add(next, grip, aside(n), grip_arm, mass);
+			}
 		}
 		contacts[CONTACT(s, k, CONTACT_START)] = start;
 	}
@@ -263,7 +338,7 @@ bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST
 }
 
 /* What all forces on a body come to. */
-float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s)
+float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
 {
 	float4 sum = (float4)(0.0f, 0.0f, 0.0f, 0.0f), mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
@@ -272,6 +347,10 @@ float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), int s
 		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
 			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
 			sum = load_add(sum, CHANNEL(at, POINT_FORCE), n, CHANNEL(at, POINT_ARM), mass);
+			if (rub) {
+				float4 grip = grips[GRIP(s, k, GRIP_POINT + point)];
+				sum = load_add(sum, CHANNEL(grip, GRIP_FORCE), aside(n), CHANNEL(grip, GRIP_ARM), mass);
+			}
 		}
 	}
 	return sum;

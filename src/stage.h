@@ -47,6 +47,7 @@ typedef enum carom_role {
 	ROLE_CELLS,      /* list, CELL_WIDTH a cell */
 	ROLE_STATUS,     /* list, STATUS_WIDTH */
 	/* of the step contacts, likewise */
+	ROLE_GRIPS,    /* records, CONTACTS_MOST of GRIP_WIDTH a slot; of one alone where nothing rubs */
 	ROLE_CONTACTS, /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */
 	ROLE_TOUCHING, /* list, TOUCHING_WIDTH a slot */
 	ROLE_LOADS,    /* records, LOADS_WIDTH a slot */

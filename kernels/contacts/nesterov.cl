@@ -19,13 +19,13 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 }
 
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
-	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), int4 domain)
+	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || status[STATUS_FIRST] != domain.z)
 		return;
 	bool first = status[STATUS_PASS] == PASS_IMPULSES, listed = !first && touching[TOUCH(s, TOUCHING_COUNT)] > 0;
-	int count = rests_find(VERTICES, TEX(uniforms), slots, LISTS, contacts, s, step_length(TEX(uniforms), TEX(clock)));
+	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, s, step_length(TEX(uniforms), TEX(clock)));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
 	if (first)
 		slot_keep(slots, pushes, s);
@@ -35,7 +35,7 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 
 /* Contacts of which one body has too many are none. */
 __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching),
-	RECORD_OUT(loads), int4 domain)
+	RECORD_IN(grips), RECORD_OUT(loads), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
 	if (status[STATUS_FIRST] != domain.z)
@@ -51,18 +51,18 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 				contacts[CONTACT(s, k, CONTACT_PAIR)] = pair;
 			}
 		}
-		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, touching, s);
+		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)));
 		loads[LOADS_OF(s) + (domain.z & 1)] = load;
 	}
 }
 
 /* One iteration; or where few bodies touch all there are, by one group alone, for which they cost less than launches. */
 __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_IN(touching),
-	RECORD_OUT(loads), int4 domain)
+	RECORD_OUT(grips), RECORD_OUT(loads), int4 domain)
 {
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
-	bool alone = touches <= CONTACTS_ALONE;
+	bool alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms));
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
@@ -72,7 +72,7 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 		bool wanted = false;
 		int now = (status[STATUS_FIRST] + done) & 1;
 		for (int i = begin; i < touches; i += stride)
-			wanted |= rests_iterate(slots, status, contacts, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, length);
+			wanted |= rests_iterate(slots, status, contacts, grips, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, length, rub);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;
@@ -88,7 +88,7 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 }
 
 __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
-	RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
+	RECORD_IN(grips), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
 	if (status[STATUS_HANDED] != domain.w || iterations_are_wanted(status))
@@ -97,7 +97,7 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 		status[STATUS_BORNE] = 1;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		slot_take(slots, status, s, rests_sum(slots, contacts, touching, s), length);
+		slot_take(slots, status, s, rests_sum(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms))), length);
 		if (slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z)) /* lists made anew for this step know none of this */
 			need[s] = as_int(way_ahead(slots, s, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)));
 	}

@@ -21,9 +21,22 @@ template <typename T> struct Points {
 	}
 };
 
+/* How they slide, where bodies rub, along what is left of the normal. */
+template <typename T> struct Grips {
+	Lanes<T> friction, arm, other_arm, rate, step, most, force, start;
+
+	void drop(int32_t i)
+	{
+		for (Lanes<T> *of : {&friction, &arm, &other_arm, &rate, &step, &most, &force, &start})
+			(*of)[i] = 0;
+	}
+};
+
 /* They lie where kernels have contacts. */
 constexpr int32_t points_most = 2 * CONTACTS_MOST / lane_count;
-static_assert(sizeof(Points<float>) * points_most == CONTACTS_MOST * CONTACT_WIDTH * 4 * sizeof(float), "records");
+static_assert(sizeof(Points<float>) * points_most == CONTACTS_MOST * CONTACT_WIDTH * 4 * sizeof(float)
+		&& sizeof(Grips<float>) * points_most == CONTACTS_MOST * GRIP_WIDTH * 4 * sizeof(float),
+	"records");
 
 /* In Touching, how many points; -1: there are too many contacts. */
 struct Touching {
@@ -32,14 +45,33 @@ struct Touching {
 
 static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");
 
+/* How a body slides at a point, seen from its partner: n is towards it, levers go from the two centres to the point. */
+template <typename T> struct Slip {
+	T arm = 0, other_arm = 0, rate = 0;
+
+	Slip() = default;
+	Slip(const Vec<T> &n, const Vec<T> &v, T spin, const Vec<T> &lever, T other_spin, const Vec<T> &other_lever)
+	{
+		const Vec<T> along(-n.y(), n.x());
+		arm = cross(lever, along), other_arm = cross(other_lever, along);
+		rate = inner(along, v) + (spin * arm - other_spin * other_arm);
+	}
+};
+
+/* Contacts say 0 for circles, where a normal passes the centre. */
+template <typename T> Vec<T> touched_at(const Convex<T> &body, const Vec<T> &lever, const Vec<T> &way_there)
+{
+	return body.is_circle() ? Vec<T>(body.radius * way_there) : lever;
+}
+
 /* Finds the contacts of one body after the other. */
 template <typename T> class RestFinder
 {
 public:
-	explicit RestFinder(const Clusters<T> &all) : clusters(all), impulses(all.status[STATUS_PASS] == PASS_IMPULSES) {}
+	RestFinder(const Clusters<T> &all, const Rubs<T> &friction) : clusters(all), rubs(friction), impulses(all.status[STATUS_PASS] == PASS_IMPULSES) {}
 
-	/* How many points the body rests on, which are written in order; -1 if it has too many contacts. */
-	int32_t find(int32_t s, Points<T> *to)
+	/* How many points the body rests on, which are written in order, and how they slide, where anything rubs; -1 if it has too many contacts. */
+	int32_t find(int32_t s, Points<T> *to, Grips<T> *grips)
 	{
 		const Slot<T> &slot = clusters.slots[s];
 		count = 0;
@@ -50,7 +82,7 @@ public:
 			if (may_rest(slot, clusters.slots[other]))
 				pair(s, other);
 		});
-		return count > CONTACTS_MOST ? -1 : write(to);
+		return count > CONTACTS_MOST ? -1 : write(to, grips);
 	}
 
 private:
@@ -58,11 +90,12 @@ private:
 	struct Resting {
 		struct Point {
 			T arm, other_arm, rate;
+			Slip<T> slip;
 		};
 
 		int32_t key, partner, points;
 		Vec<T> n; /* from the partner */
-		T tolerance;
+		T tolerance, friction;
 		Point at[2];
 	};
 
@@ -91,10 +124,10 @@ private:
 	}
 
 	/* Adds a point, if it does not come too fast. */
-	static void add(Resting &rest, const Rules &rules, T rate, T gap, T arm, T other_arm)
+	static void add(Resting &rest, const Rules &rules, T rate, T gap, T arm, T other_arm, const Slip<T> &slip)
 	{
 		if (!(rate < -(T(CONTACT_FAST) * rules.force)))
-			rest.at[rest.points++] = {arm, other_arm, rate + rules.part(gap)};
+			rest.at[rest.points++] = {arm, other_arm, rate + rules.part(gap), slip};
 	}
 
 	/* By the partner's index; only so many that it is seen that there are too many. */
@@ -108,7 +141,7 @@ private:
 		found[k] = rest;
 	}
 
-	int32_t write(Points<T> *to) const
+	int32_t write(Points<T> *to, Grips<T> *grips) const
 	{
 		int32_t written = 0;
 		for (int32_t k = 0; k < count; k++) {
@@ -121,16 +154,28 @@ private:
 				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
 				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
 				points.rate[i] = rest.at[point].rate, points.tolerance[i] = rest.tolerance, points.step[i] = 1;
+				if (rubs.any)
+					write_grip(grips[written / lane_count], i, rest.friction, rest.at[point].slip);
 			}
 		}
-		for (int32_t k = written; k % lane_count > 0; k++)
+		for (int32_t k = written; k % lane_count > 0; k++) {
 			to[k / lane_count].drop(k % lane_count);
+			if (rubs.any)
+				grips[k / lane_count].drop(k % lane_count);
+		}
 		return written;
 	}
 
-	static Resting begin(int32_t key, int32_t partner, const Vec<T> &n, const Rules &rules)
+	static void write_grip(Grips<T> &grips, int32_t i, T friction, const Slip<T> &slip)
 	{
-		return {key, partner, 0, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), {}};
+		grips.drop(i);
+		grips.friction[i] = friction;
+		grips.arm[i] = slip.arm, grips.other_arm[i] = slip.other_arm, grips.rate[i] = slip.rate;
+	}
+
+	static Resting begin(int32_t key, int32_t partner, const Vec<T> &n, const Rules &rules, T friction)
+	{
+		return {key, partner, 0, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
 	}
 
 	void pair(int32_t s, int32_t other)
@@ -154,10 +199,13 @@ private:
 		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
-		Resting rest = begin(other_slot.body(), other_slot.is_static() ? -1 : other, n, rules);
+		Resting rest = begin(other_slot.body(), other_slot.is_static() ? -1 : other, n, rules, rubs.between(slot.body(), other_slot.body()));
+		const Convex<T> &own_body = is_row ? a : b, &other_body = is_row ? b : a;
 		for (int32_t k = 0; k < c.count; k++) {
 			const Vec<T> &own = is_incident ? c.inc[k] : c.ref[k], &others = is_incident ? c.ref[k] : c.inc[k];
-			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n));
+			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n),
+				Slip<T>(n, own_body.v - other_body.v, own_body.w, touched_at<T>(own_body, own, -n), other_body.w,
+					touched_at<T>(other_body, others, n)));
 		}
 		insert(rest);
 	}
@@ -172,17 +220,18 @@ private:
 		clusters.fill(body, slot, way);
 		const Rules rules{norm(body.a), wall_slop(body), impulses};
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
-			wall(body, rules, k);
+			wall(body, slot.body(), rules, k);
 	}
 
-	void wall(const Convex<T> &body, const Rules &rules, int32_t k)
+	void wall(const Convex<T> &body, int32_t body_index, const Rules &rules, int32_t k)
 	{
 		const Wall<T> wall = clusters.wall(k);
 		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
-		Resting rest = begin(-1 - k, -1, wall.n, rules);
+		Resting rest = begin(-1 - k, -1, wall.n, rules, rubs.at_wall(body_index));
+		const auto slip = [&](const Vec<T> &lever) { return Slip<T>(wall.n, body.v, body.w, lever, 0, {0, 0}); };
 		if (body.is_circle()) {
 			if (height - body.radius <= rules.force)
-				add(rest, rules, speed, height - body.radius, 0, 0);
+				add(rest, rules, speed, height - body.radius, 0, 0, slip(touched_at<T>(body, {0, 0}, -wall.n)));
 		} else {
 			const Vec<T> rotation = rotation_of(body.r), m = turn_back(rotation, wall.n);
 			const int32_t deepest = lowest(body, m).vertex, before = body.before(deepest), after = body.after(deepest);
@@ -191,13 +240,14 @@ private:
 				const T gap = height + inner(m, body.vertex(vertex));
 				const Vec<T> lever = turn(rotation, body.vertex(vertex));
 				if (gap <= rules.force)
-					add(rest, rules, speed - body.w * cross(wall.n, lever), gap, cross(lever, wall.n), 0);
+					add(rest, rules, speed - body.w * cross(wall.n, lever), gap, cross(lever, wall.n), 0, slip(lever));
 			}
 		}
 		insert(rest);
 	}
 
 	const Clusters<T> &clusters;
+	const Rubs<T> &rubs;
 	const bool impulses;
 	int32_t count = 0;
 	Resting found[CONTACTS_MOST + 1]{};

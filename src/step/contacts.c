@@ -51,9 +51,9 @@ static carom_status unload(carom_world *world, carom_error *error)
 
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
-	const uint64_t n = carom_capacity(body_count);
+	const uint64_t n = carom_capacity(body_count), grips = CONTACTS_MOST * GRIP_WIDTH * (def->friction > 0 ? n : 1);
 	return carom_events_memory(pipeline, def, body_count, vertex_count)
-		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + PUSHES_WIDTH) + 4 * TOUCHING_WIDTH) + 16 * LOADS_OF(n);
+		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + PUSHES_WIDTH) + 4 * TOUCHING_WIDTH) + 16 * (LOADS_OF(n) + grips);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -62,6 +62,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_prepare(world, error));
 	world->events.iterations = FIRST_ITERATIONS;
 	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, CONTACTS_MOST * CONTACT_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_GRIPS, false, CONTACTS_MOST * GRIP_WIDTH * (world->rubs ? n : 1), error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_OF(n), error));
 	return carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error);

@@ -5,14 +5,36 @@ namespace carom::cpu {
 
 constexpr int32_t chunk = 64; /* slots */
 
+/* What forces at four points, along a unit vector each, do to a body: of each point x, y and torque. */
+template <typename T> struct Parts {
+	Lanes<T> of[lane_count];
+
+	Parts(const Slot<T> &slot, const Lanes<T> &forces, const Lanes<T> &along_x, const Lanes<T> &along_y, const Lanes<T> &arm)
+	{
+		const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
+		of[0] = straight * along_x, of[1] = straight * along_y, of[2] = turning * arm, of[3] = Lanes<T>{};
+		transpose<T>(of);
+	}
+};
+
 /* A load has x, y, torque of an acceleration, in a step that is 1 long, and the body's share. Forces add to it, one point's after the other's. */
 template <typename T> static void add(const Points<T> &points, const Lanes<T> &forces, const Slot<T> &slot, Lanes<T> &load)
 {
-	const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
-	Lanes<T> parts[] = {straight * points.normal_x, straight * points.normal_y, turning * points.arm, {}};
-	transpose<T>(parts);
-	for (const Lanes<T> &part : parts)
+	const Parts<T> parts(slot, forces, points.normal_x, points.normal_y, points.arm);
+	for (const Lanes<T> &part : parts.of)
 		load += part;
+}
+
+/* The same with what friction does, after the force of its point. */
+template <typename T>
+static void add(const Points<T> &points, const Lanes<T> &forces, const Grips<T> &grips, const Lanes<T> &rubbing, const Slot<T> &slot, Lanes<T> &load)
+{
+	const Parts<T> parts(slot, forces, points.normal_x, points.normal_y, points.arm);
+	const Parts<T> grip_parts(slot, rubbing, -points.normal_y, points.normal_x, grips.arm);
+	for (int32_t i = 0; i < lane_count; i++) {
+		load += parts.of[i];
+		load += grip_parts.of[i];
+	}
 }
 
 /* How much a force at a point parts it. */
@@ -39,28 +61,31 @@ template <typename T> struct Kept {
 	}
 };
 
-/* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching. */
+/* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching, Grips. */
 template <typename T> struct Rests {
 	const Slot<T> *slots;
 	int32_t *status;
 	Points<T> *points;
 	const Touching *touching;
+	Grips<T> *grips;
 	T length;
+	bool rubs;
 	bool impulses; /* of the pass; read once, for in Status it lies beside what an iteration writes */
 
 	explicit Rests(const Job<T> &job)
 		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
-		  touching(reinterpret_cast<const Touching *>(job.list(5))), length(step_length(job.texels(1), job.texels(0))),
+		  touching(reinterpret_cast<const Touching *>(job.list(5))), grips(reinterpret_cast<Grips<T> *>(job.records(6))),
+		  length(step_length(job.texels(1), job.texels(0))), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
 		  impulses(status[STATUS_PASS] == PASS_IMPULSES)
 	{
 	}
 
-	/* Calls `visit(points)` for all the points of a slot, in order. */
+	/* Calls `visit(points, grips)` for all the points of a slot, in order; where nothing rubs there are no grips. */
 	template <typename Visit> void each(int32_t s, const Visit &visit) const
 	{
-		Points<T> *four = points + points_most * s;
-		for (int32_t left = touching[s].count; left > 0; left -= lane_count)
-			visit(*four++);
+		int32_t four = points_most * s;
+		for (int32_t left = touching[s].count; left > 0; left -= lane_count, four++)
+			visit(points[four], grips[rubs ? four : 0]);
 	}
 
 	/* What acts on a body besides. */
@@ -97,17 +122,19 @@ template <typename T> static void find(const Job<T> &job)
 	Points<T> *points = reinterpret_cast<Points<T> *>(job.records(12));
 	Touching *touching = reinterpret_cast<Touching *>(job.list(13));
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(16));
+	const Rubs<T> rubs(job.texels(1), job.texels(17));
+	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
 	int32_t *status = clusters.status;
 	if (status[STATUS_FIRST] != job.domain[2])
 		return;
 	const bool first = status[STATUS_PASS] == PASS_IMPULSES;
 	job.pool.run(job.domain[0], 256, [&](int32_t from, int32_t to) {
-		RestFinder<T> finder(clusters);
+		RestFinder<T> finder(clusters, rubs);
 		for (int32_t s = from; s < to; s++) {
 			const bool listed = !first && touching[s].count > 0;
 			if (first)
 				kept[s].keep(clusters.slots[s]);
-			touching[s].count = finder.find(s, points + points_most * s);
+			touching[s].count = finder.find(s, points + points_most * s, grips + points_most * s);
 			if (touching[s].count > 0 && !listed)
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
@@ -141,20 +168,41 @@ template <typename T> struct Response {
 	}
 };
 
+/* What forces at four points along a unit vector each do, by themselves as if each alone gave way by 1. */
+template <typename T> struct Responses {
+	Lanes<T> xx, xy, yy, xt, yt, tt;
+
+	Responses(T straight, T turning, T both, const Lanes<T> &x, const Lanes<T> &y, const Lanes<T> &arm)
+	{
+		const Lanes<T> give = straight + turning * (arm * arm), a = straight / give, b = both / give, c = turning / give;
+		xx = a * (x * x), xy = a * (x * y), yy = a * (y * y), xt = b * (x * arm), yt = b * (y * arm), tt = c * (arm * arm);
+	}
+
+	void add(int32_t i, Response<T> &all) const
+	{
+		all.own[0] += xx[i], all.own[1] += yy[i], all.own[2] += tt[i];
+		all.beside[0] += xy[i], all.beside[1] += xt[i], all.beside[2] += yt[i];
+	}
+};
+
 /* A bound of what all points do together, each as if it alone gave way by 1. */
 template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const T straight = slot.mass[MASS_INVERSE], turning = slot.mass[MASS_INVERSE_INERTIA], both = std::sqrt(straight) * std::sqrt(turning);
 	Response<T> all;
-	rests.each(s, [&](const Points<T> &points) {
-		const Lanes<T> x = points.normal_x, y = points.normal_y, arm = points.arm, give = straight + turning * (arm * arm);
-		const Lanes<T> a = straight / give, b = both / give, c = turning / give;
-		const Lanes<T> by_xx = a * (x * x), by_xy = a * (x * y), by_yy = a * (y * y), by_xt = b * (x * arm), by_yt = b * (y * arm),
-					   by_tt = c * (arm * arm);
+	rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
+		const Responses<T> normal(straight, turning, both, points.normal_x, points.normal_y, points.arm);
+		if (!rests.rubs) {
+			for (int32_t i = 0; i < lane_count; i++)
+				normal.add(i, all);
+			return;
+		}
+		const Responses<T> along(straight, turning, both, -points.normal_y, points.normal_x, grips.arm);
 		for (int32_t i = 0; i < lane_count; i++) {
-			all.own[0] += by_xx[i], all.own[1] += by_yy[i], all.own[2] += by_tt[i];
-			all.beside[0] += by_xy[i], all.beside[1] += by_xt[i], all.beside[2] += by_yt[i];
+			normal.add(i, all);
+			if (grips.friction[i] > 0)
+				along.add(i, all);
 		}
 	});
 	return all.bound();
@@ -164,18 +212,21 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 template <typename T> static void join(const Job<T> &job)
 {
 	const Rests<T> rests(job);
-	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(6));
+	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
-			rests.each(s, [&](Points<T> &points) {
+			rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 				for (int32_t i = 0; i < lane_count; i++) {
 					const int32_t partner = static_cast<int32_t>(points.partner[i]);
-					if (partner >= 0 && rests.touching[partner].count < 0)
-						points.drop(i);
+					if (partner < 0 || rests.touching[partner].count >= 0)
+						continue;
+					points.drop(i);
+					if (rests.rubs)
+						grips.drop(i);
 				}
 			});
 			rests.begin(s, share_of(rests, s), loads[LOADS_OF(s) + (first & 1)]);
@@ -184,34 +235,58 @@ template <typename T> static void join(const Job<T> &job)
 }
 
 /* By how much rates change forces: from 1, or 0 where there is no point. */
-template <typename T> static void set_steps(const Rests<T> &rests, Points<T> &points, const Slot<T> &slot, T share, const Lanes<T> &others)
+template <typename T>
+static void set_steps(const Rests<T> &rests, Points<T> &points, Grips<T> &grips, const Slot<T> &slot, T share, const Lanes<T> &others)
 {
 	for (int32_t i = 0; i < lane_count; i++) {
 		const int32_t partner = static_cast<int32_t>(points.partner[i]);
-		T all = share * gives(slot, T(points.arm[i]));
-		if (partner >= 0)
-			all += others[i] * gives(rests.slots[partner], T(points.other_arm[i]));
-		if (points.step[i] > 0)
-			points.step[i] /= all;
+		const auto step = [&](T arm, T other_arm) {
+			const T own = share * gives(slot, arm);
+			return 1 / (partner < 0 ? own : own + others[i] * gives(rests.slots[partner], other_arm));
+		};
+		if (!(points.step[i] > 0))
+			continue;
+		points.step[i] = step(points.arm[i], points.other_arm[i]);
+		if (rests.rubs)
+			grips.step[i] = step(grips.arm[i], grips.other_arm[i]);
 	}
 }
 
+/* The same of friction, once the points have new forces. Another iteration is wanted where something slides that could be held, or by a force that is not
+ * yet what it may be. */
+template <typename T, typename Wanted>
+static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, const Lanes<T> (&others)[lane_count], T beta, int32_t done,
+	Wanted &wanted)
+{
+	const Lanes<T> allowed = grips.friction * points.force, most = done < GRIP_FOLLOW ? allowed : grips.most + T(GRIP_BLEND) * (allowed - grips.most);
+	const Lanes<T> x = -points.normal_y, y = points.normal_x, least = -most;
+	const Lanes<T> along = (x * load[0] + y * load[1]) + grips.arm * load[2],
+				   other_along = (x * others[0] + y * others[1]) + grips.other_arm * others[2];
+	const Lanes<T> rate = grips.rate + (along - other_along), pushed = grips.start - rate * grips.step;
+	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = held < 0 ? -held : held;
+	const Lanes<T> left = size < most ? rate : allowed - most;
+	wanted |= (left < 0 ? -left : left) > (size < most ? T(GRIP_CREEP) * points.tolerance : (T(GRIP_SLIDE) * points.tolerance) * grips.step);
+	grips.most = most;
+	grips.start = held + beta * (held - grips.force);
+	grips.force = held;
+}
+
 /* One iteration of one body, after so many. True if another is wanted. */
-template <typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *loads, int32_t s, int32_t now, int32_t done)
+template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *loads, int32_t s, int32_t now, int32_t done)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
-	const T beta = static_cast<T>(done) / static_cast<T>(done + 2);
+	const T usual = static_cast<T>(done) / static_cast<T>(done + 2), beta = rubs ? smaller(usual, T(GRIP_MOMENTUM)) : usual;
 	Lanes<T> next;
 	decltype(load < zero) wanted{};
 	rests.begin(s, load[LOAD_SHARE], next);
-	rests.each(s, [&](Points<T> &points) {
+	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
 		for (int32_t i = 0; i < lane_count; i++)
 			others[i] = loads[LOADS_OF(static_cast<int32_t>(points.partner[i])) + now];
 		transpose<T>(others);
 		if (done == 0)
-			set_steps(rests, points, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
+			set_steps(rests, points, grips, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
 		const Lanes<T> along = (points.normal_x * load[0] + points.normal_y * load[1]) + points.arm * load[2];
 		const Lanes<T> other_along = (points.normal_x * others[0] + points.normal_y * others[1]) + points.other_arm * others[2];
 		const Lanes<T> rate = points.rate + (along - other_along);
@@ -219,7 +294,12 @@ template <typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *l
 		wanted |= (force > 0 ? (rate < 0 ? -rate : rate) : -rate) > points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
-		add(points, points.start, slot, next);
+		if constexpr (rubs) {
+			rub(points, grips, load, others, beta, done, wanted);
+			add(points, points.start, grips, grips.start, slot, next);
+		} else {
+			add(points, points.start, slot, next);
+		}
 	});
 	loads[LOADS_OF(s) + 1 - now] = next;
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
@@ -228,14 +308,15 @@ template <typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *l
 template <typename T> static void iterate(const Job<T> &job)
 {
 	const Rests<T> rests(job);
-	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(6));
+	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
 	const int32_t number = job.domain[2], done = number - rests.status[STATUS_FIRST];
 	if (rests.status[STATUS_WANTED] != number)
 		return;
+	const auto iterate = rests.rubs ? iterate_one<true, T> : iterate_one<false, T>;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		bool wanted = false;
 		for (int32_t k = from; k < to; k++)
-			wanted |= iterate_one(rests, loads, rests.touching[k].slot, number & 1, done);
+			wanted |= iterate(rests, loads, rests.touching[k].slot, number & 1, done);
 		if (wanted && done + 1 < CONTACT_ITERATIONS && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
 			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
 	});
@@ -245,16 +326,21 @@ template <typename T> static void apply(const Job<T> &job)
 {
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
-	int32_t *need = job.list(9);
+	int32_t *need = job.list(10);
 	if (rests.status[STATUS_HANDED] != job.domain[3] || iterations_are_wanted(rests.status))
 		return;
 	rests.status[STATUS_BORNE] = 1;
-	const ReachKeeper<T> keeper(slots, job.records(6), rests.status, job.list(7), job.list(8), job.domain[2], job.texels(0));
+	const ReachKeeper<T> keeper(slots, job.records(7), rests.status, job.list(8), job.list(9), job.domain[2], job.texels(0));
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
 			Lanes<T> sum{};
-			rests.each(s, [&](const Points<T> &points) { add(points, points.force, slots[s], sum); });
+			rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
+				if (rests.rubs)
+					add(points, points.force, grips, grips.force, slots[s], sum);
+				else
+					add(points, points.force, slots[s], sum);
+			});
 			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
 			if (rests.impulses) {
 				slots[s].place[LINEAR_VX] += x;
