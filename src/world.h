@@ -140,6 +140,9 @@ carom_status carom_textures_update(carom_world *world, carom_error *error);
 /* Brings the state back to the host. */
 carom_status carom_textures_fetch(carom_world *world, carom_error *error);
 uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs);
+uint32_t carom_friction_texels(uint32_t capacity);
+/* textures_send.c: what bodies are, as the device has it */
+carom_status carom_textures_send(carom_world *world, carom_error *error);
 /* Runs a stage over the world's textures: fronts to read, backs to write. */
 carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w, carom_error *error);
 void carom_swap(carom_world *world, carom_role role);

@@ -21,6 +21,7 @@ carom_world_def judge_arena(const char *slot, const char *alternative)
 	carom_error error;
 	def.gravity = (carom_vec2){0.3f, -1.0f};
 	def.restitution = 0.8f;
+	def.friction = 0.5f;
 	def.has_room = true;
 	def.room_min = (carom_vec2){-5.0f, -5.0f};
 	def.room_max = (carom_vec2){5.0f, 5.0f};
@@ -42,6 +43,7 @@ void judge_fill(carom_world *world, uint64_t seed)
 	scenery_bodies(&random, SCENERY_MIXED, COUNT, 0.9f, 4.0f, bodies); /* crowded: some overlap from the start */
 	for (int i = 0; i < COUNT; i++) {
 		bodies[i].restitution = scenery_uniform(&random, 0.0f, 1.0f);
+		bodies[i].friction = scenery_uniform(&random, 0.0f, 1.0f);
 		if (!bodies[i].is_static) {
 			bodies[i].force = (carom_vec2){scenery_uniform(&random, -1.0f, 1.0f), scenery_uniform(&random, -1.0f, 1.0f)};
 			bodies[i].torque = scenery_uniform(&random, -0.3f, 0.3f);

@@ -1,4 +1,5 @@
-/* SPDX-License-Identifier: MIT */
+/* The queue's steps: what comes next, and how it is answered.
+ * SPDX-License-Identifier: MIT */
 #include "queue.h"
 
 #include <math.h>
@@ -6,126 +7,6 @@
 #include <string.h>
 
 #include "layout.h"
-
-enum { WALLS = 4 };
-
-/* ---- Bodies */
-
-static void take_place(queue_body *k, const carom_body_state *s)
-{
-	k->at.x = (double)s->position.x;
-	k->at.y = (double)s->position.y;
-	k->at.angle = (double)s->angle;
-	k->at.vx = (double)s->velocity.x;
-	k->at.vy = (double)s->velocity.y;
-	k->at.w = (double)s->angular_velocity;
-}
-
-void queue_follow(queue *q, carom_world *world)
-{
-	carom_error error;
-	for (uint32_t i = 0; i < q->count; i++) {
-		carom_body_state s;
-		scenery_check(carom_world_get_states(world, i, 1, &s, &error), &error);
-		take_place(&q->bodies[i], &s);
-	}
-}
-
-static void take_body(queue_body *k, carom_world *world, uint32_t index)
-{
-	const carom_world_def *def = carom_world_get_def(world);
-	carom_body_info info;
-	carom_error error;
-	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
-	k->at = exact_of(world, index);
-	k->inverse_mass = 1.0 / (double)info.mass;
-	k->inverse_inertia = 1.0 / (double)info.inertia;
-	k->restitution = (double)info.restitution;
-	if (!info.is_static) {
-		k->push[0] = (double)def->gravity.x + (double)info.force.x * k->inverse_mass;
-		k->push[1] = (double)def->gravity.y + (double)info.force.y * k->inverse_mass;
-		k->push[2] = (double)info.torque * k->inverse_inertia;
-	}
-}
-
-static void allocate(queue *q, size_t count)
-{
-	q->count = count;
-	q->bodies = calloc(count, sizeof *q->bodies);
-	q->next = calloc(count * (count + WALLS), sizeof *q->next);
-	q->hit_room = 1024;
-	q->hits = calloc(q->hit_room, sizeof *q->hits);
-	assert_true(q->bodies && q->next && q->hits);
-}
-
-queue *queue_of(carom_world *world)
-{
-	const carom_world_def *def = carom_world_get_def(world);
-	queue *q = calloc(1, sizeof *q);
-	assert_non_null(q);
-	allocate(q, carom_world_body_count(world));
-	for (uint32_t i = 0; i < q->count; i++)
-		take_body(&q->bodies[i], world, i);
-	q->room = (touch_room){def->has_room, {(double)def->room_min.x, (double)def->room_min.y}, {(double)def->room_max.x, (double)def->room_max.y},
-		(double)def->restitution};
-	q->gravity = hypot((double)def->gravity.x, (double)def->gravity.y);
-	queue_follow(q, world);
-	return q;
-}
-
-queue *queue_copy(const queue *other)
-{
-	queue *q = calloc(1, sizeof *q);
-	assert_non_null(q);
-	allocate(q, other->count);
-	memcpy(q->bodies, other->bodies, q->count * sizeof *q->bodies);
-	q->room = other->room;
-	return q;
-}
-
-void queue_destroy(queue *q)
-{
-	free(q->bodies);
-	free(q->next);
-	free(q->hits);
-	free(q);
-}
-
-static double shake(scenery_random *random, double size, double relative)
-{
-	return size * relative * (double)scenery_uniform(random, -1.0f, 1.0f);
-}
-
-static void shake_body(exact_body *k, scenery_random *random, double relative)
-{
-	const double size = fabs(k->x) + fabs(k->y) + k->bound, speed = fabs(k->vx) + fabs(k->vy) + fabs(k->w) * k->bound;
-	k->x += shake(random, size, relative);
-	k->y += shake(random, size, relative);
-	k->vx += shake(random, speed, relative);
-	k->vy += shake(random, speed, relative);
-	if (k->count == 1)
-		return;
-	k->angle += shake(random, 1.0, relative);
-	k->w += shake(random, speed / k->bound, relative);
-}
-
-void queue_shake(queue *q, scenery_random *random, double relative)
-{
-	for (queue_body *k = q->bodies; k < q->bodies + q->count; k++) {
-		if (k->inverse_mass > 0.0)
-			shake_body(&k->at, random, relative);
-	}
-}
-
-double queue_kinetic_energy(const queue *q)
-{
-	double sum = 0.0;
-	for (const queue_body *k = q->bodies; k < q->bodies + q->count; k++) {
-		if (k->inverse_mass > 0.0)
-			sum += 0.5 * ((k->at.vx * k->at.vx + k->at.vy * k->at.vy) / k->inverse_mass + k->at.w * k->at.w / k->inverse_inertia);
-	}
-	return sum;
-}
 
 /* ---- A step's units */
 
@@ -289,6 +170,52 @@ static void push(const touch *t, const party *p, const double (*levers)[2], cons
 	p->body->at.w += sign * (j[0] * arm(t, levers[0]) + j[1] * arm(t, levers[1])) * p->inverse_inertia;
 }
 
+/* Where the normal impulses act together, from the body's centre; `way` is 1 where the normal leads there. */
+static void lever_of(const touch *t, const party *p, const double (*levers)[2], const double *j, double way, double *lever)
+{
+	for (int i = 0; i < 2; i++) {
+		if (!p->body)
+			lever[i] = 0.0;
+		else if (p->body->at.count == 1)
+			lever[i] = way * p->body->at.bound * t->normal[i];
+		else
+			lever[i] = (j[0] * levers[0][i] + (t->count > 1 ? j[1] * levers[1][i] : 0.0)) / (j[0] + j[1]);
+	}
+}
+
+/* How fast a point of the party moves along the surfaces. */
+static double sliding(const touch *t, const party *p, const double *lever)
+{
+	if (!p->body || is_still(p->body))
+		return 0.0;
+	return (p->body->at.vy + p->body->at.w * lever[0]) * t->normal[0] - (p->body->at.vx - p->body->at.w * lever[1]) * t->normal[1];
+}
+
+static void drag(const touch *t, const party *p, const double *lever, double impulse)
+{
+	if (!p->body || is_still(p->body))
+		return;
+	p->body->at.vx -= impulse * t->normal[1] * p->inverse_mass;
+	p->body->at.vy += impulse * t->normal[0] * p->inverse_mass;
+	p->body->at.w += impulse * (lever[0] * t->normal[0] + lever[1] * t->normal[1]) * p->inverse_inertia;
+}
+
+/* Coulomb's law, once the bodies have their new velocities: friction stops their sliding, or does what it can to it. */
+static void rub(const touch *t, const party *reference, const party *incident, double friction, const double *j)
+{
+	double from[2], to[2], most = friction * (j[0] + j[1]), gives;
+	if (!(most > 0.0))
+		return;
+	lever_of(t, reference, t->reference, j, 1.0, from);
+	lever_of(t, incident, t->incident, j, -1.0, to);
+	const double arm_from = from[0] * t->normal[0] + from[1] * t->normal[1], arm_to = to[0] * t->normal[0] + to[1] * t->normal[1];
+	gives = reference->inverse_mass + incident->inverse_mass + reference->inverse_inertia * arm_from * arm_from
+		+ incident->inverse_inertia * arm_to * arm_to;
+	const double slip = sliding(t, incident, to) - sliding(t, reference, from), impulse = fmax(-most, fmin(most, -slip / gives));
+	drag(t, incident, to, impulse);
+	drag(t, reference, from, -impulse);
+}
+
 static bool is_rapid(const queue_body *k, double time)
 {
 	return k && !is_still(k) && k->events > 0 && time - k->time < (double)RAPID;
@@ -338,7 +265,7 @@ static double pull_of(const touch *t, const exact_body *a, const exact_body *b)
 static void shake_party(const queue *q, queue_body *k)
 {
 	if (q->shaken_by && k && !is_still(k))
-		shake_body(&k->at, q->shaken_by, q->rounding);
+		queue_shake_body(&k->at, q->shaken_by, q->rounding);
 }
 
 static void answer(queue *q, queue_hit hit)
@@ -365,6 +292,7 @@ static void answer(queue *q, queue_hit hit)
 	solve(&t, reference, incident, &how, j);
 	push(&t, incident, t.incident, j, 1.0);
 	push(&t, reference, t.reference, j, -1.0);
+	rub(&t, reference, incident, sqrt(a->friction * (b ? b->friction : q->friction)), j);
 	if (j[0] + j[1] > 0.0)
 		record(q, hit, how.restitution != usual || approach < how.micro);
 	shake_party(q, a);

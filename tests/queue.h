@@ -7,10 +7,12 @@
 #include "scenery.h"
 #include "touch.h"
 
+enum { WALLS = 4 };
+
 typedef struct queue_body {
 	exact_body at;  /* between steps in m and s; in a step in parts of it, as it was at `time` */
 	double push[3]; /* m/s^2, m/s^2, rad/s^2 */
-	double inverse_mass, inverse_inertia, restitution;
+	double inverse_mass, inverse_inertia, restitution, friction;
 	double time;     /* part of the step */
 	uint32_t events; /* of this step, */
 	uint32_t rapid;  /* and of these, which came soon after the one before */
@@ -28,6 +30,7 @@ typedef struct queue {
 	size_t count;
 	queue_body *bodies;
 	touch_room room;
+	double friction;        /* of the walls */
 	double gravity, weight; /* its size, and what that makes of a speed in the step */
 	double *next;           /* the hit of row and column; a body's hits with walls come before, from column -4 on */
 	queue_hit *hits;        /* of the last step */
@@ -48,6 +51,7 @@ void queue_destroy(queue *q);
 void queue_follow(queue *q, carom_world *world);
 /* Moves all by a random part, at most `relative`, of how large the numbers are: what rounding might do. */
 void queue_shake(queue *q, scenery_random *random, double relative);
+void queue_shake_body(exact_body *k, scenery_random *random, double relative);
 
 /* A step of `length` s; fails the test if it has more than `most` events. */
 void queue_step(queue *q, double length, size_t most);

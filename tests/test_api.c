@@ -111,6 +111,7 @@ static void definitions_out_of_range(void **unused)
 		REFUSE("gravity: must be two finite numbers", gravity.x, no_numbers[i]);
 		REFUSE("gravity: must be two finite numbers", gravity.y, no_numbers[i]);
 		REFUSE("restitution: found ", restitution, no_numbers[i]);
+		REFUSE("friction: found ", friction, no_numbers[i]);
 		REFUSE("epsilon: found ", epsilon, no_numbers[i]);
 		REFUSE("room: min and max must be two finite numbers", room_min.x, no_numbers[i]);
 		REFUSE("room: min and max must be two finite numbers", room_min.y, no_numbers[i]);
@@ -122,6 +123,8 @@ static void definitions_out_of_range(void **unused)
 	REFUSE("time_step: found 1.17549421e-38, must be finite and at least", time_step, nextafterf(FLT_MIN, 0.0f));
 	REFUSE("restitution: found -0.5, must be from 0 to 1", restitution, -0.5f);
 	REFUSE("restitution: found 1.5, must be from 0 to 1", restitution, 1.5f);
+	REFUSE("friction: found -0.5, must be from 0 to 1000", friction, -0.5f);
+	REFUSE("friction: found 1001, must be from 0 to 1000", friction, 1001.0f);
 	REFUSE("epsilon: found 0, must be from 2^-22 to 0.5", epsilon, 0.0f);
 	REFUSE("epsilon: found 1.19209e-07, must be from 2^-22 to 0.5", epsilon, FLT_EPSILON);
 	REFUSE("epsilon: found 0.75, must be from 2^-22 to 0.5", epsilon, 0.75f);

@@ -172,13 +172,13 @@ static double hits_of(const char *engine)
 	return sum;
 }
 
-/* Two shapes, two runs, falling and lying. Hits are fewer where forces bear what lies, and the same on both devices. */
+/* Three heaps, two runs, falling and lying. Hits are fewer where forces bear what lies, and the same on both devices. */
 static void check_heap(const char *options, size_t devices)
 {
 	char line[128];
 	snprintf(line, sizeof line, "--sizes 12 --runs 2 %s", options);
 	read_table("heap", line);
-	assert_int_equal(csv.rows, 1 + 8 * (devices + 1 + count_peers()));
+	assert_int_equal(csv.rows, 1 + 12 * (devices + 1 + count_peers()));
 	for (size_t row = 1; row < csv.rows; row++)
 		check_heap_row(row);
 	assert_true(hits_of("Carom, CPU fallback, contacts") < 0.5 * hits_of("Carom, CPU fallback, events"));

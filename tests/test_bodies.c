@@ -94,6 +94,9 @@ static void numbers_out_of_range(void **unused)
 	REFUSE("restitution: found -0.25, must be from 0 to 1", restitution, -0.25f);
 	REFUSE("restitution: found 1.25, must be from 0 to 1", restitution, 1.25f);
 	REFUSE("restitution: found inf, must be from 0 to 1", restitution, INFINITY);
+	REFUSE("friction: found -0.25, must be from 0 to 1000", friction, -0.25f);
+	REFUSE("friction: found 1000.5, must be from 0 to 1000", friction, 1000.5f);
+	REFUSE("friction: found inf, must be from 0 to 1000", friction, INFINITY);
 	REFUSE("color: must be 0xRRGGBB or CAROM_COLOR_AUTO", color, 0x1000000u);
 	REFUSE("position: (100.5, 0) is outside the room", position.x, 100.5f);
 	REFUSE("position: (0, -101) is outside the room", position.y, -101.0f);

@@ -43,14 +43,16 @@ static carom_body_def wild_body(scenery_random *random, uint32_t shapes, float s
 /* Bodies on a square lattice, of one of so many sizes. */
 static void make(scenery_random *random, uint32_t sizes, wild_world *world)
 {
-	static const float restitutions[] = {0.0f, 0.0f, 0.3f, 0.9f, 1.0f, 1.0f};
+	static const float restitutions[] = {0.0f, 0.0f, 0.3f, 0.9f, 1.0f, 1.0f}, frictions[] = {0.0f, 0.0f, 0.0f, 0.2f, 0.7f, 1000.0f};
 	carom_world_def *def = &world->def;
 	*def = runs_def();
 	const uint32_t shapes = below(random, 3), side = 2 + below(random, sizes);
 	const float pitch = scenery_uniform(random, 1.02f, 2.0f), half = 0.5f * (float)side * pitch + 0.6f;
 	const float middle = one_in(random, 3) ? scenery_uniform(random, -200.0f, 200.0f) : 0.0f;
 	const float speed = one_in(random, 12) ? 300.0f : scenery_uniform(random, 0.0f, 10.0f);
+	scenery_random rubbing = {random->state ^ 1}; /* of its own: the bodies of a seed are kept */
 	def->restitution = restitutions[below(random, 6)];
+	def->friction = frictions[below(&rubbing, 6)];
 	def->gravity.y = one_in(random, 2) ? -scenery_uniform(random, 0.0f, 20.0f) : 0.0f;
 	def->has_room = true;
 	def->room_min = (carom_vec2){middle - half, -half};

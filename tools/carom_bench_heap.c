@@ -12,7 +12,7 @@
 #define GRAVITY 9.81f /* m/s^2 */
 #define FILL 0.35
 #define SPEED 1.0 /* m/s */
-#define SHAPES 2
+#define SHAPES 3
 #define ENGINES 5
 
 static const struct {
@@ -26,7 +26,10 @@ static const struct {
 	{{"Chipmunk", &peer_chipmunk, PLACE_CHOSEN, 0}, NULL},
 };
 
-static const struct scale_shape shapes[SHAPES] = {{"circles", "circle", 0}, {"squares", "square", 4}};
+static const struct {
+	struct scale_shape shape;
+	float friction;
+} shapes[SHAPES] = {{{"circles", "circle", 0}, 0}, {{"squares", "square", 4}, 0}, {{"squares, friction 0.5", "square", 4}, 0.5f}};
 
 static const uint32_t default_sizes[] = {100, 400};
 
@@ -58,15 +61,17 @@ static struct bench_options options_of(const struct bench_options *options, size
 	return own;
 }
 
-static carom_status start_create(const struct scale_shape *shape, uint32_t bodies, uint64_t seed, const struct bench_options *options,
-	struct scale_start *start, carom_error *error)
+static carom_status start_create(size_t shape, uint32_t bodies, uint64_t seed, const struct bench_options *options, struct scale_start *start,
+	carom_error *error)
 {
-	const struct placement_def placement = {.sides = shape->sides, .count = bodies, .fill = FILL, .speed = SPEED, .radius = 0.5, .seed = seed};
+	const struct placement_def placement = {
+		.sides = shapes[shape].shape.sides, .count = bodies, .fill = FILL, .speed = SPEED, .radius = 0.5, .seed = seed};
 	carom_status status = scale_start_place(start, &placement, error);
 	if (status != CAROM_OK)
 		return status;
 	start->scene.gravity = (carom_vec2){0, -GRAVITY};
 	start->scene.restitution = RESTITUTION;
+	start->scene.friction = shapes[shape].friction;
 	return scale_start_fill(start, options, error);
 }
 
@@ -120,7 +125,7 @@ static carom_status measure_heap(struct heap_result *result, size_t shape, size_
 	struct scale_start start;
 	carom_world *judge = NULL;
 	carom_body_state *states = malloc(bodies * sizeof *states);
-	carom_status status = start_create(&shapes[shape], bodies, seed, options, &start, error);
+	carom_status status = start_create(shape, bodies, seed, options, &start, error);
 	if (status == CAROM_OK && !states) {
 		wrong(error, "there is not enough memory to measure");
 		status = error->status = CAROM_OUT_OF_MEMORY;
@@ -180,7 +185,7 @@ static void print(const struct heap_result *result, uint64_t runs)
 	for (size_t shape = 0; shape < SHAPES; shape++) {
 		for (size_t size = 0; size < result->size_count; size++) {
 			printf("\n%u %-28s  falling, s  ms a step  least - most      hits a step      overlap       energy\n", (unsigned)result->sizes[size],
-				shapes[shape].title);
+				shapes[shape].shape.title);
 			for (size_t k = 0; k < ENGINES; k++) {
 				if (result->cells[shape][size][k].runs)
 					print_cell(&result->cells[shape][size][k], k);
@@ -188,7 +193,7 @@ static void print(const struct heap_result *result, uint64_t runs)
 		}
 	}
 	printf("\nBodies of radius 0.5 m (squares: of the circle around), those of `carom generate --fill %g --speed %g --seed K` for K from 1\n"
-		   "to %u, fall in their room with %g m/s^2, restitution %g, no friction. Where bodies lie is chaotic: each run is another heap.\n"
+		   "to %u, fall in their room with %g m/s^2, restitution %g. Where bodies lie is chaotic: each run is another heap.\n"
 		   "falling: the first %d steps, together; the median of the runs.\n"
 		   "ms a step: of the %d steps after these; the median of the runs, the least and the most. hits: the mean of these steps.\n"
 		   "overlap: the deepest of all runs, looked for every %d of these steps, also with walls; energy: kinetic, in the end, the\n"
@@ -204,8 +209,8 @@ static void write_cell(FILE *stream, const struct heap_result *result, size_t sh
 	for (size_t run = 0; run < cell->runs; run++) {
 		for (int lies = 0; lies < 2; lies++) {
 			const double seconds = lies ? cell->lying[run] : cell->falling[run];
-			fprintf(stream, "%s,heap,\"%s, %s\",", carom_version(), shapes[shape].title, lies ? "lying" : "falling");
-			scale_put_engine(stream, &engines[engine].engine, &result->devices[engine], result->sizes[size], shapes[shape].name,
+			fprintf(stream, "%s,heap,\"%s, %s\",", carom_version(), shapes[shape].shape.title, lies ? "lying" : "falling");
+			scale_put_engine(stream, &engines[engine].engine, &result->devices[engine], result->sizes[size], shapes[shape].shape.name,
 				result->settings[engine]);
 			fprintf(stream, "%zu,%d,0,%.9g,%.9g,,,", run + 1, lies ? LYING : FALLING, seconds, REPETITIONS * seconds / (lies ? LYING : FALLING));
 			if (lies)

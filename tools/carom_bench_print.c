@@ -10,7 +10,7 @@
 const char *bench_format(double number, char *text, size_t size)
 {
 	int decimals = 2;
-	for (double limit = 1; decimals < 6 && number < limit; limit /= 10)
+	for (double limit = 1; number > 0 && decimals < 6 && number < limit; limit /= 10)
 		decimals++;
 	snprintf(text, size, "%.*f", number >= 100 ? 0 : number >= 10 ? 1 : decimals, number);
 	return text;

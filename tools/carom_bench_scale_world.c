@@ -35,6 +35,7 @@ static carom_status create_world(const struct scale_start *start, const struct b
 	def.room_max = start->scene.room_max;
 	def.gravity = start->scene.gravity;
 	def.restitution = start->scene.restitution;
+	def.friction = start->scene.friction;
 	if (status == CAROM_OK)
 		status = carom_world_create(&def, world, error);
 	if (status == CAROM_OK)

@@ -15,9 +15,9 @@ static const struct reference {
 	bool rests; /* all lose energy, and fall faster */
 	uint64_t state, picture;
 } references[] = {
-	{"events", 60, false, 0xa6f29ac5297f9562, 0xe429b8123bb1518c},
-	{"contacts", 12, true, 0x5583a4b3bdb70624, 0x170cafb21ef96acc},
-	{"first_impact", 60, false, 0xc211ecd13c4ba726, 0x30920f71e2e5992d},
+	{"events", 60, false, 0x97eae0a50eace1b1, 0x31b645783f242e4f},
+	{"contacts", 12, true, 0xdf39be286a9074c6, 0x9967a92c446b4d29},
+	{"first_impact", 60, false, 0x176c115dc673d52e, 0x76094c5bd96616cb},
 };
 
 static const carom_vec2 kite[4] = {{0.375f, 0}, {0, 0.25f}, {-0.25f, 0}, {0, -0.25f}};
@@ -35,6 +35,7 @@ static carom_body_def reference_body(int k, bool rests)
 	body.position = (carom_vec2){(float)(k % SIDE - SIDE / 2), (float)(k / SIDE - SIDE / 2)};
 	body.angle = (float)turn / 16;
 	body.restitution = rests ? 0 : k % 5 ? 1 : 0.5f;
+	body.friction = (float)(k % 4) / 8;
 	body.is_static = k % 11 == 5;
 	if (!body.is_static) {
 		body.velocity = (carom_vec2){(float)((k * 29) % 64 - 32) / 8, (float)((k * 53) % 64 - 32) / 8};
@@ -52,6 +53,7 @@ static carom_world_def reference_def(const carom_world_def *where, bool rests)
 	def.room_max = (carom_vec2){4, 4};
 	def.gravity = (carom_vec2){0.5f, rests ? -16 : -2};
 	def.restitution = rests ? 0 : 0.75f;
+	def.friction = 0.25f;
 	return def;
 }
 

@@ -17,7 +17,7 @@ struct peer_scene {
 	const carom_body_state *states; /* as many */
 	carom_vec2 room_min, room_max;  /* m */
 	carom_vec2 gravity;             /* m/s^2 */
-	float restitution;              /* of the walls */
+	float restitution, friction;    /* of the walls */
 	float time_step;                /* s */
 	bool bullets;                   /* where the engine can look for hits between moving bodies continuously, it does */
 };
@@ -27,7 +27,8 @@ struct peer {
 	const char *name;
 	const char *settings;         /* a line; where the engine is not in this build, how to get it */
 	const char *(*version)(void); /* NULL: the engine is not in this build, nor are the functions below */
-	/* A world of the same bodies: masses, inertias, states and restitution are theirs, friction is 0, none ever sleeps, the walls
+	/* A world of the same bodies: masses, inertias, states and restitution are theirs, a pair has the mean of
+	 * its frictions that Carom takes, none ever sleeps, the walls
 	 * are static boxes. NULL: there is no memory. */
 	void *(*create)(const struct peer_scene *scene);
 	void (*step)(void *world);

@@ -25,19 +25,19 @@ const char *version()
 	return BOX2D_VERSION;
 }
 
-void add_shape(b2Body *body, const b2Shape *shape, float restitution)
+void add_shape(b2Body *body, const b2Shape *shape, float restitution, float friction)
 {
 	b2FixtureDef fixture;
 	fixture.shape = shape;
 	fixture.density = 1;
-	fixture.friction = 0;
+	fixture.friction = friction;
 	fixture.restitution = restitution;
 	if (restitution >= 1)
 		fixture.restitutionThreshold = 0; /* else slow hits would lose their speed */
 	body->CreateFixture(&fixture);
 }
 
-void add_walls(b2World &world, b2Vec2 least, b2Vec2 most, float restitution)
+void add_walls(b2World &world, b2Vec2 least, b2Vec2 most, float restitution, float friction)
 {
 	b2BodyDef def;
 	b2Body *body = world.CreateBody(&def);
@@ -46,9 +46,9 @@ void add_walls(b2World &world, b2Vec2 least, b2Vec2 most, float restitution)
 	for (float side : {-1.0f, 1.0f}) {
 		b2PolygonShape box;
 		box.SetAsBox(thick, half.y + PEER_WALL, middle + b2Vec2(side * (half.x + thick), 0), 0);
-		add_shape(body, &box, restitution);
+		add_shape(body, &box, restitution, friction);
 		box.SetAsBox(half.x + PEER_WALL, thick, middle + b2Vec2(0, side * (half.y + thick)), 0);
-		add_shape(body, &box, restitution);
+		add_shape(body, &box, restitution, friction);
 	}
 }
 
@@ -71,11 +71,11 @@ void add_shape_of(b2Body *body, const carom_body_info &info)
 	if (info.shape == CAROM_CIRCLE) {
 		b2CircleShape circle;
 		circle.m_radius = info.radius;
-		add_shape(body, &circle, info.restitution);
+		add_shape(body, &circle, info.restitution, info.friction);
 		return;
 	}
 	const b2PolygonShape polygon = polygon_of(info);
-	add_shape(body, &polygon, info.restitution);
+	add_shape(body, &polygon, info.restitution, info.friction);
 }
 
 b2Body *add_body(b2World &world, const carom_body_info &info, const carom_body_state &state, bool bullet)
@@ -110,7 +110,7 @@ void *create(const peer_scene *scene)
 		return nullptr;
 	}
 	made->world.SetAllowSleeping(false);
-	add_walls(made->world, {scene->room_min.x, scene->room_min.y}, {scene->room_max.x, scene->room_max.y}, scene->restitution);
+	add_walls(made->world, {scene->room_min.x, scene->room_min.y}, {scene->room_max.x, scene->room_max.y}, scene->restitution, scene->friction);
 	for (size_t k = 0; k < scene->count; k++)
 		made->bodies.push_back(add_body(made->world, scene->bodies[k], scene->states[k], scene->bullets));
 	return made;

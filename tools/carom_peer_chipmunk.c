@@ -5,6 +5,7 @@
 #include <chipmunk/chipmunk.h>
 
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -24,10 +25,10 @@ static const char *version(void)
 	return cpVersionString;
 }
 
-static cpShape *add_shape(cpSpace *space, cpShape *shape, double restitution)
+static cpShape *add_shape(cpSpace *space, cpShape *shape, double restitution, float friction)
 {
 	cpShapeSetElasticity(shape, restitution);
-	cpShapeSetFriction(shape, 0);
+	cpShapeSetFriction(shape, sqrt((double)friction)); /* of two it takes the product */
 	return cpSpaceAddShape(space, shape);
 }
 
@@ -43,7 +44,7 @@ static void add_walls(cpSpace *space, const struct peer_scene *scene, cpShape **
 		cpBBNew(l - thick, t, r + thick, t + thick),
 	};
 	for (size_t k = 0; k < WALLS; k++)
-		shapes[k] = add_shape(space, cpBoxShapeNew2(cpSpaceGetStaticBody(space), boxes[k], 0), 1);
+		shapes[k] = add_shape(space, cpBoxShapeNew2(cpSpaceGetStaticBody(space), boxes[k], 0), 1, scene->friction);
 }
 
 static cpShape *make_shape(cpBody *body, const carom_body_info *info)
@@ -64,7 +65,7 @@ static cpBody *add_body(cpSpace *space, const carom_body_info *info, const carom
 	cpBodySetAngle(body, (double)state->angle);
 	cpBodySetVelocity(body, cpv((double)state->velocity.x, (double)state->velocity.y));
 	cpBodySetAngularVelocity(body, (double)state->angular_velocity);
-	*shape = add_shape(space, make_shape(body, info), (double)info->restitution);
+	*shape = add_shape(space, make_shape(body, info), (double)info->restitution, info->friction);
 	return body;
 }
 

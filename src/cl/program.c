@@ -11,9 +11,9 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][22] = {
+static const char *const headers[2][23] = {
 	{"layout", "texture", "numbers", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster",
-		"mend", "answer", "heap", "queue", "seek", "rest"},
+		"mend", "answer", "heap", "queue", "seek", "rest", "load"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
 };
 

@@ -118,8 +118,9 @@ static void choose(bytes *b, carom_pipeline *pipeline)
 static void exchange_in_world(bytes *b, carom_world_def *def)
 {
 	static const size_t floats[] = {offsetof(carom_world_def, time_step), offsetof(carom_world_def, gravity.x), offsetof(carom_world_def, gravity.y),
-		offsetof(carom_world_def, restitution), offsetof(carom_world_def, room_min.x), offsetof(carom_world_def, room_min.y),
-		offsetof(carom_world_def, room_max.x), offsetof(carom_world_def, room_max.y), offsetof(carom_world_def, epsilon)};
+		offsetof(carom_world_def, restitution), offsetof(carom_world_def, friction), offsetof(carom_world_def, room_min.x),
+		offsetof(carom_world_def, room_min.y), offsetof(carom_world_def, room_max.x), offsetof(carom_world_def, room_max.y),
+		offsetof(carom_world_def, epsilon)};
 	static const char *const devices[] = {"", "auto", "CPU", "abacus", "cpu and a name that is far too long to be kept in a message as it is"};
 	const char **name = (const char **)(void *)&def->pipeline + bytes_below(b, sizeof def->pipeline / sizeof *name);
 	switch (bytes_below(b, 8)) {
@@ -230,8 +231,8 @@ static void exchange_in_body(bytes *b, carom_body_def *def, carom_vec2 *vertices
 	static const size_t floats[] = {offsetof(carom_body_def, radius), offsetof(carom_body_def, position.x), offsetof(carom_body_def, position.y),
 		offsetof(carom_body_def, velocity.x), offsetof(carom_body_def, velocity.y), offsetof(carom_body_def, angle),
 		offsetof(carom_body_def, angular_velocity), offsetof(carom_body_def, density), offsetof(carom_body_def, mass),
-		offsetof(carom_body_def, restitution), offsetof(carom_body_def, force.x), offsetof(carom_body_def, force.y),
-		offsetof(carom_body_def, torque)};
+		offsetof(carom_body_def, restitution), offsetof(carom_body_def, friction), offsetof(carom_body_def, force.x),
+		offsetof(carom_body_def, force.y), offsetof(carom_body_def, torque)};
 	static const size_t coordinates[] = {offsetof(carom_vec2, x), offsetof(carom_vec2, y)};
 	switch (bytes_below(b, 10)) {
 	case 0: def->shape = (carom_shape)bytes_below(b, 5); break;
@@ -285,6 +286,8 @@ carom_body_def bytes_body_def(bytes *b, const carom_world_def *world, bytes_body
 			room->name[k] = (char)bytes_byte(b);
 		def.name = room->name;
 	}
+	if ((flags & 160) == 160)
+		def.friction = bytes_between(b, 0.0f, 2.0f);
 	for (uint32_t k = b->tame ? 0 : bytes_below(b, 3); k > 0; k--)
 		exchange_in_body(b, &def, room->vertices);
 	return def;

@@ -114,7 +114,7 @@ static void get_body(calls *c)
 		return;
 	}
 	FUZZ_EXPECT(info.mass > 0 && info.inertia > 0 && isinf(info.mass) == info.is_static && isinf(info.inertia) == info.is_static);
-	FUZZ_EXPECT(info.radius > 0 && info.restitution >= 0 && info.restitution <= 1);
+	FUZZ_EXPECT(info.radius > 0 && info.restitution >= 0 && info.restitution <= 1 && info.friction >= 0 && info.friction <= CAROM_MAX_FRICTION);
 	FUZZ_EXPECT((info.shape == CAROM_CIRCLE) == !info.vertices && info.vertex_count >= 1 && info.vertex_count <= CAROM_MAX_VERTICES);
 	for (uint32_t k = 0; info.vertices && k < info.vertex_count; k++)
 		FUZZ_EXPECT(isfinite(info.vertices[k].x) && isfinite(info.vertices[k].y));

@@ -1,0 +1,228 @@
+/* The forces between bodies that rest on each other, and what they make of loads, accelerations in a step: CONTRACT.md, "contacts". */
+
+/* An acceleration along n and about the centre at its arm. */
+float load_along(float4 load, float2 n, float arm)
+{
+	return (n.x * load.x + n.y * load.y) + arm * load.z;
+}
+
+float4 load_add(float4 load, float force, float2 n, float arm, float4 mass)
+{
+	float straight = CHANNEL(mass, MASS_INVERSE) * force, turning = CHANNEL(mass, MASS_INVERSE_INERTIA) * force;
+	return (float4)(load.x + straight * n.x, load.y + straight * n.y, load.z + turning * arm, load.w);
+}
+
+/* How much a force at a point parts it. */
+float point_gives(float4 mass, float arm)
+{
+	return CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm);
+}
+
+/* A symmetric matrix of x, y and turning. */
+typedef struct response {
+	float xx, xy, yy, xt, yt, tt;
+} response;
+
+response response_squared(response m)
+{
+	response square;
+	square.xx = (m.xx * m.xx + m.xy * m.xy) + m.xt * m.xt;
+	square.xy = (m.xx * m.xy + m.xy * m.yy) + m.xt * m.yt;
+	square.yy = (m.xy * m.xy + m.yy * m.yy) + m.yt * m.yt;
+	square.xt = (m.xx * m.xt + m.xy * m.yt) + m.xt * m.tt;
+	square.yt = (m.xy * m.xt + m.yy * m.yt) + m.yt * m.tt;
+	square.tt = (m.xt * m.xt + m.yt * m.yt) + m.tt * m.tt;
+	return square;
+}
+
+/* The largest eigenvalue is not larger than its rows, nor than the root of the sum of all eigenvalues' eighth powers, which is near it. */
+float response_bound(response m)
+{
+	float row = larger(larger((fabs(m.xx) + fabs(m.xy)) + fabs(m.xt), (fabs(m.xy) + fabs(m.yy)) + fabs(m.yt)),
+		(fabs(m.xt) + fabs(m.yt)) + fabs(m.tt));
+	response p = response_squared(response_squared(m));
+	float squares = ((p.xx * p.xx + p.yy * p.yy) + p.tt * p.tt) + 2.0f * ((p.xy * p.xy + p.xt * p.xt) + p.yt * p.yt);
+	return smaller(row, sqrt(sqrt(sqrt(squares))));
+}
+
+/* Adds a force along n with that arm, as if it alone pushed the body. */
+void response_add(response *all, float4 mass, float2 n, float arm)
+{
+	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), both = sqrt(straight) * sqrt(turning);
+	float gives = point_gives(mass, arm);
+	all->xx += (straight / gives) * (n.x * n.x);
+	all->xy += (straight / gives) * (n.x * n.y);
+	all->yy += (straight / gives) * (n.y * n.y);
+	all->xt += (both / gives) * (n.x * arm);
+	all->yt += (both / gives) * (n.y * arm);
+	all->tt += (turning / gives) * (arm * arm);
+}
+
+/* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together. */
+float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
+{
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	response all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
+		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
+			response_add(&all, mass, n, CHANNEL(contacts[CONTACT(s, k, CONTACT_POINT + point)], POINT_ARM));
+			if (rub && grips[GRIP(s, k, GRIP_BOUNDS)].x > 0.0f)
+				response_add(&all, mass, aside(n), CHANNEL(grips[GRIP(s, k, GRIP_POINT + point)], GRIP_ARM));
+		}
+	}
+	return response_bound(all);
+}
+
+/* What acts on a body besides, in a step that is 1 long: on what is stopped at once nothing. */
+float4 load_begin(RECORD_IN(slots), LIST_IN(status), int s, float length)
+{
+	if (status[STATUS_PASS] == PASS_IMPULSES)
+		return (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	return (float4)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length,
+		(CHANNEL(push, PUSH_TORQUE) * length) * length, 0.0f);
+}
+
+/* By how much rates change forces, once all bodies have their share. */
+void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, int now, bool rub)
+{
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now];
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)];
+		int other = (int)CHANNEL(contacts[CONTACT(s, k, CONTACT_PAIR)], PAIR_PARTNER);
+		float gives[4]; /* of the normals, then of friction */
+		for (int i = 0; i < (rub ? 4 : 2); i++) {
+			float4 at = i < 2 ? contacts[CONTACT(s, k, CONTACT_POINT + i)] : grips[GRIP(s, k, GRIP_POINT + i - 2)]; /* both begin with arms */
+			gives[i] = CHANNEL(load, LOAD_SHARE) * point_gives(mass, CHANNEL(at, POINT_ARM));
+			if (other >= 0 && !slot_is_static(slots, other))
+				gives[i] += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE)
+					* point_gives(SLOT_LOAD(slots, other, SLOT_MASS), CHANNEL(at, POINT_OTHER_ARM));
+		}
+		contacts[CONTACT(s, k, CONTACT_STEPS)] = (float4)(1.0f / gives[0], 1.0f / gives[1], CHANNEL(steps, STEPS_TOLERANCE), 0.0f);
+		if (rub)
+			grips[GRIP(s, k, GRIP_STARTS)] = (float4)(0.0f, 0.0f, 1.0f / gives[2], 1.0f / gives[3]);
+	}
+}
+
+/* An iteration of the friction at a point of contact k, whose normal force is `force` now: the force from which the next one starts. */
+float grip_iterate(RECORD_OUT(grips), int s, int k, int point, float force, float4 load, float4 other_load, float2 n, float tolerance, int done,
+	float beta, bool *wanted)
+{
+	float4 at = grips[GRIP(s, k, GRIP_POINT + point)], starts = grips[GRIP(s, k, GRIP_STARTS)], bounds = grips[GRIP(s, k, GRIP_BOUNDS)];
+	float2 way = aside(n);
+	float slip = CHANNEL(at, GRIP_RATE) + (load_along(load, way, CHANNEL(at, GRIP_ARM)) - load_along(other_load, way, CHANNEL(at, GRIP_OTHER_ARM)));
+	float allowed = bounds.x * force, before = point ? bounds.z : bounds.y, from = point ? starts.y : starts.x, step = point ? starts.w : starts.z;
+	float most = done < GRIP_FOLLOW ? allowed : before + GRIP_BLEND * (allowed - before);
+	float held = larger(smaller(from - slip * step, most), -most), to = held + beta * (held - CHANNEL(at, GRIP_FORCE));
+	if (fabs(held) < most)
+		*wanted = *wanted || fabs(slip) > GRIP_CREEP * tolerance;
+	else
+		*wanted = *wanted || fabs(allowed - most) > (GRIP_SLIDE * tolerance) * step;
+	CHANNEL(at, GRIP_FORCE) = held;
+	grips[GRIP(s, k, GRIP_POINT + point)] = at;
+	grips[GRIP(s, k, GRIP_STARTS)] = point ? (float4)(starts.x, to, starts.z, starts.w) : (float4)(to, starts.y, starts.z, starts.w);
+	grips[GRIP(s, k, GRIP_BOUNDS)] = point ? (float4)(bounds.x, bounds.y, most, 0.0f) : (float4)(bounds.x, most, bounds.z, 0.0f);
+	return to;
+}
+
+/* One iteration of a body's contacts, after so many, from the loads of one parity to the other. True if another is wanted. */
+bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), int s, int now,
+	int done, float length, bool rub)
+{
+	bool wanted = false;
+	float usual = (float)done / (float)(done + 2), beta = rub ? smaller(usual, GRIP_MOMENTUM) : usual;
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], next = load_begin(slots, status, s, length);
+	CHANNEL(next, LOAD_SHARE) = CHANNEL(load, LOAD_SHARE);
+	if (done == 0)
+		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)], start = contacts[CONTACT(s, k, CONTACT_START)];
+		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)], other_load = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
+		int other = (int)CHANNEL(pair, PAIR_PARTNER);
+		if (other >= 0 && !slot_is_static(slots, other))
+			other_load = loads[LOADS_OF(other) + now];
+		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
+			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
+			float arm = CHANNEL(at, POINT_ARM), from = point ? start.y : start.x, step = point ? steps.y : steps.x;
+			float rate = CHANNEL(at, POINT_RATE) + (load_along(load, n, arm) - load_along(other_load, n, CHANNEL(at, POINT_OTHER_ARM)));
+			float force = larger(from - rate * step, 0.0f), to = force + beta * (force - CHANNEL(at, POINT_FORCE));
+			wanted = wanted || (force > 0.0f ? fabs(rate) : -rate) > CHANNEL(steps, STEPS_TOLERANCE);
+			start = point ? (float4)(start.x, to, 0.0f, 0.0f) : (float4)(to, start.y, 0.0f, 0.0f);
+			CHANNEL(at, POINT_FORCE) = force;
+			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
+			next = load_add(next, to, n, arm, mass);
+			if (rub) {
+				float tolerance = CHANNEL(steps, STEPS_TOLERANCE), grip_arm = CHANNEL(grips[GRIP(s, k, GRIP_POINT + point)], GRIP_ARM);
+				float grip = grip_iterate(grips, s, k, point, force, load, other_load, n, tolerance, done, beta, &wanted);
+				next = load_add(next, grip, aside(n), grip_arm, mass);
+			}
+		}
+		contacts[CONTACT(s, k, CONTACT_START)] = start;
+	}
+	loads[LOADS_OF(s) + 1 - now] = next;
+	return wanted;
+}
+
+/* What all forces on a body come to. */
+float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
+{
+	float4 sum = (float4)(0.0f, 0.0f, 0.0f, 0.0f), mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
+		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
+			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
+			sum = load_add(sum, CHANNEL(at, POINT_FORCE), n, CHANNEL(at, POINT_ARM), mass);
+			if (rub) {
+				float4 grip = grips[GRIP(s, k, GRIP_POINT + point)];
+				sum = load_add(sum, CHANNEL(grip, GRIP_FORCE), aside(n), CHANNEL(grip, GRIP_ARM), mass);
+			}
+		}
+	}
+	return sum;
+}
+
+void velocities_set(RECORD_OUT(slots), int s, float x, float y, float turning)
+{
+	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE), turn = SLOT_LOAD(slots, s, SLOT_TURN);
+	CHANNEL(turn, TURN_VELOCITY) = turning;
+	slots[SLOT_WIDTH * s + SLOT_PLACE] = (float4)(place.x, place.y, x, y);
+	slots[SLOT_WIDTH * s + SLOT_TURN] = turn;
+}
+
+/* What a body's forces come to, in such a step, changes its velocities at once, or its push. */
+void slot_take(RECORD_OUT(slots), LIST_IN(status), int s, float4 sum, float length)
+{
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	float x = sum.x / length, y = sum.y / length, torque = sum.z / length;
+	if (status[STATUS_PASS] == PASS_IMPULSES)
+		velocities_set(slots, s, place.z + x, place.w + y, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) + torque);
+	else
+		slots[SLOT_WIDTH * s + SLOT_PUSH] = (float4)(push.x + x / length, push.y + y / length, push.z + torque / length, push.w);
+}
+
+/* What a step begins with, to be brought back. */
+void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
+{
+	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	pushes[PUSHES_WIDTH * s] = SLOT_LOAD(slots, s, SLOT_PUSH);
+	pushes[PUSHES_WIDTH * s + 1] = (float4)(place.z, place.w, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY), 0.0f);
+}
+
+void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocities)
+{
+	float4 velocities = pushes[PUSHES_WIDTH * s + 1];
+	slots[SLOT_WIDTH * s + SLOT_PUSH] = pushes[PUSHES_WIDTH * s];
+	if (with_velocities)
+		velocities_set(slots, s, velocities.x, velocities.y, velocities.z);
+}
+
+/* A slot's push or velocities are others: all around looks at it again, and it may get farther. True if that is where it was not looked for. */
+bool slot_changed(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
+{
+	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
+	return reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
+}

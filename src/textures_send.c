@@ -1,0 +1,101 @@
+/* The textures that do not change while bodies do not [2]: what bodies are, and what is the same for all. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout.h"
+#include "status.h"
+#include "world.h"
+
+#define ENOUGH_ITERATIONS 64 /* halvings for any epsilon: they stop there */
+
+static void fill_uniforms(const carom_world *world, float *u)
+{
+	const carom_world_def *def = &world->def;
+	float *room = u + 4 * UNIFORMS_ROOM, *rules = u + 4 * UNIFORMS_RULES, *rubs = u + 4 * UNIFORMS_RUBS;
+	u[WORLD_COUNT] = (float)world->body_count;
+	u[WORLD_TIME_STEP] = def->time_step;
+	u[WORLD_GRAVITY_X] = def->gravity.x;
+	u[WORLD_GRAVITY_Y] = def->gravity.y;
+	room[ROOM_MIN_X] = def->room_min.x;
+	room[ROOM_MIN_Y] = def->room_min.y;
+	room[ROOM_MAX_X] = def->room_max.x;
+	room[ROOM_MAX_Y] = def->room_max.y;
+	rules[RULES_EPSILON] = def->epsilon;
+	rules[RULES_ITERATIONS] = def->iterations && def->iterations < ENOUGH_ITERATIONS ? (float)def->iterations : (float)ENOUGH_ITERATIONS;
+	rules[RULES_HAS_ROOM] = def->has_room ? 1.0f : 0.0f;
+	rules[RULES_RESTITUTION] = def->restitution;
+	rubs[RUBS_WALLS] = def->friction;
+	rubs[RUBS_ANY] = world->rubs ? 1.0f : 0.0f;
+}
+
+static void fill_geometry(const carom_world *world, float *texels)
+{
+	uint32_t circle = carom_polygon_texels(world);
+	for (size_t i = 0; i < world->body_count; i++, texels += 4) {
+		const carom_body *body = &carom_world_bodies(world)[i];
+		texels[GEOMETRY_FIRST] = (float)(body->vertex_count == 1 ? circle++ : body->vertex_first / 2);
+		texels[GEOMETRY_COUNT] = (float)body->vertex_count;
+		texels[GEOMETRY_MASS] = body->mass;
+		texels[GEOMETRY_INERTIA] = body->inertia;
+	}
+}
+
+static void fill_forces(const carom_world *world, float *texels)
+{
+	for (size_t i = 0; i < world->body_count; i++, texels += 4) {
+		const carom_body *body = &carom_world_bodies(world)[i];
+		texels[FORCES_X] = body->force.x;
+		texels[FORCES_Y] = body->force.y;
+		texels[FORCES_TORQUE] = body->torque;
+		texels[FORCES_RESTITUTION] = body->restitution;
+	}
+}
+
+static void fill_friction(const carom_world *world, float *texels)
+{
+	for (size_t i = 0; i < world->body_count; i++)
+		texels[i] = carom_world_bodies(world)[i].friction;
+}
+
+/* Those of polygons as the host has them; a circle's only vertex is (radius, 0). */
+static void fill_vertices(const carom_world *world, float *texels)
+{
+	if (world->vertices.used)
+		memcpy(texels, world->vertices.items, world->vertices.used);
+	texels += 4 * (size_t)carom_polygon_texels(world);
+	for (size_t i = 0; i < world->body_count; i++) {
+		const carom_body *body = &carom_world_bodies(world)[i];
+		if (body->vertex_count == 1) {
+			texels[VERTICES_X0] = body->radius;
+			texels += 4;
+		}
+	}
+}
+
+/* Uploads `count` texels, padded with zeros to whole rows; `texels` has room for that. */
+static carom_status upload(carom_world *world, carom_role role, uint32_t count, const float *texels, carom_error *error)
+{
+	return world->device->kind->upload(world->device, world->textures[role].front, carom_row_count(count), texels, error);
+}
+
+/* One after the other, since of millions of bodies each takes much memory. */
+carom_status carom_textures_send(carom_world *world, carom_error *error)
+{
+	const struct {
+		carom_role role;
+		uint32_t count;
+		void (*fill)(const carom_world *world, float *texels);
+	} parts[] = {{ROLE_GEOMETRY, world->capacity, fill_geometry}, {ROLE_FORCES, world->capacity, fill_forces},
+		{ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction}, {ROLE_VERTICES, world->vertex_capacity, fill_vertices},
+		{ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms}};
+	carom_status status = CAROM_OK;
+	for (size_t i = 0; !status && i < sizeof parts / sizeof *parts; i++) {
+		float *texels = calloc(parts[i].count, 4 * sizeof *texels);
+		if (!texels)
+			return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
+		parts[i].fill(world, texels);
+		status = upload(world, parts[i].role, parts[i].count, texels, error);
+		free(texels);
+	}
+	return status;
+}
