@@ -97,7 +97,7 @@ typedef enum carom_shape {
 	CAROM_REGULAR, /**< `sides` vertices on a circle of `radius`, the first on the body's +x axis */
 } carom_shape;
 
-#define CAROM_MAX_FRICTION 1000.0f /**< of a coefficient of friction; more would make no difference */
+#define CAROM_MAX_FRICTION 1000.0f   /**< of a coefficient of friction; more would make no difference */
 #define CAROM_COLOR_AUTO 0xFF000000u /**< a colour of the palette, by the body's index */
 
 /** What a body is made from. Start from carom_default_body_def() and set the shape. */
@@ -115,8 +115,8 @@ typedef struct carom_body_def {
 	float mass;                 /**< kg, > 0; 0 (the default) takes it from the density */
 	float restitution;          /**< 0..1: the part of the normal speed a hit gives back; a pair takes the larger of its two;
 	                               NaN (the default) takes the world's */
-	float friction;             /**< 0..1000: a hit's, or a force's, part along the surfaces is at most so many times that along the normal (Coulomb); a
-	                               pair takes the geometric mean of its two; NaN (the default) takes the world's */
+	float friction;             /**< 0..1000, Coulomb's: what acts along the surfaces is at most so many times what acts along the normal;
+	                               a pair takes the geometric mean of its two; NaN (the default) takes the world's */
 	carom_vec2 force;           /**< N, constant, at the centre of mass; default (0, 0) */
 	float torque;               /**< N m, constant; default 0 */
 	bool is_static;             /**< infinite mass and inertia: never moves; velocities and forces must be 0 */

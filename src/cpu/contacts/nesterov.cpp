@@ -169,13 +169,12 @@ template <typename T> struct Response {
 };
 
 /* What forces at four points along a unit vector each do, by themselves as if each alone gave way by 1. */
-template <typename T> struct Responses {
-	Lanes<T> xx, xy, yy, xt, yt, tt;
-
+template <typename T> class Responses
+{
+public:
 	Responses(T straight, T turning, T both, const Lanes<T> &x, const Lanes<T> &y, const Lanes<T> &arm)
+		: Responses(x, y, arm, straight + turning * (arm * arm), straight, turning, both)
 	{
-		const Lanes<T> give = straight + turning * (arm * arm), a = straight / give, b = both / give, c = turning / give;
-		xx = a * (x * x), xy = a * (x * y), yy = a * (y * y), xt = b * (x * arm), yt = b * (y * arm), tt = c * (arm * arm);
 	}
 
 	void add(int32_t i, Response<T> &all) const
@@ -183,6 +182,15 @@ template <typename T> struct Responses {
 		all.own[0] += xx[i], all.own[1] += yy[i], all.own[2] += tt[i];
 		all.beside[0] += xy[i], all.beside[1] += xt[i], all.beside[2] += yt[i];
 	}
+
+private:
+	Responses(const Lanes<T> &x, const Lanes<T> &y, const Lanes<T> &arm, const Lanes<T> &give, T straight, T turning, T both)
+		: xx((straight / give) * (x * x)), xy((straight / give) * (x * y)), yy((straight / give) * (y * y)), xt((both / give) * (x * arm)),
+		  yt((both / give) * (y * arm)), tt((turning / give) * (arm * arm))
+	{
+	}
+
+	const Lanes<T> xx, xy, yy, xt, yt, tt;
 };
 
 /* A bound of what all points do together, each as if it alone gave way by 1. */
