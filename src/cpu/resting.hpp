@@ -200,12 +200,16 @@ private:
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
 		Resting rest = begin(other_slot.body(), other_slot.is_static() ? -1 : other, n, rules, rubs.between(slot.body(), other_slot.body()));
-		const Convex<T> &own_body = is_row ? a : b, &other_body = is_row ? b : a;
+		const auto slip = [&](const Vec<T> &lever, const Vec<T> &other_lever) {
+			const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
+			return rubs.any
+				? Slip<T>(n, body.v - partner.v, body.w, touched_at<T>(body, lever, -n), partner.w, touched_at<T>(partner, other_lever, n))
+				: Slip<T>();
+		};
 		for (int32_t k = 0; k < c.count; k++) {
 			const Vec<T> &own = is_incident ? c.inc[k] : c.ref[k], &others = is_incident ? c.ref[k] : c.inc[k];
 			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n),
-				Slip<T>(n, own_body.v - other_body.v, own_body.w, touched_at<T>(own_body, own, -n), other_body.w,
-					touched_at<T>(other_body, others, n)));
+				slip(own, others));
 		}
 		insert(rest);
 	}

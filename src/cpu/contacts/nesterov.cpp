@@ -313,21 +313,29 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
-template <typename T> static void iterate(const Job<T> &job)
+/* One iteration, if it is wanted, of all bodies that touch. */
+template <bool rubs, typename T> static void iterate_all(const Job<T> &job, const Rests<T> &rests)
 {
-	const Rests<T> rests(job);
 	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
 	const int32_t number = job.domain[2], done = number - rests.status[STATUS_FIRST];
 	if (rests.status[STATUS_WANTED] != number)
 		return;
-	const auto iterate = rests.rubs ? iterate_one<true, T> : iterate_one<false, T>;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		bool wanted = false;
 		for (int32_t k = from; k < to; k++)
-			wanted |= iterate(rests, loads, rests.touching[k].slot, number & 1, done);
+			wanted |= iterate_one<rubs>(rests, loads, rests.touching[k].slot, number & 1, done);
 		if (wanted && done + 1 < CONTACT_ITERATIONS && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
 			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
 	});
+}
+
+template <typename T> static void iterate(const Job<T> &job)
+{
+	const Rests<T> rests(job);
+	if (rests.rubs)
+		iterate_all<true>(job, rests);
+	else
+		iterate_all<false>(job, rests);
 }
 
 template <typename T> static void apply(const Job<T> &job)
