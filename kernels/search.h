@@ -30,17 +30,19 @@ float safe_time(VERTICES_IN, body a, body b, pose p, axis k, float t, float marg
 	}
 	float2 m = turn_back(relative_rotation(p), k.n), n = turn(p.ra, k.n);
 	float push = norm(acceleration), speed = norm(p.v) + push * rest, reach = norm(p.d) + speed * rest;
-	float spin = magnitude(p.wa) + magnitude(a.b) * rest, turning = magnitude(p.wa - p.wb) + magnitude(a.b - b.b) * rest;
+	/* That circles turn changes no distance. */
+	float wa = a.count == 1 ? 0.0f : p.wa, wb = b.count == 1 ? wa : p.wb, twist = a.count == 1 ? 0.0f : a.b, other_twist = b.count == 1 ? twist : b.b;
+	float spin = magnitude(wa) + magnitude(twist) * rest, turning = magnitude(wa - wb) + magnitude(twist - other_twist) * rest;
 	float bend = (((turning * turning) * b.radius + (spin * spin) * reach) + (2.0f * spin) * speed)
-		+ ((push + magnitude(a.b) * reach) + magnitude(a.b - b.b) * b.radius);
-	float base = inner(n, p.d) - k.offset, rate = inner(n, p.v) + p.wa * cross2(n, p.d);
+		+ ((push + magnitude(twist) * reach) + magnitude(twist - other_twist) * b.radius);
+	float base = inner(n, p.d) - k.offset, rate = inner(n, p.v) + wa * cross2(n, p.d);
 	if (b.count == 1)
 		return first_root(larger((base - b.radius) - margin, 0.0f), rate, bend);
 	float least = INFINITY;
 	for (int j = 0; j < b.count; j++) {
 		float2 v = vertex_load(VERTICES, b.first, j);
 		float gap = larger((base + inner(m, v)) - margin, 0.0f);
-		least = smaller(least, first_root(gap, rate + (p.wa - p.wb) * cross2(m, v), bend));
+		least = smaller(least, first_root(gap, rate + (wa - wb) * cross2(m, v), bend));
 	}
 	return least;
 }

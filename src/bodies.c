@@ -167,24 +167,36 @@ static void regular_points(const carom_body_def *def, point *p)
 	}
 }
 
+static double size_of(const point *p, uint32_t n)
+{
+	double size = 0.0;
+	for (uint32_t i = 0; i < n; i++)
+		size = fmax(size, hypot(p[i].x - p[0].x, p[i].y - p[0].y));
+	return size;
+}
+
+/* `once` says of which polygon it is. */
+static carom_status check_polygon(const point *p, uint32_t n, double area, size_t index, const char *once, carom_error *error)
+{
+	const double size = size_of(p, n);
+	const char *flaw = convex_flaw(p, n, size);
+	char found[256];
+	if (!flaw && !(area > 1e-6 * size * size))
+		flaw = "has no area";
+	if (!flaw)
+		return CAROM_OK;
+	snprintf(found, sizeof found, "the polygon %s%s; it must be convex, with %d to %d vertices in order", flaw, once, CAROM_MIN_VERTICES,
+		CAROM_MAX_VERTICES);
+	return fail(error, index, "vertices", found);
+}
+
 /* The polygon about its centre of mass, counter-clockwise; *centre is how far it was moved. */
 static carom_status place_polygon(const carom_body_def *def, size_t index, point *p, uint32_t n, point *centre, carom_error *error)
 {
-	double second, area, size = 0.0;
-	char found[256];
-	for (uint32_t i = 0; i < n; i++)
-		size = fmax(size, hypot(p[i].x - p[0].x, p[i].y - p[0].y));
-	area = moments(p, n, centre, &second);
+	double second, area = moments(p, n, centre, &second), size = size_of(p, n);
 	if (area < 0.0)
 		reverse(p, n);
-	const char *flaw = convex_flaw(p, n, size);
-	if (!flaw && !(fabs(area) > 1e-6 * size * size))
-		flaw = "has no area";
-	if (flaw) {
-		snprintf(found, sizeof found, "the polygon %s; it must be convex, with %d to %d vertices in order", flaw, CAROM_MIN_VERTICES,
-			CAROM_MAX_VERTICES);
-		return fail(error, index, "vertices", found);
-	}
+	TRY(check_polygon(p, n, fabs(area), index, "", error));
 	/* what rounding to floats left over when a centred polygon was written down is no offset: the more, the thinner it is */
 	if (def->shape == CAROM_REGULAR || hypot(centre->x, centre->y) < (1e-6 + 2e-7 * size * size / fabs(area)) * size)
 		*centre = (point){0.0, 0.0};
@@ -229,6 +241,7 @@ static carom_status make_polygon(const carom_body_def *def, size_t index, carom_
 		bound = fmax(bound, hypot(rounded[i].x, rounded[i].y));
 	}
 	area = moments(rounded, n, &p[0], &second);
+	TRY(check_polygon(rounded, n, area, index, ", when its vertices are rounded to floats about its centre of mass", error));
 	body->radius = def->shape == CAROM_REGULAR ? def->radius : 0.0f;
 	body->bound = nextafterf((float)bound, INFINITY);
 	body->vertex_count = n;

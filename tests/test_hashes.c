@@ -18,11 +18,11 @@ static const struct {
 	{"scenes/billiard_break.json", 0x67a2d3b09229d3f4, 0xbe6530f293e25062, 0},
 	{"scenes/circles_1024.json", 0xb407392652c0fb4a, 0xaa3285fdc8f4d50f, 0},
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343, 0},
-	{"scenes/heap.json", 0xdd99f8522356ec47, 0xf1099a258d1580fc, 0x03bf62bf5d77ce0b},
-	{"scenes/mixed.json", 0x4699eb0f03bb1cbd, 0xc8c13a2fbb9ccaeb, 0},
+	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x5abb2c01cca5a2ca, 0xfbc3a67f82a4c4d4},
+	{"scenes/mixed.json", 0xcc24b0a3369bcac1, 0xdca5a4f981ed5756, 0},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
-	{"scenes/pyramid.json", 0xfac98044abc74ff1, 0xbed3ddb42ffd1629, 0xc2e23ddd642f56a5},
-	{"scenes/thin_wall.json", 0xd95cf8e4f52d91fb, 0x2e5fa5a13daa175b, 0},
+	{"scenes/pyramid.json", 0xfac98044abc74ff1, 0xd36ad0f6c87abfd4, 0x5c463a91ec252c97},
+	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0x6b69a8d4b3178e57, 0},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x191f59180c97010f, 0},
 	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f, 0},
 };
@@ -53,23 +53,23 @@ static const struct {
 	uint64_t steps, hash[2], events[2]; /* after so many steps, and where those are fewer, after STEPS */
 	uint64_t contacts;                  /* after RESTING_STEPS */
 } random_worlds[] = {
-	{1, SCENERY_MIXED, 49, 1.0f, 0.0f, 0.0f, STEPS, {0xb34b36d85e722a21}, {0xeaa771d48e0c255d}, 0xb551349ec86cd895},
-	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, 0.0f, RESTING_STEPS, {0xe1c4dc10759de637, 0x99e29902962f0850}, {0xb7d740b1d8135608, 0x18e0bab5ef6aa78d},
-		0x89c0c68fa322131a},
+	{1, SCENERY_MIXED, 49, 1.0f, 0.0f, 0.0f, STEPS, {0xa64955af05d36bab}, {0xad78a91f2deaa6da}, 0xf7a0d8c272c38439},
+	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, 0.0f, RESTING_STEPS, {0x204a7b0f1af35cc7, 0x0fbb8a31c55fd95b}, {0x2971157cf663d7bd, 0xe4a299cc1e8389c5},
+		0x334907fe070c1d39},
 	{3, SCENERY_POLYGONS, 64, 0.5f, -1.0f, 0.0f, RESTING_STEPS, {0x8a1cd3f3d3a0750a, 0x82a7e1836c0a4ac7}, {0xea649262e474d3bb, 0x25402183e8503b4c},
 		0x140f0e4cf5acb292},
 	{4, SCENERY_CIRCLES, 196, 0.875f, -3.0f, 0.0f, RESTING_STEPS, {0x2c0cb69fffe63f90, 0xb62125c1a5365cac}, {0x5222fe046872010e, 0x6131f8ab1255f382},
 		0x8833fa11a0d913d4},
 	{5, SCENERY_POLYGONS, 81, 1.0f, -2.0f, 0.0f, STEPS, {0x7e9d409444ed5fce}, {0x9d27cada1b18f2a2}, 0xc926bdac39c09a20},
 	{6, SCENERY_CIRCLES, 100, 1.0f, -9.81f, 0.0f, STEPS, {0x77c43753b16437fd}, {0xba38d361258b61f1}, 0xb7b80328e6940db0},
-	{7, SCENERY_MIXED, 16, 0.75f, -9.81f, 0.0f, STEPS, {0xe9b860448875cc6a}, {0x0ed6bdf80df29ef1}, 0x9b3fb2498232fd60},
+	{7, SCENERY_MIXED, 16, 0.75f, -9.81f, 0.0f, STEPS, {0x2a045b40c01e7a4d}, {0x7fbd2d335f939c27}, 0x2cabbc9a038018ce},
 	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, 0.0f, STEPS, {0xed03ece2bc91b620}, {0x13378613a64cb821}, 0x596bd0e5a062364b},
 	{9, SCENERY_CIRCLES, 36, 0.875f, -3.0f, 0.0f, STEPS, {0x050b36b217d5ff67}, {0x88a992790e483f1c}, 0x2c1d02d5e04ef672},
-	{10, SCENERY_MIXED, 49, 0.5f, -9.81f, 0.5f, RESTING_STEPS, {0xc37de49947a0376c, 0x31de36c447184066}, {0x24ee824fde8b735e, 0x6d9a48e56ab9e16a},
-		0xce4f90ae4633d901},
+	{10, SCENERY_MIXED, 49, 0.5f, -9.81f, 0.5f, RESTING_STEPS, {0x0c3ead4c230722ec, 0x32e4659c5f1d96f6}, {0x3311955dcad3cb6d, 0x6c9deefbf5156960},
+		0x312e307c6c90483f},
 	{11, SCENERY_POLYGONS, 25, 0.75f, -3.0f, 1000.0f, RESTING_STEPS, {0x0adc6a3a146a038a, 0x420d9e63c030fdeb},
 		{0x8a8c19f9f1b360f1, 0x3050c20de6e2b720}, 0x37975da4ca4fcab8},
-	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xf4770e6a7447a423}, {0xa4ef6d75d76cc621}, 0xe1bd04985efa84bc},
+	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xb0af4e0886036521}, {0xdb0ea15d092cc348}, 0xb39405e2eb4162bf},
 };
 
 static carom_world *random_world(size_t i, const char *step, const scenery_device *device)

@@ -15,9 +15,9 @@ static const struct reference {
 	bool rests; /* all lose energy, and fall faster */
 	uint64_t state, picture;
 } references[] = {
-	{"events", 60, false, 0x97eae0a50eace1b1, 0x31b645783f242e4f},
-	{"contacts", 12, true, 0xdf39be286a9074c6, 0x9967a92c446b4d29},
-	{"first_impact", 60, false, 0x176c115dc673d52e, 0x76094c5bd96616cb},
+	{"events", 60, false, 0x47802de09e4fda93, 0x64b4ba205c03b904},
+	{"contacts", 12, true, 0xea1271417c1ac7ec, 0xa5c0db1cbba139e6},
+	{"first_impact", 60, false, 0x9cfb8ce84ad197b6, 0xc000cfa6fcfd14ed},
 };
 
 static const carom_vec2 kite[4] = {{0.375f, 0}, {0, 0.25f}, {-0.25f, 0}, {0, -0.25f}};

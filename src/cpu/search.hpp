@@ -34,6 +34,14 @@ template <typename T> T circles_meet(const Convex<T> &a, const Convex<T> &b, T s
 	return centres_near(a, b, ((a.radius + b.radius) + slop) + T(0.5) * norm(b.a - a.a));
 }
 
+/* How a body turns, as far as that matters to its distance from others: a circle's does not, and is taken to be as that of `other`. */
+template <typename T> struct Turning {
+	T w, b;
+
+	Turning(const Body<T> &body, T spin, const Turning &other) : w(body.is_circle() ? other.w : spin), b(body.is_circle() ? other.b : body.b) {}
+	Turning() : w(0), b(0) {}
+};
+
 /* How the incident body can move against the axis while the reference turns with it, for the rest of the step. */
 template <typename T> struct Bounds {
 	T base, rate, bend, turning_rate;
@@ -44,13 +52,14 @@ template <typename T> Bounds<T> bounds(const Convex<T> &reference, const Convex<
 {
 	T rest = 1 - t, push = norm(incident.a - reference.a);
 	T speed = norm(pose.v) + push * rest, reach = norm(pose.d) + speed * rest;
-	T twist = std::abs(reference.b), relative_twist = std::abs(reference.b - incident.b);
-	T spin = std::abs(pose.wa) + twist * rest, turning = std::abs(pose.wa - pose.wb) + relative_twist * rest;
+	const Turning<T> own(reference, pose.wa, Turning<T>()), other(incident, pose.wb, own);
+	T twist = std::abs(own.b), relative_twist = std::abs(own.b - other.b);
+	T spin = std::abs(own.w) + twist * rest, turning = std::abs(own.w - other.w) + relative_twist * rest;
 	T bend = (((turning * turning) * incident.radius + (spin * spin) * reach) + (2 * spin) * speed)
 		+ ((push + twist * reach) + relative_twist * incident.radius);
 	Vec<T> n = turn(pose.ra, axis.n);
-	T rate = inner(n, pose.v) + pose.wa * cross(n, pose.d);
-	return {inner(n, pose.d) - axis.offset, rate, bend, pose.wa - pose.wb, turn_back(pose.relative, axis.n)};
+	T rate = inner(n, pose.v) + own.w * cross(n, pose.d);
+	return {inner(n, pose.d) - axis.offset, rate, bend, own.w - other.w, turn_back(pose.relative, axis.n)};
 }
 
 /* For how long after t the axis surely goes on separating them. */
