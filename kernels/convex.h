@@ -119,7 +119,8 @@ axis corner_axis(VERTICES_IN, body a, body b, pose p, float2 from, float2 to, ax
 	/* over all of a, or an axis from the wrong corner would count a's own body as gap */
 	k.offset = -lowest(VERTICES, a, (float2)(-k.n.x, -k.n.y), &k.deepest);
 	k.gap = (inner(k.n, turn_back(p.ra, p.d)) - k.offset) + lowest(VERTICES, b, turn_back(relative_rotation(p), k.n), &k.deepest);
-	return k.gap > fallback.gap ? k : fallback;
+	/* a circle is nearest to that corner, though rounding may hide that the gap is larger; n differs by its root */
+	return b.count == 1 || k.gap > fallback.gap ? k : fallback;
 }
 
 /* Where the deepest point of b lies beyond an end of the face, b may be nearest to that end's corner instead. */

@@ -33,7 +33,7 @@ static const scene scenes[] = {
 	{"long steps", SCENERY_MIXED, 60, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.0f, 0.2f, false},
 	{"circles that rub", SCENERY_CIRCLES, 100, 1.15f, 3.0f, true, false, 0.0f, 0.9f, 0.3f, 0.02f, false},
 	{"polygons that rub", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.5f, 0.02f, false},
-	{"all kinds that fall and rub", SCENERY_MIXED, 130, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false},
+	{"all kinds that fall and rub", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

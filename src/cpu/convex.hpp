@@ -108,7 +108,8 @@ Axis<T> corner_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose,
 		return fallback;
 	Vec<T> n(e.x() / s, e.y() / s);
 	Axis<T> axis = axis_along(b, pose, n, -lowest<T>(a, -n).height, no_face);
-	return axis.gap > fallback.gap ? axis : fallback;
+	/* (Beyond the end of a face a circle is nearest to the corner; that the gap is larger may be lost in rounding, which would turn n by 1e-3.) */
+	return b.is_circle() || axis.gap > fallback.gap ? axis : fallback;
 }
 
 /* A's best face, or where the bodies are apart and B is nearest to one of its ends, that corner. */
