@@ -349,7 +349,7 @@ pictures: all
 	@mkdir -p docs
 	$(BUILD)/carom run scenes/triangles_1024.json --set step=first_impact --steps 400 --inset -2,-2,4,4 --size 720x405 --png docs/triangles_1024.png
 	$(BUILD)/carom run scenes/heap.json --time 6 --size 720x405 --png docs/heap.png
-	$(BUILD)/carom run scenes/pyramid.json --time 3 --size 720x342 --png docs/pyramid.png
+	$(BUILD)/carom run scenes/pyramid.json --time 3 --size 720x405 --png docs/pyramid.png
 	$(BUILD)/carom run scenes/thin_wall.json --time 1 --fps 3 --size 480x264 --frames docs/thin_wall
 	@for chart in scale table1 table2 table3 table4 table5; do \
 		if [ -f $(BUILD)/bench/$$chart.png ]; then cp $(BUILD)/bench/$$chart.png docs/$$chart.png; fi; done
