@@ -278,10 +278,17 @@
 #define GRIP_STARTS 2    /* record: two forces from which the next iteration starts; two steps */
 #define GRIP_BOUNDS 3    /* record: the coefficient; two, kg m / step^2, that the forces may not exceed now */
 
+/* Warm: with what the forces of the last step ended, which the next begins with. So many contacts a body, by its index, in the order of Contacts: a record each,
+ * or where bodies rub two. WarmCount: an int a body, how many there are */
+#define WARM_PARTNER 0  /* the other's index, or -1 - wall */
+#define WARM_FORCES 1   /* two, N */
+#define WARM_FRICTION 0 /* of the second record: two, N */
+#define WARM_MOST 1e6f  /* m/step^2, of either body: a larger force is not begun with */
+
 /* Touching: two ints a slot */
 #define TOUCHING_WIDTH 2
 #define TOUCHING_COUNT 0 /* of the slot's contacts; -1: too many */
-#define TOUCHING_SLOT 1  /* a list: slots with contacts */
+#define TOUCHING_SLOT 1  /* a list: slots with contacts, in this step or in the last */
 
 /* Loads: two records a slot, of the iterations with even numbers and of the others: x, y, torque of the acceleration, a step's units, and the body's share.
  * Before them two of slot -1, of what does not move: zeros. */

@@ -85,6 +85,25 @@ float4 load_begin(RECORD_IN(slots), LIST_IN(status), int s, float length)
 		(CHANNEL(push, PUSH_TORQUE) * length) * length, 0.0f);
 }
 
+/* What all forces on a body add to a load. */
+float4 rests_add(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float4 load)
+{
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
+		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
+			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
+			load = load_add(load, CHANNEL(at, POINT_FORCE), n, CHANNEL(at, POINT_ARM), mass);
+			if (rub) {
+				float4 grip = grips[GRIP(s, k, GRIP_POINT + point)];
+				load = load_add(load, CHANNEL(grip, GRIP_FORCE), aside(n), CHANNEL(grip, GRIP_ARM), mass);
+			}
+		}
+	}
+	return load;
+}
+
 /* By how much rates change forces, once all bodies have their share. */
 void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, int now, bool rub)
 {
@@ -101,8 +120,10 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 					* point_gives(SLOT_LOAD(slots, other, SLOT_MASS), CHANNEL(at, POINT_OTHER_ARM));
 		}
 		contacts[CONTACT(s, k, CONTACT_STEPS)] = (float4)(1.0f / gives[0], 1.0f / gives[1], CHANNEL(steps, STEPS_TOLERANCE), 0.0f);
-		if (rub)
-			grips[GRIP(s, k, GRIP_STARTS)] = (float4)(0.0f, 0.0f, 1.0f / gives[2], 1.0f / gives[3]);
+		if (rub) {
+			float4 starts = grips[GRIP(s, k, GRIP_STARTS)];
+			grips[GRIP(s, k, GRIP_STARTS)] = (float4)(starts.x, starts.y, 1.0f / gives[2], 1.0f / gives[3]);
+		}
 	}
 }
 
@@ -166,25 +187,6 @@ bool rests_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECO
 	return wanted;
 }
 
-/* What all forces on a body come to. */
-float4 rests_sum(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
-{
-	float4 sum = (float4)(0.0f, 0.0f, 0.0f, 0.0f), mass = SLOT_LOAD(slots, s, SLOT_MASS);
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
-		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
-			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
-			sum = load_add(sum, CHANNEL(at, POINT_FORCE), n, CHANNEL(at, POINT_ARM), mass);
-			if (rub) {
-				float4 grip = grips[GRIP(s, k, GRIP_POINT + point)];
-				sum = load_add(sum, CHANNEL(grip, GRIP_FORCE), aside(n), CHANNEL(grip, GRIP_ARM), mass);
-			}
-		}
-	}
-	return sum;
-}
-
 void velocities_set(RECORD_OUT(slots), int s, float x, float y, float turning)
 {
 	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE), turn = SLOT_LOAD(slots, s, SLOT_TURN);
@@ -218,6 +220,29 @@ void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocit
 	slots[SLOT_WIDTH * s + SLOT_PUSH] = pushes[PUSHES_WIDTH * s];
 	if (with_velocities)
 		velocities_set(slots, s, velocities.x, velocities.y, velocities.z);
+}
+
+/* Keeps the forces on a body, in such a step, for the next one. */
+void forces_keep(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_counts), int s, bool rub,
+	float length)
+{
+	int body = slot_body(slots, s), count = 0;
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+		int other = (int)CHANNEL(pair, PAIR_PARTNER), points = (int)CHANNEL(pair, PAIR_POINTS), at = WARM(body, count, rub);
+		if (points == 0)
+			continue;
+		float4 first = contacts[CONTACT(s, k, CONTACT_POINT)], second = contacts[CONTACT(s, k, CONTACT_POINT + 1)];
+		warm[at] = (float4)((float)(other < 0 ? other : slot_body(slots, other)), (CHANNEL(first, POINT_FORCE) / length) / length,
+			points > 1 ? (CHANNEL(second, POINT_FORCE) / length) / length : 0.0f, 0.0f);
+		if (rub) {
+			first = grips[GRIP(s, k, GRIP_POINT)], second = grips[GRIP(s, k, GRIP_POINT + 1)];
+			warm[at + 1] = (float4)((CHANNEL(first, GRIP_FORCE) / length) / length,
+				points > 1 ? (CHANNEL(second, GRIP_FORCE) / length) / length : 0.0f, 0.0f, 0.0f);
+		}
+		count++;
+	}
+	warm_counts[body] = count;
 }
 
 /* A slot's push or velocities are others: all around looks at it again, and it may get farther. True if that is where it was not looked for. */

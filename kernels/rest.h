@@ -2,6 +2,7 @@
 
 #define CONTACT(s, k, record) (CONTACT_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
 #define TOUCH(s, field) (TOUCHING_WIDTH * (s) + (field))
+#define WARM(body, k, rub) ((CONTACTS_MOST * (body) + (k)) * ((rub) ? 2 : 1))
 #define GRIP(s, k, record) (GRIP_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
 #define CONTACTS_ALONE 512 /* bodies for which one group iterates alone */
 
@@ -112,7 +113,8 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
 	rest r = rest_begin(other, n, force, slop, pass, friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key));
 	float2 v = (float2)(own.v.x - partner.v.x, own.v.y - partner.v.y), back = (float2)(-n.x, -n.y);
-	for (int i = 0; i < c.count; i++) {
+	for (int j = 0; j < c.count; j++) {
+		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
 		float ref = cross2(c.ref[i], n), inc = cross2(c.inc[i], n);
 		float2 lever = touch_lever(own, is_incident ? c.inc[i] : c.ref[i], back),
@@ -138,7 +140,8 @@ void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), RECORD_OUT(gri
 		float2 low = vertex_load(VERTICES, k.first, deepest);
 		float2 before = vertex_load(VERTICES, k.first, deepest > 0 ? deepest - 1 : k.count - 1);
 		float2 after = vertex_load(VERTICES, k.first, deepest + 1 < k.count ? deepest + 1 : 0);
-		float2 ends[2] = {low, inner(m, after) < inner(m, before) ? after : before};
+		bool with_after = inner(m, after) < inner(m, before);
+		float2 ends[2] = {with_after ? low : before, with_after ? after : low};
 		for (int i = 0; i < 2; i++) {
 			float gap = height + inner(m, ends[i]);
 			float2 lever = turn(rotation, ends[i]);
@@ -149,9 +152,51 @@ void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), RECORD_OUT(gri
 	rests_insert(all, contacts, grips, s, r, -1 - wall);
 }
 
+/* The force of the last step, in units of this one; none that is too large for either body. */
+float force_begun(float force, float inverse_mass, float length)
+{
+	float start = (force * length) * length;
+	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
+}
+
+/* The contacts that the body had in the last step begin with what pushed there. */
+void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), RECORD_IN(warm), LIST_IN(warm_counts), int s, rests *all, float length)
+{
+	int body = slot_body(slots, s);
+	for (int k = 0; k < all->count; k++) {
+		int other = (int)CHANNEL(contacts[CONTACT(s, k, CONTACT_PAIR)], PAIR_PARTNER), last = 0;
+		while (last < warm_counts[body] && (int)CHANNEL(warm[WARM(body, last, all->rub)], WARM_PARTNER) != all->keys[k])
+			last++;
+		if (last == warm_counts[body])
+			continue;
+		float4 forces = warm[WARM(body, last, all->rub)];
+		float mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
+		if (other >= 0)
+			mass = larger(mass, CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_INVERSE));
+		float2 start = (float2)(force_begun(forces.y, mass, length), force_begun(forces.z, mass, length));
+		contacts[CONTACT(s, k, CONTACT_START)] = (float4)(start.x, start.y, 0.0f, 0.0f);
+		for (int point = 0; point < 2; point++) {
+			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
+			CHANNEL(at, POINT_FORCE) = point ? start.y : start.x;
+			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
+		}
+		if (!all->rub)
+			continue;
+		float4 held = warm[WARM(body, last, true) + 1], bounds = grips[GRIP(s, k, GRIP_BOUNDS)];
+		float2 grip = (float2)(force_begun(held.x, mass, length), force_begun(held.y, mass, length));
+		grips[GRIP(s, k, GRIP_STARTS)] = (float4)(grip.x, grip.y, 0.0f, 0.0f);
+		grips[GRIP(s, k, GRIP_BOUNDS)] = (float4)(bounds.x, bounds.x * start.x, bounds.x * start.y, 0.0f);
+		for (int point = 0; point < 2; point++) {
+			float4 at = grips[GRIP(s, k, GRIP_POINT + point)];
+			CHANNEL(at, GRIP_FORCE) = point ? grip.y : grip.x;
+			grips[GRIP(s, k, GRIP_POINT + point)] = at;
+		}
+	}
+}
+
 /* How many contacts the body in a slot has; -1: too many. */
-int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), RECORD_OUT(grips), int s,
-	float length)
+int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), RECORD_OUT(grips), RECORD_IN(warm),
+	LIST_IN(warm_counts), int s, float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	rests all;
@@ -168,5 +213,9 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 	int end = spans[SPAN(s, SPAN_END)];
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i))
 		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, contacts, grips, s, neighbour_of(neighbours, extra, i), length, pass, &all);
-	return all.count > CONTACTS_MOST ? -1 : all.count;
+	if (all.count > CONTACTS_MOST)
+		return -1;
+	if (pass == PASS_FORCES)
+		rests_warm(slots, contacts, grips, warm, warm_counts, s, &all, length);
+	return all.count;
 }

@@ -47,11 +47,13 @@ typedef enum carom_role {
 	ROLE_CELLS,      /* list, CELL_WIDTH a cell */
 	ROLE_STATUS,     /* list, STATUS_WIDTH */
 	/* of the step contacts, likewise */
-	ROLE_GRIPS,    /* records, CONTACTS_MOST of GRIP_WIDTH a slot; of one alone where nothing rubs */
-	ROLE_CONTACTS, /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */
-	ROLE_TOUCHING, /* list, TOUCHING_WIDTH a slot */
-	ROLE_LOADS,    /* records, LOADS_WIDTH a slot */
-	ROLE_PUSHES,   /* records, PUSHES_WIDTH a slot */
+	ROLE_GRIPS,      /* records, CONTACTS_MOST of GRIP_WIDTH a slot; of one alone where nothing rubs */
+	ROLE_CONTACTS,   /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */
+	ROLE_TOUCHING,   /* list, TOUCHING_WIDTH a slot */
+	ROLE_LOADS,      /* records, LOADS_WIDTH a slot */
+	ROLE_PUSHES,     /* records, PUSHES_WIDTH a slot */
+	ROLE_WARM,       /* records, CONTACTS_MOST a body, or twice as many where something rubs: part of the state */
+	ROLE_WARM_COUNT, /* list, one a body */
 	/* of pictures, made when the first is drawn; lists are those of ints */
 	ROLE_STREAM,      /* one texel a vertex */
 	ROLE_TRANSFORMS,  /* one texel a body */
@@ -120,7 +122,7 @@ typedef enum carom_stage {
 	STAGE_COUNT
 } carom_stage;
 
-#define CAROM_MAX_TEXTURES 20
+#define CAROM_MAX_TEXTURES 21
 
 typedef struct carom_stage_def {
 	const char *slot;

@@ -27,10 +27,11 @@ uint32_t carom_capacity(size_t items)
 static carom_texel_format format_of(carom_role role)
 {
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED
-		|| role == ROLE_TOUCHING)
+		|| role == ROLE_TOUCHING || role == ROLE_WARM_COUNT)
 		return TEXELS_LIST;
 	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES || role == ROLE_SHAPES
-		|| role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS || role == ROLE_PUSHES)
+		|| role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS || role == ROLE_PUSHES
+		|| role == ROLE_WARM)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -75,6 +76,8 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_TOUCHING] = "Touching",
 	[ROLE_LOADS] = "Loads",
 	[ROLE_PUSHES] = "Pushes",
+	[ROLE_WARM] = "Warm",
+	[ROLE_WARM_COUNT] = "WarmCount",
 	[ROLE_STREAM] = "Stream",
 	[ROLE_TRANSFORMS] = "Transforms",
 	[ROLE_VIEW] = "View",

@@ -5,6 +5,8 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 	if (get_global_id(0) > 0)
 		return;
 	bool waits = iterations_are_wanted(status);
+	if (status[STATUS_PASS] == 0)
+		status[STATUS_BORNE] = 0;
 	if (!(step_length(TEX(uniforms), TEX(clock)) > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	if (!waits && status[STATUS_PASS] == PASS_FORCES)
@@ -14,22 +16,24 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
 	if (status[STATUS_PASS] == 0)
-		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
+		status[STATUS_TOUCHING] = 0;
 	status[STATUS_PASS]++;
 }
 
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
-	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), int4 domain)
+	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), RECORD_IN(warm), LIST_IN(warm_counts), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || status[STATUS_FIRST] != domain.z)
 		return;
-	bool first = status[STATUS_PASS] == PASS_IMPULSES, listed = !first && touching[TOUCH(s, TOUCHING_COUNT)] > 0;
-	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, s, step_length(TEX(uniforms), TEX(clock)));
+	bool first = status[STATUS_PASS] == PASS_IMPULSES, bore = warm_counts[slot_body(slots, s)] > 0;
+	bool listed = !first && (bore || touching[TOUCH(s, TOUCHING_COUNT)] > 0);
+	float length = step_length(TEX(uniforms), TEX(clock));
+	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, warm, warm_counts, s, length);
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
 	if (first)
 		slot_keep(slots, pushes, s);
-	if (count > 0 && !listed)
+	if ((bore || count > 0) && !listed)
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
@@ -51,6 +55,7 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 				contacts[CONTACT(s, k, CONTACT_PAIR)] = pair;
 			}
 		}
+		load = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), load);
 		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)));
 		loads[LOADS_OF(s) + (domain.z & 1)] = load;
 	}
@@ -97,22 +102,26 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 		status[STATUS_BORNE] = 1;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		slot_take(slots, status, s, rests_sum(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms))), length);
+		float4 sum = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), (float4)(0.0f, 0.0f, 0.0f, 0.0f));
+		slot_take(slots, status, s, sum, length);
 		if (slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z)) /* lists made anew for this step know none of this */
 			need[s] = as_int(way_ahead(slots, s, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)));
 	}
 }
 
-/* After a step the pushes are as they were; before one that begins again the velocities, too. */
-__kernel void contacts_release(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), LIST_IN(touching), RECORD_IN(pushes), RECORD_OUT(reach),
-	LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
+/* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
+__kernel void contacts_release(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
+	RECORD_IN(grips), RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm), LIST_OUT(warm_counts), int4 domain)
 {
 	bool again = domain.w;
+	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH); /* of the step that is done: the clock has gone on */
 	if (!status[STATUS_BORNE] || (status[STATUS_PASS] > 0) != again)
 		return;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		slot_restore(slots, pushes, s, again);
+		if (!again)
+			forces_keep(slots, contacts, grips, touching, warm, warm_counts, s, anything_rubs(TEX(uniforms)), length);
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 	}
 }

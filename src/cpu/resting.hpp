@@ -3,19 +3,40 @@
 #define CAROM_CPU_RESTING_HPP
 
 #include "cpu/clusters.hpp"
+#include "cpu/warm.hpp"
 
 #include <algorithm>
 
 namespace carom::cpu {
 
+/* Whom a point is shared with, as one number: the slot of a body that moves, or below 0 who else it is. */
+struct Partner {
+	static constexpr int32_t none = -1;
+	int32_t code = none;
+
+	Partner() = default;
+
+	template <typename T> explicit Partner(T number) : code(static_cast<int32_t>(number)) {}
+
+	/* Of another one's index, or -1 - wall. */
+	static Partner that_stays(int32_t key) { return Partner(key < 0 ? key - 1 : none - wall_count - 1 - key); }
+
+	bool moves() const { return code >= 0; }
+	int32_t slot() const { return std::max(code, none); } /* -1: of what does not move */
+	template <typename T> int32_t key(const Slot<T> *slots) const
+	{
+		return moves() ? slots[code].body() : code >= none - wall_count ? code + 1 : none - wall_count - 1 - code;
+	}
+};
+
 /* Four points of a body's contacts side by side, in order; where there are no more, points that push nothing. */
 template <typename T> struct Points {
-	Lanes<T> partner; /* its slot; -1: what does not move */
+	Lanes<T> partner; /* see Partner */
 	Lanes<T> normal_x, normal_y, arm, other_arm, rate, tolerance, step, force, start;
 
 	void drop(int32_t i)
 	{
-		partner[i] = -1;
+		partner[i] = Partner::none;
 		for (Lanes<T> *of : {&normal_x, &normal_y, &arm, &other_arm, &rate, &tolerance, &step, &force, &start})
 			(*of)[i] = 0;
 	}
@@ -68,7 +89,10 @@ template <typename T> Vec<T> touched_at(const Convex<T> &body, const Vec<T> &lev
 template <typename T> class RestFinder
 {
 public:
-	RestFinder(const Clusters<T> &all, const Rubs<T> &friction) : clusters(all), rubs(friction), impulses(all.status[STATUS_PASS] == PASS_IMPULSES) {}
+	RestFinder(const Clusters<T> &all, const Rubs<T> &friction, const Warm<T> &last)
+		: clusters(all), rubs(friction), warm(last), impulses(all.status[STATUS_PASS] == PASS_IMPULSES)
+	{
+	}
 
 	/* How many points the body rests on, which are written in order, and how they slide, where anything rubs; -1 if it has too many contacts. */
 	int32_t find(int32_t s, Points<T> *to, Grips<T> *grips)
@@ -82,7 +106,7 @@ public:
 			if (may_rest(slot, clusters.slots[other]))
 				pair(s, other);
 		});
-		return count > CONTACTS_MOST ? -1 : write(to, grips);
+		return count > CONTACTS_MOST ? -1 : write(to, grips, slot);
 	}
 
 private:
@@ -93,7 +117,9 @@ private:
 			Slip<T> slip;
 		};
 
-		int32_t key, partner, points;
+		int32_t key, points;
+		Partner partner;
+		T other_inverse_mass;
 		Vec<T> n; /* from the partner */
 		T tolerance, friction;
 		Point at[2];
@@ -141,21 +167,31 @@ private:
 		found[k] = rest;
 	}
 
-	int32_t write(Points<T> *to, Grips<T> *grips) const
+	/* A force of the last step in this one's units; none that is too large for either body. */
+	T begun(T force, T inverse_mass) const
+	{
+		const T start = (force * clusters.length) * clusters.length;
+		return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
+	}
+
+	int32_t write(Points<T> *to, Grips<T> *grips, const Slot<T> &slot) const
 	{
 		int32_t written = 0;
 		for (int32_t k = 0; k < count; k++) {
 			const Resting &rest = found[k];
+			const WarmForces<T> last = impulses ? WarmForces<T>() : warm.of(slot.body(), rest.key);
+			const T inverse_mass = larger(slot.mass[MASS_INVERSE], rest.other_inverse_mass);
 			for (int32_t point = 0; point < rest.points; point++, written++) {
 				Points<T> &points = to[written / lane_count];
 				const int32_t i = written % lane_count;
 				points.drop(i);
-				points.partner[i] = static_cast<T>(rest.partner);
+				points.partner[i] = static_cast<T>(rest.partner.code);
 				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
 				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
 				points.rate[i] = rest.at[point].rate, points.tolerance[i] = rest.tolerance, points.step[i] = 1;
+				points.force[i] = points.start[i] = begun(last.normal[point], inverse_mass);
 				if (rubs.any)
-					write_grip(grips[written / lane_count], i, rest.friction, rest.at[point].slip);
+					write_grip(grips[written / lane_count], i, rest, rest.at[point].slip, points.force[i], begun(last.friction[point], inverse_mass));
 			}
 		}
 		for (int32_t k = written; k % lane_count > 0; k++) {
@@ -166,16 +202,17 @@ private:
 		return written;
 	}
 
-	static void write_grip(Grips<T> &grips, int32_t i, T friction, const Slip<T> &slip)
+	static void write_grip(Grips<T> &grips, int32_t i, const Resting &rest, const Slip<T> &slip, T normal_force, T force)
 	{
 		grips.drop(i);
-		grips.friction[i] = friction;
+		grips.friction[i] = rest.friction, grips.most[i] = rest.friction * normal_force;
+		grips.force[i] = grips.start[i] = force;
 		grips.arm[i] = slip.arm, grips.other_arm[i] = slip.other_arm, grips.rate[i] = slip.rate;
 	}
 
-	static Resting begin(int32_t key, int32_t partner, const Vec<T> &n, const Rules &rules, T friction)
+	static Resting begin(int32_t key, Partner partner, T other_inverse_mass, const Vec<T> &n, const Rules &rules, T friction)
 	{
-		return {key, partner, 0, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
+		return {key, 0, partner, other_inverse_mass, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
 	}
 
 	void pair(int32_t s, int32_t other)
@@ -199,14 +236,16 @@ private:
 		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
-		Resting rest = begin(other_slot.body(), other_slot.is_static() ? -1 : other, n, rules, rubs.between(slot.body(), other_slot.body()));
+		Resting rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other),
+			other_slot.mass[MASS_INVERSE], n, rules, rubs.between(slot.body(), other_slot.body()));
 		const auto slip = [&](const Vec<T> &lever, const Vec<T> &other_lever) {
 			const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
 			return rubs.any
 				? Slip<T>(n, body.v - partner.v, body.w, touched_at<T>(body, lever, -n), partner.w, touched_at<T>(partner, other_lever, n))
 				: Slip<T>();
 		};
-		for (int32_t k = 0; k < c.count; k++) {
+		for (int32_t i = 0; i < c.count; i++) {
+			const int32_t k = c.from_b ? c.count - 1 - i : i; /* whichever is the reference, in the same order */
 			const Vec<T> &own = is_incident ? c.inc[k] : c.ref[k], &others = is_incident ? c.ref[k] : c.inc[k];
 			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n),
 				slip(own, others));
@@ -231,7 +270,7 @@ private:
 	{
 		const Wall<T> wall = clusters.wall(k);
 		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
-		Resting rest = begin(-1 - k, -1, wall.n, rules, rubs.at_wall(body_index));
+		Resting rest = begin(-1 - k, Partner::that_stays(-1 - k), 0, wall.n, rules, rubs.at_wall(body_index));
 		const auto slip = [&](const Vec<T> &lever) { return Slip<T>(wall.n, body.v, body.w, lever, 0, {0, 0}); };
 		if (body.is_circle()) {
 			if (height - body.radius <= rules.force)
@@ -239,8 +278,8 @@ private:
 		} else {
 			const Vec<T> rotation = rotation_of(body.r), m = turn_back(rotation, wall.n);
 			const int32_t deepest = lowest(body, m).vertex, before = body.before(deepest), after = body.after(deepest);
-			const int32_t next = inner(m, body.vertex(after)) < inner(m, body.vertex(before)) ? after : before;
-			for (int32_t vertex : {deepest, next}) {
+			const bool with_after = inner(m, body.vertex(after)) < inner(m, body.vertex(before));
+			for (int32_t vertex : {with_after ? deepest : before, with_after ? after : deepest}) {
 				const T gap = height + inner(m, body.vertex(vertex));
 				const Vec<T> lever = turn(rotation, body.vertex(vertex));
 				if (gap <= rules.force)
@@ -252,6 +291,7 @@ private:
 
 	const Clusters<T> &clusters;
 	const Rubs<T> &rubs;
+	const Warm<T> &warm;
 	const bool impulses;
 	int32_t count = 0;
 	Resting found[CONTACTS_MOST + 1]{};

@@ -52,8 +52,9 @@ static carom_status unload(carom_world *world, carom_error *error)
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	const uint64_t n = carom_capacity(body_count), grips = CONTACTS_MOST * GRIP_WIDTH * (def->friction > 0 ? n : 1);
+	const uint64_t warm = CONTACTS_MOST * n * (def->friction > 0 ? 2 : 1);
 	return carom_events_memory(pipeline, def, body_count, vertex_count)
-		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + PUSHES_WIDTH) + 4 * TOUCHING_WIDTH) + 16 * (LOADS_OF(n) + grips);
+		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + PUSHES_WIDTH) + 4 * (TOUCHING_WIDTH + 1)) + 16 * (LOADS_OF(n) + grips + warm);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -65,7 +66,9 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_GRIPS, false, CONTACTS_MOST * GRIP_WIDTH * (world->rubs ? n : 1), error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_OF(n), error));
-	return carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error);
+	TRY(carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_WARM, false, CONTACTS_MOST * (world->rubs ? 2 * n : n), error));
+	return carom_events_create_list(world, ROLE_WARM_COUNT, false, n, error);
 }
 
 const carom_step carom_step_contacts = {"contacts", false, prepare, run, carom_events_begin, carom_events_finish, unload, memory};

@@ -89,6 +89,15 @@ template <typename T> struct Rests {
 			visit(points[four], grips[rubs ? four : 0]);
 	}
 
+	/* Adds the forces at four points of a slot, and those of friction where there is any. */
+	void add_forces(const Points<T> &four, const Grips<T> &rubbing, int32_t s, Lanes<T> &load) const
+	{
+		if (rubs)
+			add(four, four.force, rubbing, rubbing.force, slots[s], load);
+		else
+			add(four, four.force, slots[s], load);
+	}
+
 	/* What acts on a body besides. */
 	void begin(int32_t s, T share, Lanes<T> &load) const
 	{
@@ -105,6 +114,8 @@ template <typename T> static void begin(const Job<T> &job)
 	int32_t *status = job.list(2);
 	const int32_t first = job.domain[2], last = job.domain[3];
 	const bool waits = iterations_are_wanted(status);
+	if (status[STATUS_PASS] == 0)
+		status[STATUS_BORNE] = 0;
 	if (!(step_length(job.texels(1), job.texels(0)) > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	if (!waits && status[STATUS_PASS] == PASS_FORCES)
@@ -114,7 +125,7 @@ template <typename T> static void begin(const Job<T> &job)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
 	if (status[STATUS_PASS]++ == 0)
-		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
+		status[STATUS_TOUCHING] = 0;
 }
 
 template <typename T> static void find(const Job<T> &job)
@@ -125,18 +136,19 @@ template <typename T> static void find(const Job<T> &job)
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(16));
 	const Rubs<T> rubs(job.texels(1), job.texels(17));
 	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
+	const Warm<T> warm(job.records(19), job.list(20), rubs.any);
 	int32_t *status = clusters.status;
 	if (status[STATUS_FIRST] != job.domain[2])
 		return;
 	const bool first = status[STATUS_PASS] == PASS_IMPULSES;
 	job.pool.run(job.domain[0], 256, [&](int32_t from, int32_t to) {
-		RestFinder<T> finder(clusters, rubs);
+		RestFinder<T> finder(clusters, rubs, warm);
 		for (int32_t s = from; s < to; s++) {
-			const bool listed = !first && touching[s].count > 0;
+			const bool bore = warm.has_any(clusters.slots[s].body()), listed = !first && (bore || touching[s].count > 0);
 			if (first)
 				kept[s].keep(clusters.slots[s]);
 			touching[s].count = finder.find(s, points + points_most * s, grips + points_most * s);
-			if (touching[s].count > 0 && !listed)
+			if ((bore || touching[s].count > 0) && !listed)
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
 	});
@@ -178,15 +190,17 @@ template <typename T> static void join(const Job<T> &job)
 			const int32_t s = rests.touching[k].slot;
 			rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 				for (int32_t i = 0; i < lane_count; i++) {
-					const int32_t partner = static_cast<int32_t>(points.partner[i]);
-					if (partner < 0 || rests.touching[partner].count >= 0)
+					const Partner partner(points.partner[i]);
+					if (!partner.moves() || rests.touching[partner.slot()].count >= 0)
 						continue;
 					points.drop(i);
 					if (rests.rubs)
 						grips.drop(i);
 				}
 			});
-			rests.begin(s, share_of(rests, s), loads[LOADS_OF(s) + (first & 1)]);
+			Lanes<T> &load = loads[LOADS_OF(s) + (first & 1)];
+			rests.begin(s, share_of(rests, s), load);
+			rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) { rests.add_forces(points, grips, s, load); });
 		}
 	});
 }
@@ -196,10 +210,10 @@ template <typename T>
 static void set_steps(const Rests<T> &rests, Points<T> &points, Grips<T> &grips, const Slot<T> &slot, T share, const Lanes<T> &others)
 {
 	for (int32_t i = 0; i < lane_count; i++) {
-		const int32_t partner = static_cast<int32_t>(points.partner[i]);
+		const Partner partner(points.partner[i]);
 		const auto step = [&](T arm, T other_arm) {
 			const T own = share * gives(slot, arm);
-			return 1 / (partner < 0 ? own : own + others[i] * gives(rests.slots[partner], other_arm));
+			return 1 / (partner.moves() ? own + others[i] * gives(rests.slots[partner.slot()], other_arm) : own);
 		};
 		if (!(points.step[i] > 0))
 			continue;
@@ -240,7 +254,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
 		for (int32_t i = 0; i < lane_count; i++)
-			others[i] = loads[LOADS_OF(static_cast<int32_t>(points.partner[i])) + now];
+			others[i] = loads[LOADS_OF(Partner(points.partner[i]).slot()) + now];
 		transpose<T>(others);
 		if (done == 0)
 			set_steps(rests, points, grips, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
@@ -300,12 +314,7 @@ template <typename T> static void apply(const Job<T> &job)
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
 			Lanes<T> sum{};
-			rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
-				if (rests.rubs)
-					add(points, points.force, grips, grips.force, slots[s], sum);
-				else
-					add(points, points.force, slots[s], sum);
-			});
+			rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) { rests.add_forces(points, grips, s, sum); });
 			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
 			if (rests.impulses) {
 				slots[s].place[LINEAR_VX] += x;
@@ -322,21 +331,49 @@ template <typename T> static void apply(const Job<T> &job)
 	});
 }
 
-/* After a step the pushes are as they were; before one that begins again the velocities, too. */
+/* Keeps the forces on a slot for the next step; the points of a contact follow each other. */
+template <typename T> static void keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
+{
+	const int32_t body = rests.slots[s].body();
+	int32_t count = 0, point = 0, before = Partner::none;
+	WarmForces<T> forces;
+	rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
+		for (int32_t i = 0; i < lane_count; i++) {
+			const Partner partner(points.partner[i]);
+			if (partner.code == Partner::none)
+				continue;
+			if (partner.code != before) {
+				before = partner.code, forces = WarmForces<T>();
+				count++, point = 0;
+			}
+			forces.normal[point] = (points.force[i] / length) / length;
+			if (rests.rubs)
+				forces.friction[point] = (grips.force[i] / length) / length;
+			warm.keep(body, count - 1, partner.key(rests.slots), forces);
+			point++;
+		}
+	});
+	warm.keep_count(body, count);
+}
+
+/* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
 template <typename T> static void release(const Job<T> &job)
 {
-	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(1));
-	int32_t *status = job.list(2);
-	const Touching *touching = reinterpret_cast<const Touching *>(job.list(3));
-	const Kept<T> *kept = reinterpret_cast<const Kept<T> *>(job.records(4));
+	const Rests<T> rests(job);
+	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
+	const Kept<T> *kept = reinterpret_cast<const Kept<T> *>(job.records(7));
+	const Warm<T> warm(job.records(11), job.list(12), rests.rubs);
+	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH); /* of the step that is done: the clock has gone on */
 	const bool again = job.domain[3];
-	if (!status[STATUS_BORNE] || (status[STATUS_PASS] > 0) != again)
+	if (!rests.status[STATUS_BORNE] || (rests.status[STATUS_PASS] > 0) != again)
 		return;
-	const ReachKeeper<T> keeper(slots, job.records(5), status, job.list(6), job.list(7), job.domain[2], job.texels(0));
-	job.pool.run(status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
+	const ReachKeeper<T> keeper(slots, job.records(8), rests.status, job.list(9), job.list(10), job.domain[2], job.texels(0));
+	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
-			const int32_t s = touching[k].slot;
+			const int32_t s = rests.touching[k].slot;
 			kept[s].restore(slots[s], again);
+			if (!again)
+				keep_forces(rests, s, length, warm);
 			keeper.pushed(s);
 		}
 	});

@@ -1,0 +1,65 @@
+/* The forces that the last step ended with, of the step contacts: CONTRACT.md, "contacts". */
+#ifndef CAROM_CPU_WARM_HPP
+#define CAROM_CPU_WARM_HPP
+
+#include "layout.h"
+
+#include <cstdint>
+
+namespace carom::cpu {
+
+/* Of a contact, in N. */
+template <typename T> struct WarmForces {
+	T normal[2] = {0, 0}, friction[2] = {0, 0};
+};
+
+/* Of all bodies, by index. */
+template <typename T> class Warm
+{
+public:
+	Warm(T *all_records, int32_t *all_counts, bool bodies_rub) : records(all_records), counts(all_counts), rubs(bodies_rub) {}
+
+	bool has_any(int32_t body) const { return counts[body] > 0; }
+	void keep_count(int32_t body, int32_t count) const { counts[body] = count; }
+
+	/* Of the contact with that partner; zeros if there was none. */
+	WarmForces<T> of(int32_t body, int32_t partner) const
+	{
+		WarmForces<T> forces;
+		for (int32_t k = 0; k < counts[body]; k++) {
+			const T *record = at(body, k);
+			if (static_cast<int32_t>(record[WARM_PARTNER]) != partner)
+				continue;
+			for (int32_t i = 0; i < 2; i++) {
+				forces.normal[i] = record[WARM_FORCES + i];
+				forces.friction[i] = rubs ? record[4 + WARM_FRICTION + i] : T(0);
+			}
+		}
+		return forces;
+	}
+
+	void keep(int32_t body, int32_t k, int32_t partner, const WarmForces<T> &forces) const
+	{
+		T *record = at(body, k);
+		record[WARM_PARTNER] = static_cast<T>(partner);
+		for (int32_t i = 0; i < 2; i++) {
+			record[WARM_FORCES + i] = forces.normal[i];
+			if (rubs)
+				record[4 + WARM_FRICTION + i] = forces.friction[i];
+		}
+	}
+
+private:
+	T *at(int32_t body, int32_t k) const
+	{
+		return records + (static_cast<size_t>(CONTACTS_MOST) * static_cast<size_t>(body) + static_cast<size_t>(k)) * (rubs ? 8 : 4);
+	}
+
+	T *records;
+	int32_t *counts;
+	bool rubs;
+};
+
+}
+
+#endif
