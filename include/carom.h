@@ -282,6 +282,34 @@ CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first
 /** A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
 
+#define CAROM_MAX_CONTACTS 12 /**< of a body that moves, in the step contacts; one with more is not borne, but hit */
+
+/** A wall of the room, where a contact has a body's index. */
+typedef enum carom_wall {
+	CAROM_WALL_TOP = -4,
+	CAROM_WALL_RIGHT = -3,
+	CAROM_WALL_BOTTOM = -2,
+	CAROM_WALL_LEFT = -1,
+} carom_wall;
+
+/** Two bodies, or a body and a wall, that rest on each other, or might, at one or two points. */
+typedef struct carom_contact {
+	uint32_t body;     /**< its index */
+	int32_t other;     /**< the index of a body before it, or a carom_wall */
+	float normal[2];   /**< N, >= 0: what parts the two, at each point, as `other` sees it the left one first; 0 for a second that there is not */
+	float friction[2]; /**< N: what acts on `body` along the surfaces, to the left as `other` sees it */
+} carom_contact;
+
+/** How many contacts the last step ended with; 0 for steps other than contacts. Waits for the device. */
+CAROM_API carom_status carom_world_contact_count(carom_world *world, size_t *count, carom_error *error);
+/** Reads `count` of them from number `first` on: in the order of `body`, and of one body in that of `other`. */
+CAROM_API carom_status carom_world_get_contacts(carom_world *world, size_t first, size_t count, carom_contact *contacts, carom_error *error);
+/** Replaces them, all or none. The next step of contacts finds who rests on whom by itself, and its forces sooner when it begins with these: with the
+ * states they are what another world needs to go on with the same bits. Other steps take no notice, and forget them. CAROM_INVALID_ARGUMENT names the contact
+ * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a pair that is there twice, more than
+ * CAROM_MAX_CONTACTS of a body, a number that is not finite. */
+CAROM_API carom_status carom_world_set_contacts(carom_world *world, size_t count, const carom_contact *contacts, carom_error *error);
+
 /** What a call of carom_world_step or carom_world_advance did. */
 typedef struct carom_report {
 	uint64_t steps;  /**< steps done */
@@ -362,12 +390,14 @@ typedef struct carom_camera {
 
 /** A scene as it was read. All of it may be changed before a world is made from it, but not the pointers' owner. */
 typedef struct carom_scene {
-	carom_world_def world;  /**< all but the bodies */
-	bool has_camera;        /**< the scene tells what to show */
-	carom_camera camera;    /**< if has_camera */
-	size_t body_count;      /**< of `bodies` */
-	carom_body_def *bodies; /**< in the scene's order */
-	void *storage;          /**< owns the arrays and strings above */
+	carom_world_def world;   /**< all but the bodies */
+	bool has_camera;         /**< the scene tells what to show */
+	carom_camera camera;     /**< if has_camera */
+	size_t body_count;       /**< of `bodies` */
+	carom_body_def *bodies;  /**< in the scene's order */
+	size_t contact_count;    /**< of `contacts` */
+	carom_contact *contacts; /**< what a step of contacts had ended with when the scene was written */
+	void *storage;           /**< owns the arrays and strings above */
 } carom_scene;
 
 /** Reads a scene of the format "carom-scene/1". CAROM_INVALID_SCENE gives line and column, or the JSON path, what was

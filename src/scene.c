@@ -39,6 +39,19 @@ void *scene_allocate(carom_scene *scene, size_t size)
 	return block->bytes + block->used - rounded;
 }
 
+bool scene_add_contact(carom_scene *scene, const carom_contact *contact)
+{
+	const size_t count = scene->contact_count;
+	if (count == 0 || (count >= 64 && (count & (count - 1)) == 0)) { /* full, or may be */
+		carom_contact *contacts = realloc(scene->contacts, (count ? 2 * count : 64) * sizeof *contacts);
+		if (!contacts)
+			return false;
+		scene->contacts = contacts;
+	}
+	scene->contacts[scene->contact_count++] = *contact;
+	return true;
+}
+
 carom_scene *scene_create(const char *name)
 {
 	struct scene_storage *storage = calloc(1, sizeof *storage);
@@ -70,6 +83,7 @@ void carom_scene_destroy(carom_scene *scene)
 	free(storage->name);
 	free(storage);
 	free(scene->bodies);
+	free(scene->contacts);
 	free(scene);
 }
 
@@ -84,6 +98,19 @@ static const char *outer_key(const carom_scene *scene, unsigned long index, cons
 	return shapes[scene->bodies[index].shape];
 }
 
+/* A contact stands in the file with its first body. */
+static carom_status blame_contact(const carom_scene *scene, unsigned long index, const char *text, carom_error *error)
+{
+	const struct scene_storage *storage = scene->storage;
+	const uint32_t body = scene->contacts[index].body;
+	unsigned long k = 0;
+	while (k < index && scene->contacts[index - k - 1].body == body)
+		k++;
+	if (strncmp(text, ".other", 6) == 0)
+		text += strlen(".other");
+	return carom_fail(error, CAROM_INVALID_SCENE, "%s: bodies[%lu].contacts[%lu]%s", storage->name, (unsigned long)body, k, text);
+}
+
 /* An argument that the library refused came from the file: says so, in the file's words. */
 static carom_status blame_file(const carom_scene *scene, carom_error *error)
 {
@@ -94,6 +121,8 @@ static carom_status blame_file(const carom_scene *scene, carom_error *error)
 	if (!error)
 		return CAROM_INVALID_SCENE;
 	memcpy(text, error->text, sizeof text);
+	if (sscanf(text, "contacts[%lu]%n", &index, &length) == 1 && length > 0 && index < scene->contact_count)
+		return blame_contact(scene, index, text + length, error);
 	if (sscanf(text, "bodies[%lu].%n", &index, &length) != 1 || length == 0) {
 		return carom_fail(error, CAROM_INVALID_SCENE, "%s: %s", storage->name, text);
 	}
@@ -113,6 +142,8 @@ carom_status carom_scene_create_world(const carom_scene *scene, carom_world **wo
 	status = carom_world_create(&scene->world, &made, error);
 	if (status == CAROM_OK && scene->body_count > 0)
 		status = carom_world_add(made, scene->bodies, scene->body_count, NULL, error);
+	if (status == CAROM_OK)
+		status = carom_world_set_contacts(made, scene->contact_count, scene->contacts, error);
 	if (status == CAROM_OK) {
 		*world = made;
 		return CAROM_OK;

@@ -16,6 +16,9 @@ carom_scene *scene_create(const char *name);
 /* Memory for any type that lives as long as the scene; NULL if there is none. A million small pieces are cheap. */
 void *scene_allocate(carom_scene *scene, size_t size);
 
+/* Adds a contact; false if there is no memory. */
+bool scene_add_contact(carom_scene *scene, const carom_contact *contact);
+
 const char *scene_skip_space(const char *at, const char *end);
 /* The text between the brackets of the top-level "bodies" array; false if there is no such array. */
 bool scene_find_bodies(const char *text, const char *end, const char **bodies, const char **bodies_end);

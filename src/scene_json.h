@@ -101,6 +101,9 @@ carom_status scene_parse_element(struct scene_reader *reader, const char *begin,
 void scene_json_destroy(json_t *value);
 
 scene_read_function scene_read_body; /* adds it to the scene */
+/* Those of a body that is the next to be added. */
+scene_read_function scene_read_contacts;
+scene_quick_function scene_quick_contacts;
 /* The bodies that were cut out of the text, one by one. */
 carom_status scene_read_bodies(struct scene_reader *reader);
 

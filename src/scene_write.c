@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define STATES_AT_ONCE 1024
@@ -119,7 +120,28 @@ static void put_shape(FILE *stream, const carom_body_info *info)
 	}
 }
 
-static void put_body(const struct writer *writer, const carom_body_info *info, const carom_body_state *state)
+static void put_contacts(FILE *stream, const carom_contact *contacts, size_t count)
+{
+	static const char *const walls[] = {"left", "bottom", "right", "top"};
+	static const carom_vec2 none = {0, 0};
+	for (size_t k = 0; k < count; k++) {
+		const carom_contact *contact = &contacts[k];
+		const carom_vec2 normal = {contact->normal[0], contact->normal[1]}, friction = {contact->friction[0], contact->friction[1]};
+		fputs(k > 0 ? ", {" : ", \"contacts\": [{", stream);
+		if (contact->other < 0)
+			fprintf(stream, "\"wall\": \"%s\", \"normal\": ", walls[-1 - contact->other]);
+		else
+			fprintf(stream, "\"body\": %d, \"normal\": ", (int)contact->other);
+		put_pair(stream, normal);
+		put_pair_key(stream, "friction", friction, none);
+		putc('}', stream);
+	}
+	if (count > 0)
+		putc(']', stream);
+}
+
+static void put_body(const struct writer *writer, const carom_body_info *info, const carom_body_state *state, const carom_contact *contacts,
+	size_t contact_count)
 {
 	FILE *stream = writer->stream;
 	const carom_body_def *defaults = &writer->body_defaults;
@@ -146,6 +168,7 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 		fputs(", \"name\": ", stream);
 		put_string(stream, info->name);
 	}
+	put_contacts(stream, contacts, contact_count);
 	putc('}', stream);
 }
 
@@ -224,13 +247,14 @@ static void put_world(const struct writer *writer, const carom_camera *camera)
 	}
 }
 
-static carom_status put_bodies(const struct writer *writer, carom_world *world, carom_error *error)
+static carom_status put_bodies(const struct writer *writer, carom_world *world, const carom_contact *contacts, size_t contact_count,
+	carom_error *error)
 {
 	const size_t count = carom_world_body_count(world);
 	carom_body_state states[STATES_AT_ONCE];
 	carom_status status = CAROM_OK;
 	fputs(",\n  \"bodies\": [", writer->stream);
-	for (size_t k = 0; k < count; k++) {
+	for (size_t k = 0, first = 0, end = 0; k < count; k++, first = end) {
 		size_t left = count - k;
 		carom_body_info info;
 		if (k % STATES_AT_ONCE == 0)
@@ -239,11 +263,25 @@ static carom_status put_bodies(const struct writer *writer, carom_world *world, 
 			status = carom_world_get_body(world, (uint32_t)k, &info, error);
 		if (status != CAROM_OK)
 			return status;
+		while (end < contact_count && contacts[end].body == k)
+			end++;
 		fputs(k > 0 ? ",\n    " : "\n    ", writer->stream);
-		put_body(writer, &info, &states[k % STATES_AT_ONCE]);
+		put_body(writer, &info, &states[k % STATES_AT_ONCE], contacts + first, end - first);
 	}
 	fputs("\n  ]\n}\n", writer->stream);
 	return CAROM_OK;
+}
+
+/* *contacts is to be freed. */
+static carom_status get_contacts(carom_world *world, carom_contact **contacts, size_t *count, carom_error *error)
+{
+	carom_status status = carom_world_contact_count(world, count, error);
+	if (status != CAROM_OK)
+		return status;
+	*contacts = malloc((*count + 1) * sizeof **contacts);
+	if (!*contacts)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu contacts", *count);
+	return carom_world_get_contacts(world, 0, *count, *contacts, error);
 }
 
 /* What is refused when it is read is not written. */
@@ -269,7 +307,12 @@ carom_status carom_world_write_scene(carom_world *world, const carom_camera *cam
 	if (status != CAROM_OK)
 		return status;
 	put_world(&writer, camera);
-	status = put_bodies(&writer, world, error);
+	carom_contact *contacts = NULL;
+	size_t contact_count = 0;
+	status = get_contacts(world, &contacts, &contact_count, error);
+	if (status == CAROM_OK)
+		status = put_bodies(&writer, world, contacts, contact_count, error);
+	free(contacts);
 	if (status == CAROM_OK)
 		return carom_file_commit(file, error);
 	carom_file_destroy(file);

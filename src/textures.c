@@ -297,6 +297,8 @@ carom_status carom_textures_update(carom_world *world, carom_error *error)
 	if (status || world->prepared)
 		return status;
 	status = carom_textures_fetch(world, error); /* or preparing, where it fails, would lose the state */
+	if (!status)
+		status = carom_contacts_fetch(world, error);
 	if (status)
 		return status;
 	status = world->step->prepare(world, error);

@@ -98,7 +98,7 @@ carom_status carom_world_create(const carom_world_def *def, carom_world **world,
 	w->pipeline = device_def.pipeline;
 	keep_names(&w->def.pipeline, &w->pipeline);
 	w->step = step_named(w->pipeline.step);
-	w->host_current = true;
+	w->host_current = w->contacts_current = true;
 	w->target = -1.0;
 	w->batch = 1;
 	if (def->device) {
@@ -126,6 +126,7 @@ void carom_world_destroy(carom_world *world)
 	free(world->names.items);
 	free(world->linear.items);
 	free(world->rotational.items);
+	free(world->contacts.items);
 	free(world);
 }
 
@@ -203,6 +204,8 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 	if (count > MAX_BODIES - before)
 		return carom_fail(error, CAROM_LIMIT, "a world holds at most %u bodies", MAX_BODIES);
 	status = carom_textures_fetch(world, error);
+	if (!status)
+		status = carom_contacts_fetch(world, error);
 	for (size_t i = 0; !status && i < count; i++)
 		status = add_one(world, &defs[i], i, error);
 	if (status) {

@@ -83,11 +83,13 @@ struct carom_world {
 	carom_note notes[CAROM_NOTES];
 	carom_array names;
 	carom_array linear, rotational; /* four floats a body */
+	carom_array contacts;           /* carom_contact, in order */
 	size_t body_count;
-	bool rubs;           /* a body has friction */
-	bool bodies_current; /* the device's constant textures are those of the bodies */
-	bool device_current; /* the device has the host's state */
-	bool host_current;   /* the host has the device's state */
+	bool rubs;                            /* a body has friction */
+	bool bodies_current;                  /* the device's constant textures are those of the bodies */
+	bool device_current;                  /* the device has the host's state */
+	bool host_current;                    /* the host has the device's state */
+	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
 	uint32_t vertex_capacity;  /* texels of Vertices, likewise, */
@@ -141,6 +143,9 @@ carom_status carom_textures_update(carom_world *world, carom_error *error);
 carom_status carom_textures_fetch(carom_world *world, carom_error *error);
 uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs);
 uint32_t carom_friction_texels(uint32_t capacity);
+/* contacts.c: what the step contacts keeps of the last step, to the device before a batch, and back */
+carom_status carom_contacts_send(carom_world *world, carom_error *error);
+carom_status carom_contacts_fetch(carom_world *world, carom_error *error);
 /* textures_send.c: what bodies are, as the device has it */
 carom_status carom_textures_send(carom_world *world, carom_error *error);
 /* Runs a stage over the world's textures: fronts to read, backs to write. */

@@ -49,6 +49,12 @@ static carom_status unload(carom_world *world, carom_error *error)
 	return carom_events_unload(world, error);
 }
 
+static carom_status begin(carom_world *world, carom_error *error)
+{
+	TRY(carom_contacts_send(world, error));
+	return carom_events_begin(world, error);
+}
+
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	const uint64_t n = carom_capacity(body_count), grips = CONTACTS_MOST * GRIP_WIDTH * (def->friction > 0 ? n : 1);
@@ -62,6 +68,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	const uint64_t n = world->capacity;
 	TRY(carom_events_prepare(world, error));
 	world->events.iterations = FIRST_ITERATIONS;
+	world->contacts_sent = false;
 	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, CONTACTS_MOST * CONTACT_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_GRIPS, false, CONTACTS_MOST * GRIP_WIDTH * (world->rubs ? n : 1), error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
@@ -71,4 +78,4 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	return carom_events_create_list(world, ROLE_WARM_COUNT, false, n, error);
 }
 
-const carom_step carom_step_contacts = {"contacts", false, prepare, run, carom_events_begin, carom_events_finish, unload, memory};
+const carom_step carom_step_contacts = {"contacts", false, prepare, run, begin, carom_events_finish, unload, memory};
