@@ -283,6 +283,7 @@
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */
 #define WARM_FRICTION 0 /* of the second record: two, N */
+#define WARM_PART 0.9f  /* of a force that is begun with where the two do not rub: what is found anew, each time, keeps towers upright that nothing holds */
 #define WARM_MOST 1e6f  /* m/step^2, of either body: a larger force is not begun with */
 
 /* Touching: two ints a slot */

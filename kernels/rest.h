@@ -152,10 +152,10 @@ void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), RECORD_OUT(gri
 	rests_insert(all, contacts, grips, s, r, -1 - wall);
 }
 
-/* The force of the last step, in units of this one; none that is too large for either body. */
-float force_begun(float force, float inverse_mass, float length)
+/* What is begun with, of a force of the last step: in units of this one, and none that is too large for either body. */
+float force_begun(float force, float part, float inverse_mass, float length)
 {
-	float start = (force * length) * length;
+	float start = part * ((force * length) * length);
 	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
 }
 
@@ -170,10 +170,11 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), RECOR
 		if (last == warm_counts[body])
 			continue;
 		float4 forces = warm[WARM(body, last, all->rub)];
+		float part = all->rub && grips[GRIP(s, k, GRIP_BOUNDS)].x > 0.0f ? 1.0f : WARM_PART;
 		float mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
 		if (other >= 0)
 			mass = larger(mass, CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_INVERSE));
-		float2 start = (float2)(force_begun(forces.y, mass, length), force_begun(forces.z, mass, length));
+		float2 start = (float2)(force_begun(forces.y, part, mass, length), force_begun(forces.z, part, mass, length));
 		contacts[CONTACT(s, k, CONTACT_START)] = (float4)(start.x, start.y, 0.0f, 0.0f);
 		for (int point = 0; point < 2; point++) {
 			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
@@ -183,7 +184,7 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), RECOR
 		if (!all->rub)
 			continue;
 		float4 held = warm[WARM(body, last, true) + 1], bounds = grips[GRIP(s, k, GRIP_BOUNDS)];
-		float2 grip = (float2)(force_begun(held.x, mass, length), force_begun(held.y, mass, length));
+		float2 grip = (float2)(force_begun(held.x, part, mass, length), force_begun(held.y, part, mass, length));
 		grips[GRIP(s, k, GRIP_STARTS)] = (float4)(grip.x, grip.y, 0.0f, 0.0f);
 		grips[GRIP(s, k, GRIP_BOUNDS)] = (float4)(bounds.x, bounds.x * start.x, bounds.x * start.y, 0.0f);
 		for (int point = 0; point < 2; point++) {
@@ -218,4 +219,17 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 	if (pass == PASS_FORCES)
 		rests_warm(slots, contacts, grips, warm, warm_counts, s, &all, length);
 	return all.count;
+}
+
+/* Contacts of which the other body has too many are none. */
+void rests_drop(RECORD_OUT(contacts), LIST_IN(touching), int s)
+{
+	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
+		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
+		int other = (int)CHANNEL(pair, PAIR_PARTNER);
+		if (other >= 0 && touching[TOUCH(other, TOUCHING_COUNT)] < 0) {
+			CHANNEL(pair, PAIR_POINTS) = 0.0f;
+			contacts[CONTACT(s, k, CONTACT_PAIR)] = pair;
+		}
+	}
 }

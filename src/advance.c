@@ -79,7 +79,9 @@ static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *e
 	carom_status status = CAROM_OK;
 	if (world->step->begin)
 		status = world->step->begin(world, error);
-	world->host_current = world->contacts_current = false;
+	world->host_current = false;
+	if (!status)
+		world->contacts_current = false; /* not before: what is not sent the host alone has */
 	for (uint64_t i = 0; !status && i < steps; i++)
 		status = world->step->run(world, error);
 	if (!status)

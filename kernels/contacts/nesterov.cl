@@ -37,7 +37,6 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
-/* Contacts of which one body has too many are none. */
 __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching),
 	RECORD_IN(grips), RECORD_OUT(loads), int4 domain)
 {
@@ -46,16 +45,8 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 		return;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		float4 load = load_begin(slots, status, s, length);
-		for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-			float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-			int other = (int)CHANNEL(pair, PAIR_PARTNER);
-			if (other >= 0 && touching[TOUCH(other, TOUCHING_COUNT)] < 0) {
-				CHANNEL(pair, PAIR_POINTS) = 0.0f;
-				contacts[CONTACT(s, k, CONTACT_PAIR)] = pair;
-			}
-		}
-		load = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), load);
+		rests_drop(contacts, touching, s);
+		float4 load = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), load_begin(slots, status, s, length));
 		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)));
 		loads[LOADS_OF(s) + (domain.z & 1)] = load;
 	}

@@ -167,10 +167,10 @@ private:
 		found[k] = rest;
 	}
 
-	/* A force of the last step in this one's units; none that is too large for either body. */
-	T begun(T force, T inverse_mass) const
+	/* What is begun with, of a force of the last step: in this one's units, and none that is too large for either body. */
+	T begun(T force, T part, T inverse_mass) const
 	{
-		const T start = (force * clusters.length) * clusters.length;
+		const T start = part * ((force * clusters.length) * clusters.length);
 		return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
 	}
 
@@ -180,7 +180,7 @@ private:
 		for (int32_t k = 0; k < count; k++) {
 			const Resting &rest = found[k];
 			const WarmForces<T> last = impulses ? WarmForces<T>() : warm.of(slot.body(), rest.key);
-			const T inverse_mass = larger(slot.mass[MASS_INVERSE], rest.other_inverse_mass);
+			const T part = rest.friction > 0 ? T(1) : T(WARM_PART), inverse_mass = larger(slot.mass[MASS_INVERSE], rest.other_inverse_mass);
 			for (int32_t point = 0; point < rest.points; point++, written++) {
 				Points<T> &points = to[written / lane_count];
 				const int32_t i = written % lane_count;
@@ -189,9 +189,10 @@ private:
 				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
 				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
 				points.rate[i] = rest.at[point].rate, points.tolerance[i] = rest.tolerance, points.step[i] = 1;
-				points.force[i] = points.start[i] = begun(last.normal[point], inverse_mass);
+				points.force[i] = points.start[i] = begun(last.normal[point], part, inverse_mass);
 				if (rubs.any)
-					write_grip(grips[written / lane_count], i, rest, rest.at[point].slip, points.force[i], begun(last.friction[point], inverse_mass));
+					write_grip(grips[written / lane_count], i, rest, rest.at[point].slip, points.force[i],
+						begun(last.friction[point], part, inverse_mass));
 			}
 		}
 		for (int32_t k = written; k % lane_count > 0; k++) {
