@@ -16,7 +16,7 @@ static const struct reference {
 	uint64_t state, picture;
 } references[] = {
 	{"events", 60, false, 0x47802de09e4fda93, 0x64b4ba205c03b904},
-	{"contacts", 12, true, 0xb58a652716a86f28, 0xa5c0db1cbba139e6},
+	{"contacts", 12, true, 0xebb5fd7c9d5fde18, 0x34fee678cd338834},
 	{"first_impact", 60, false, 0x9cfb8ce84ad197b6, 0xc000cfa6fcfd14ed},
 };
 
