@@ -278,13 +278,14 @@
 #define GRIP_STARTS 2    /* record: two forces from which the next iteration starts; two steps */
 #define GRIP_BOUNDS 3    /* record: the coefficient; two, kg m / step^2, that the forces may not exceed now */
 
-/* Warm: with what the forces of the last step ended, which the next begins with. So many contacts a body, by its index, in the order of Contacts: a record each,
- * or where bodies rub two. WarmCount: an int a body, how many there are */
+/* Warm: the forces that the last step ended with. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies rub
+ * two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations end,
+ * within their tolerance, with forces that part what they ought to bear, and heaps slosh on. */
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */
 #define WARM_FRICTION 0 /* of the second record: two, N */
-#define WARM_PART 0.9f  /* of a force that is begun with where the two do not rub: what is found anew, each time, keeps towers upright that nothing holds */
-#define WARM_MOST 1e6f  /* m/step^2, of either body: a larger force is not begun with */
+#define WARM_PART 0.5f
+#define WARM_MOST 1e6f /* m/step^2, of either body: a larger force is not begun with */
 
 /* Touching: two ints a slot */
 #define TOUCHING_WIDTH 2
