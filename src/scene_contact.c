@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-static const struct scene_range no_less_than_0 = {0, FLT_MAX, false, "a finite number, 0 or more"};
+static const struct scene_range no_less_than_0 = {0, FLT_MAX, false, "a number from 0 to 3.4e38"};
 static const struct scene_range index_of_body = {0, UINT32_MAX, false, "the index of a body before this one"};
 
 static const char *const walls[] = {"left", "bottom", "right", "top"}; /* carom_wall, from -1 down */
@@ -56,9 +56,9 @@ static carom_status read_one(struct scene_reader *reader, const struct scene_pla
 	if (!contact.wall == (contact.other == UINT32_MAX))
 		return scene_fail(reader, place, "allowed: either \"body\" or \"wall\", whom it is with");
 	if (contact.wall && !fit_wall(contact.wall, &contact.contact.other))
-		return scene_fail(reader, place, "wall: found \"%.40s\"; allowed: " WALLS, contact.wall);
+		return scene_fail(reader, &(struct scene_place){place, "wall", 0}, "found \"%.40s\"; allowed: " WALLS, contact.wall);
 	if (!contact.wall && contact.other >= reader->scene->body_count)
-		return scene_fail(reader, place, "body: found %u; allowed: %s", (unsigned)contact.other, index_of_body.text);
+		return scene_fail(reader, &(struct scene_place){place, "body", 0}, "found %u; allowed: %s", (unsigned)contact.other, index_of_body.text);
 	return add(reader->scene, &contact) ? CAROM_OK : scene_fail_memory(reader);
 }
 

@@ -21,6 +21,8 @@ static const char *const texts[] = {
 	"{" CIRCLE ", \"position\": [123456789012345678901234567890, 1.00000000000000000000001]}",
 	"{" CIRCLE ", \"position\": [1e-45, 3.40282347e38]}",
 	"{" CIRCLE ", \"angle\": 9007199254740993}",
+	"{" CIRCLE ", \"contacts\": []}, {" CIRCLE ", \"contacts\": [{\"body\": 0, \"normal\": [1, 0.5]}, {\"wall\": \"top\", \"normal\": [2, 3]}]}",
+	"{" CIRCLE ", \"contacts\" : [ {\"friction\": [-1, -0.0], \"normal\": [0, 1e-9], \"wall\": \"left\"} ], \"name\": \"\\u00e9\"}",
 	/* what is wrong */
 	"{}",
 	"{" CIRCLE "},",
@@ -82,6 +84,10 @@ static const char *const texts[] = {
 	"{\"polygon\": {\"vertices\": [[0, 0], [1, 0], [0, 1],]}}",
 	"{\"polygon\": {\"vertices\": [[0, 0], [1, 0], 1]}}",
 	"{\"position\": [0, 0]}",
+	"{" CIRCLE ", \"contacts\": {}}",
+	"{" CIRCLE ", \"contacts\": [{\"wall\": \"left\", \"normal\": [1, 1]}, {\"wall\": \"up\", \"normal\": [1, 1]}]}",
+	"{" CIRCLE ", \"contacts\": [{\"body\": 0, \"normal\": [1, 1]}]}",
+	"{" CIRCLE ", \"contacts\": [{\"body\": 4294967295, \"normal\": [1, 1]}]}",
 	"[]",
 	"null",
 	"/* */ {" CIRCLE "}",
@@ -113,6 +119,13 @@ static void assert_same_body(const carom_body_def *a, const carom_body_def *b, c
 	assert_same_bytes(&x.force, &y.force, sizeof x.force, text);
 }
 
+static void assert_same_contacts(const carom_scene *a, const carom_scene *b, const char *text)
+{
+	assert_int_equal(a->contact_count, b->contact_count);
+	if (a->contact_count > 0)
+		assert_same_bytes(a->contacts, b->contacts, a->contact_count * sizeof *a->contacts, text);
+}
+
 /* Where "bodies" is written with an escape, all of them are read by way of a tree. */
 static carom_status parse_bodies(const char *key, const char *bodies, carom_scene **scene)
 {
@@ -137,6 +150,7 @@ static void check_both_ways(const char *bodies)
 		assert_int_equal(plain->body_count, by_tree->body_count);
 		for (size_t k = 0; k < plain->body_count; k++)
 			assert_same_body(&plain->bodies[k], &by_tree->bodies[k], bodies);
+		assert_same_contacts(plain, by_tree, bodies);
 	}
 	carom_scene_destroy(plain);
 	carom_scene_destroy(by_tree);
@@ -154,7 +168,7 @@ static void both_ways_agree_on_damaged_texts(void **state)
 {
 	static const char others[] = "{}[]\",:.-+e0 \\x\n";
 	(void)state;
-	for (size_t k = 0; k < 13; k++) {
+	for (size_t k = 0; k < 15; k++) {
 		size_t length = strlen(texts[k]);
 		for (size_t at = 0; at < length; at++) {
 			char damaged[512];
