@@ -149,6 +149,42 @@ static void set_states(calls *c)
 		calls_same(c, before);
 }
 
+/* What is read can be set, and is then what is read. */
+static void get_contacts(calls *c)
+{
+	carom_contact contacts[MOST_CONTACTS], again[MOST_CONTACTS];
+	carom_error error = fuzz_blank();
+	size_t count = 0;
+	if (!calls_judge(c, carom_world_contact_count(*c->slot, &count, &error), &error) || count > MOST_CONTACTS)
+		return;
+	FUZZ_EXPECT(carom_world_get_contacts(*c->slot, 0, count + 1, contacts, NULL) == CAROM_INVALID_ARGUMENT);
+	if (!calls_judge(c, carom_world_get_contacts(*c->slot, 0, count, contacts, &error), &error))
+		return;
+	calls_note(c, contacts, count * sizeof *contacts);
+	FUZZ_EXPECT(carom_world_set_contacts(*c->slot, count, contacts, NULL) == CAROM_OK);
+	FUZZ_EXPECT(carom_world_get_contacts(*c->slot, 0, count, again, NULL) == CAROM_OK);
+	FUZZ_EXPECT(memcmp(contacts, again, count * sizeof *contacts) == 0);
+}
+
+static void set_contacts(calls *c)
+{
+	carom_contact contacts[3];
+	carom_error error = fuzz_blank();
+	const size_t count = bytes_below(&c->bytes, COUNT(contacts) + 1);
+	const snapshot before = calls_look(c);
+	size_t now = 0;
+	for (size_t k = 0; k < count; k++) {
+		contacts[k] = (carom_contact){.body = any_index(c), .other = (int32_t)any_index(c) - 4};
+		for (int point = 0; point < 2; point++) {
+			contacts[k].normal[point] = c->bytes.tame ? bytes_between(&c->bytes, 0, 50) : bytes_wild(&c->bytes);
+			contacts[k].friction[point] = c->bytes.tame ? bytes_between(&c->bytes, -50, 50) : bytes_wild(&c->bytes);
+		}
+	}
+	if (calls_judge(c, carom_world_set_contacts(*c->slot, count, contacts, &error), &error))
+		FUZZ_EXPECT(carom_world_contact_count(*c->slot, &now, NULL) == CAROM_OK && now == count);
+	calls_same(c, before);
+}
+
 static void set_force(calls *c)
 {
 	carom_error error = fuzz_blank();
@@ -229,7 +265,8 @@ typedef struct call {
 static const call all[] = {{create, false}, {add, true}, {add, true}, {add, true}, {add, true}, {calls_step, true}, {calls_step, true},
 	{calls_step, true}, {calls_advance, true}, {calls_advance_to, true}, {calls_break_off, true}, {get_body, true}, {get_states, true},
 	{set_states, true}, {set_force, true}, {measure, true}, {calls_render, true}, {calls_scene, true}, {destroy, true}, {add_too_many, true},
-	{calls_parse, false}, {calls_png, false}, {calls_file, false}, {set_pipeline, false}, {list, false}, {ask, false}};
+	{calls_parse, false}, {calls_png, false}, {calls_file, false}, {set_pipeline, false}, {list, false}, {ask, false}, {set_contacts, true},
+	{get_contacts, true}};
 
 void calls_make(calls *c)
 {

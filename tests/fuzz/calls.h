@@ -6,7 +6,7 @@
 #include "bytes.h"
 #include "fuzz.h"
 
-enum { MOST_WORLDS = 3, MOST_BODIES = 12 };
+enum { MOST_WORLDS = 3, MOST_BODIES = 12, MOST_CONTACTS = 127 };
 
 typedef struct calls {
 	bytes bytes;
