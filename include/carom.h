@@ -286,10 +286,10 @@ CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index,
 
 /** A wall of the room, where a contact has a body's index. */
 typedef enum carom_wall {
-	CAROM_WALL_TOP = -4,
-	CAROM_WALL_RIGHT = -3,
-	CAROM_WALL_BOTTOM = -2,
-	CAROM_WALL_LEFT = -1,
+	CAROM_WALL_TOP = -4,    /**< y = room_max.y */
+	CAROM_WALL_RIGHT = -3,  /**< x = room_max.x */
+	CAROM_WALL_BOTTOM = -2, /**< y = room_min.y */
+	CAROM_WALL_LEFT = -1,   /**< x = room_min.x */
 } carom_wall;
 
 /** Two bodies, or a body and a wall, that rest on each other, or might, at one or two points. */
@@ -377,7 +377,7 @@ typedef struct carom_measure {
 CAROM_API carom_status carom_world_measure(carom_world *world, carom_measure *measure, carom_error *error);
 
 /** A 64-bit hash (FNV-1a) of the state: of x, y, vx, vy, angle, angular velocity of each body in turn, as the bytes of
- * little-endian floats. Equal hashes mean equal bits. */
+ * little-endian floats. Equal hashes mean equal bits. Contacts are not in it. */
 CAROM_API carom_status carom_world_hash(carom_world *world, uint64_t *hash, carom_error *error);
 
 /* ---- Scenes: worlds as JSON files ----------------------------------------------------------------------------- */
