@@ -214,10 +214,11 @@ void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
 	pushes[PUSHES_WIDTH * s + 1] = (float4)(place.z, place.w, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY), 0.0f);
 }
 
+/* But for which body it is, which others look at meanwhile. */
 void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocities)
 {
 	float4 velocities = pushes[PUSHES_WIDTH * s + 1];
-	slots[SLOT_WIDTH * s + SLOT_PUSH] = pushes[PUSHES_WIDTH * s];
+	slots[SLOT_WIDTH * s + SLOT_PUSH].xyz = pushes[PUSHES_WIDTH * s].xyz;
 	if (with_velocities)
 		velocities_set(slots, s, velocities.x, velocities.y, velocities.z);
 }

@@ -1,4 +1,4 @@
-/* 24 worlds in four threads, each with threads of its own: what they compute is what each computes alone. Under the thread sanitizer
+/* 27 worlds in four threads, each with threads of its own: what they compute is what each computes alone. Under the thread sanitizer
  * this is also where races show (`make check-threads`).
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "runs.h"
 
-enum { WORLDS = 24, THREADS = 4, STEPS = 3, WIDTH = 64, HEIGHT = 48 };
+enum { WORLDS = 27, THREADS = 4, STEPS = 3, WIDTH = 64, HEIGHT = 48 };
 
 /* What comes of a world; `error` tells where nothing did. */
 typedef struct outcome {
@@ -29,18 +29,36 @@ static uint64_t hash_of(const uint8_t *bytes, size_t size)
 	return hash;
 }
 
-/* Enough for every stage of the CPU device to share its work among threads: they take up to 4,096 bodies at once. */
-static size_t bodies_of(int index, bool events)
+static const char *const steps[] = {"events", "first_impact", "contacts"};
+
+static const char *step_of(int index)
+{
+	return steps[(size_t)index / scenery_device_count % (sizeof steps / sizeof *steps)];
+}
+
+/* Enough for every stage of the CPU device to share its work among threads: they take up to 4,096 bodies at once, of contacts 64 that touch. */
+static size_t bodies_of(int index)
 {
 	const bool shared = strcmp(device_of(index)->name, "cpu") == 0;
-	return !shared ? 30 : events ? 6000 : 600;
+	return !shared ? 30 : strcmp(step_of(index), "events") == 0 ? 6000 : 600;
+}
+
+/* Rows of circles that lie on each other, and rub. */
+static void build_wall(carom_body_def *bodies, size_t count, carom_world_def *def)
+{
+	const size_t row = (size_t)(def->room_max.x - def->room_min.x) - 1;
+	def->gravity.y = -10.0f;
+	def->restitution = 0.5f;
+	def->friction = 0.5f;
+	for (size_t i = 0; i < count; i++)
+		bodies[i] = scenery_circle(def->room_min.x + 0.6f + (float)(i % row) * 1.0001f, def->room_min.y + 0.5f + (float)(i / row) * 1.0001f, 0.0f,
+			0.0f, 0.5f);
 }
 
 /* Everything of a world's life. No assertions: those are of the main thread. */
 static carom_status live(int index, outcome *out)
 {
-	const bool events = (size_t)index / scenery_device_count % 2 == 0;
-	const size_t count = bodies_of(index, events);
+	const size_t count = bodies_of(index);
 	const float half = 0.7f * sqrtf((float)count) + 2.0f;
 	carom_world_def def = runs_room(half, half);
 	carom_body_def *bodies = malloc(count * sizeof *bodies);
@@ -51,11 +69,14 @@ static carom_status live(int index, outcome *out)
 	scenery_random random = {(uint64_t)index};
 	def.device = device_of(index)->name;
 	def.storage = device_of(index)->storage;
-	def.pipeline.step = events ? "events" : "first_impact";
+	def.pipeline.step = step_of(index);
 	def.threads = 3;
 	render.width = WIDTH;
 	render.height = HEIGHT;
-	scenery_bodies(&random, SCENERY_MIXED, count, 1.4f, 5.0f, bodies);
+	if (strcmp(step_of(index), "contacts") == 0)
+		build_wall(bodies, count, &def);
+	else
+		scenery_bodies(&random, SCENERY_MIXED, count, 1.4f, 5.0f, bodies);
 	carom_status status = carom_world_create(&def, &world, &out->error);
 	if (!status)
 		status = carom_world_add(world, bodies, count, NULL, &out->error);

@@ -50,13 +50,14 @@ template <typename T> struct Kept {
 
 	void keep(const Slot<T> &slot)
 	{
-		std::copy_n(slot.push, 4, push);
+		std::copy_n(slot.push, PUSH_BODY, push);
 		velocities[0] = slot.place[LINEAR_VX], velocities[1] = slot.place[LINEAR_VY], velocities[2] = slot.turn[TURN_VELOCITY];
 	}
 
+	/* But for which body it is, which others look at meanwhile. */
 	void restore(Slot<T> &slot, bool with_velocities) const
 	{
-		std::copy_n(push, 4, slot.push);
+		std::copy_n(push, PUSH_BODY, slot.push);
 		if (with_velocities)
 			slot.place[LINEAR_VX] = velocities[0], slot.place[LINEAR_VY] = velocities[1], slot.turn[TURN_VELOCITY] = velocities[2];
 	}
