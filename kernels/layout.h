@@ -281,6 +281,7 @@
 /* Warm: the forces that the last step ended with. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies rub
  * two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations end,
  * within their tolerance, with forces that part what they ought to bear, and heaps slosh on. */
+#define WARM_WIDTH(rub) ((rub) ? 2 : 1)
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */
 #define WARM_FRICTION 0 /* of the second record: two, N */

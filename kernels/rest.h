@@ -2,7 +2,7 @@
 
 #define CONTACT(s, k, record) (CONTACT_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
 #define TOUCH(s, field) (TOUCHING_WIDTH * (s) + (field))
-#define WARM(body, k, rub) ((CONTACTS_MOST * (body) + (k)) * ((rub) ? 2 : 1))
+#define WARM(body, k, rub) ((CONTACTS_MOST * (body) + (k)) * WARM_WIDTH(rub))
 #define GRIP(s, k, record) (GRIP_WIDTH * (CONTACTS_MOST * (s) + (k)) + (record))
 #define CONTACTS_ALONE 512 /* bodies for which one group iterates alone */
 

@@ -28,11 +28,6 @@ static int compare(const void *left, const void *right)
 	return a->other < b->other ? -1 : a->other > b->other;
 }
 
-static bool has_contacts(const carom_world *world)
-{
-	return world->step == &carom_step_contacts;
-}
-
 /* ---- The device's copy ---- */
 
 /* Records of Warm and ints of WarmCount, of all bodies, in whole rows. */
@@ -46,7 +41,7 @@ typedef struct warm {
 
 static carom_status warm_create(const carom_world *world, warm *w, carom_error *error)
 {
-	const uint32_t width = world->rubs ? 2 : 1, records = CONTACTS_MOST * width, n = (uint32_t)world->body_count;
+	const uint32_t width = WARM_WIDTH(world->rubs), records = CONTACTS_MOST * width, n = (uint32_t)world->body_count;
 	*w = (warm){.width = width, .rows = carom_row_count(records * n), .count_rows = carom_row_count(n)};
 	w->records = calloc((size_t)w->rows * carom_row_width(records * world->capacity), 4 * sizeof *w->records);
 	w->counts = calloc(w->count_rows * carom_row_width(world->capacity), sizeof *w->counts);
@@ -146,7 +141,7 @@ carom_status carom_contacts_fetch(carom_world *world, carom_error *error)
 	if (world->contacts_current)
 		return CAROM_OK;
 	world->contacts.used = 0;
-	if (has_contacts(world))
+	if (world->step == &carom_step_contacts)
 		status = download(world, error);
 	if (status)
 		return status;

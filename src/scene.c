@@ -39,18 +39,16 @@ void *scene_allocate(carom_scene *scene, size_t size)
 	return block->bytes + block->used - rounded;
 }
 
-bool scene_add_contact(carom_scene *scene, const carom_contact *contact)
+/* Twice as much each time: how much there is follows from the count, and what is given back is not missed. */
+void *scene_grow(void *items, size_t count, size_t size)
 {
-	const size_t count = scene->contact_count;
-	if (count == 0 || (count >= 64 && (count & (count - 1)) == 0)) { /* full, or may be */
-		carom_contact *contacts = realloc(scene->contacts, (count ? 2 * count : 64) * sizeof *contacts);
-		if (!contacts)
-			return false;
-		scene->contacts = contacts;
-	}
-	scene->contacts[scene->contact_count++] = *contact;
-	return true;
+	const size_t first = 64;
+	if (count > 0 && (count < first || (count & (count - 1)) != 0))
+		return items;
+	return realloc(items, (count ? 2 * count : first) * size);
 }
+
+const char *const scene_walls[SCENE_WALLS] = {"left", "bottom", "right", "top"};
 
 carom_scene *scene_create(const char *name)
 {

@@ -16,8 +16,12 @@ carom_scene *scene_create(const char *name);
 /* Memory for any type that lives as long as the scene; NULL if there is none. A million small pieces are cheap. */
 void *scene_allocate(carom_scene *scene, size_t size);
 
-/* Adds a contact; false if there is no memory. */
-bool scene_add_contact(carom_scene *scene, const carom_contact *contact);
+/* Room for one more item of an array that is only grown by this, and had `count`; NULL if there is no memory. It may move. */
+void *scene_grow(void *items, size_t count, size_t size);
+
+/* What files call them: carom_wall, from -1 down. */
+#define SCENE_WALLS 4
+extern const char *const scene_walls[SCENE_WALLS];
 
 const char *scene_skip_space(const char *at, const char *end);
 /* The text between the brackets of the top-level "bodies" array; false if there is no such array. */

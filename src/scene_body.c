@@ -153,14 +153,10 @@ static const struct scene_field body_fields[] = {
 static carom_status add_body(struct scene_reader *reader, const carom_body_def *def)
 {
 	carom_scene *scene = reader->scene;
-	if (scene->body_count == reader->capacity) {
-		size_t capacity = reader->capacity ? reader->capacity * 2 : 64;
-		carom_body_def *bodies = realloc(scene->bodies, capacity * sizeof *bodies);
-		if (!bodies)
-			return scene_fail_memory(reader);
-		scene->bodies = bodies;
-		reader->capacity = capacity;
-	}
+	carom_body_def *bodies = scene_grow(scene->bodies, scene->body_count, sizeof *bodies);
+	if (!bodies)
+		return scene_fail_memory(reader);
+	scene->bodies = bodies;
 	scene->bodies[scene->body_count++] = *def;
 	return CAROM_OK;
 }

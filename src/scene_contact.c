@@ -8,7 +8,6 @@
 static const struct scene_range no_less_than_0 = {0, FLT_MAX, false, "a number from 0 to 3.4e38"};
 static const struct scene_range index_of_body = {0, UINT32_MAX, false, "the index of a body before this one"};
 
-static const char *const walls[] = {"left", "bottom", "right", "top"}; /* carom_wall, from -1 down */
 #define WALLS "\"left\", \"bottom\", \"right\" or \"top\""
 
 struct contact {
@@ -19,8 +18,8 @@ struct contact {
 
 static bool fit_wall(const char *name, int32_t *other)
 {
-	for (int32_t k = 0; k < 4; k++) {
-		if (strcmp(name, walls[k]) == 0) {
+	for (int32_t k = 0; k < SCENE_WALLS; k++) {
+		if (strcmp(name, scene_walls[k]) == 0) {
 			*other = -1 - k;
 			return true;
 		}
@@ -41,7 +40,12 @@ static bool add(carom_scene *scene, struct contact *contact)
 	contact->contact.body = (uint32_t)scene->body_count;
 	if (!contact->wall)
 		contact->contact.other = (int32_t)contact->other;
-	return scene_add_contact(scene, &contact->contact);
+	carom_contact *contacts = scene_grow(scene->contacts, scene->contact_count, sizeof *contacts);
+	if (!contacts)
+		return false;
+	scene->contacts = contacts;
+	contacts[scene->contact_count++] = contact->contact;
+	return true;
 }
 
 static carom_status read_one(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,

@@ -15,7 +15,6 @@ struct scene_reader {
 	const char *bodies, *bodies_end; /* what is cut out of the text; both at its end if nothing is */
 	const char *body;                /* where the body being read starts, NULL outside of the cut */
 	bool broken_behind;              /* the text behind the cut is no JSON */
-	size_t capacity;                 /* of scene->bodies */
 	carom_scene *scene;
 	carom_error *error;
 };

@@ -122,14 +122,13 @@ static void put_shape(FILE *stream, const carom_body_info *info)
 
 static void put_contacts(FILE *stream, const carom_contact *contacts, size_t count)
 {
-	static const char *const walls[] = {"left", "bottom", "right", "top"};
 	static const carom_vec2 none = {0, 0};
 	for (size_t k = 0; k < count; k++) {
 		const carom_contact *contact = &contacts[k];
 		const carom_vec2 normal = {contact->normal[0], contact->normal[1]}, friction = {contact->friction[0], contact->friction[1]};
 		fputs(k > 0 ? ", {" : ", \"contacts\": [{", stream);
 		if (contact->other < 0)
-			fprintf(stream, "\"wall\": \"%s\", \"normal\": ", walls[-1 - contact->other]);
+			fprintf(stream, "\"wall\": \"%s\", \"normal\": ", scene_walls[-1 - contact->other]);
 		else
 			fprintf(stream, "\"body\": %d, \"normal\": ", (int)contact->other);
 		put_pair(stream, normal);

@@ -6,7 +6,7 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 		return;
 	bool waits = iterations_are_wanted(status);
 	if (status[STATUS_PASS] == 0)
-		status[STATUS_BORNE] = 0;
+		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
 	if (!(step_length(TEX(uniforms), TEX(clock)) > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	if (!waits && status[STATUS_PASS] == PASS_FORCES)
@@ -15,8 +15,6 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
-	if (status[STATUS_PASS] == 0)
-		status[STATUS_TOUCHING] = 0;
 	status[STATUS_PASS]++;
 }
 

@@ -38,21 +38,26 @@ public:
 		return forces;
 	}
 
-	void keep(int32_t body, int32_t k, int32_t partner, const WarmForces<T> &forces) const
+	/* Contact k, with that partner, of no forces yet. */
+	void begin(int32_t body, int32_t k, int32_t partner) const
+	{
+		at(body, k)[WARM_PARTNER] = static_cast<T>(partner);
+		for (int32_t point = 0; point < 2; point++)
+			keep(body, k, point, 0, 0);
+	}
+
+	void keep(int32_t body, int32_t k, int32_t point, T normal, T friction) const
 	{
 		T *record = at(body, k);
-		record[WARM_PARTNER] = static_cast<T>(partner);
-		for (int32_t i = 0; i < 2; i++) {
-			record[WARM_FORCES + i] = forces.normal[i];
-			if (rubs)
-				record[4 + WARM_FRICTION + i] = forces.friction[i];
-		}
+		record[WARM_FORCES + point] = normal;
+		if (rubs)
+			record[4 + WARM_FRICTION + point] = friction;
 	}
 
 private:
 	T *at(int32_t body, int32_t k) const
 	{
-		return records + (static_cast<size_t>(CONTACTS_MOST) * static_cast<size_t>(body) + static_cast<size_t>(k)) * (rubs ? 8 : 4);
+		return records + (static_cast<size_t>(CONTACTS_MOST) * static_cast<size_t>(body) + static_cast<size_t>(k)) * (4 * WARM_WIDTH(rubs));
 	}
 
 	T *records;

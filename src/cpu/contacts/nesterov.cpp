@@ -116,7 +116,7 @@ template <typename T> static void begin(const Job<T> &job)
 	const int32_t first = job.domain[2], last = job.domain[3];
 	const bool waits = iterations_are_wanted(status);
 	if (status[STATUS_PASS] == 0)
-		status[STATUS_BORNE] = 0;
+		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
 	if (!(step_length(job.texels(1), job.texels(0)) > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	if (!waits && status[STATUS_PASS] == PASS_FORCES)
@@ -125,8 +125,7 @@ template <typename T> static void begin(const Job<T> &job)
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
-	if (status[STATUS_PASS]++ == 0)
-		status[STATUS_TOUCHING] = 0;
+	status[STATUS_PASS]++;
 }
 
 template <typename T> static void find(const Job<T> &job)
@@ -337,21 +336,16 @@ template <typename T> static void keep_forces(const Rests<T> &rests, int32_t s, 
 {
 	const int32_t body = rests.slots[s].body();
 	int32_t count = 0, point = 0, before = Partner::none;
-	WarmForces<T> forces;
 	rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
 		for (int32_t i = 0; i < lane_count; i++) {
 			const Partner partner(points.partner[i]);
 			if (partner.code == Partner::none)
 				continue;
 			if (partner.code != before) {
-				before = partner.code, forces = WarmForces<T>();
-				count++, point = 0;
+				before = partner.code, point = 0;
+				warm.begin(body, count++, partner.key(rests.slots));
 			}
-			forces.normal[point] = (points.force[i] / length) / length;
-			if (rests.rubs)
-				forces.friction[point] = (grips.force[i] / length) / length;
-			warm.keep(body, count - 1, partner.key(rests.slots), forces);
-			point++;
+			warm.keep(body, count - 1, point++, (points.force[i] / length) / length, rests.rubs ? (grips.force[i] / length) / length : T(0));
 		}
 	});
 	warm.keep_count(body, count);
