@@ -262,7 +262,7 @@
 #define CONTACT_POINT 1   /* two records, of a point each */
 #define POINT_ARM 0       /* m: the normal's arm about this body's centre, */
 #define POINT_OTHER_ARM 1 /* and about the partner's */
-#define POINT_RATE 2      /* m a step: how fast the points part, less how fast they may come together */
+#define POINT_LEAST 2     /* m a step: how fast the points may come together */
 #define POINT_FORCE 3     /* kg m / step^2, 0 or more */
 #define CONTACT_START 3   /* record: two forces from which the next iteration starts */
 #define CONTACT_STEPS 4   /* record: two, kg: by how much a rate changes a force in an iteration; and */
@@ -273,8 +273,7 @@
 #define GRIP_POINT 0     /* two records, of a point each */
 #define GRIP_ARM 0       /* m: u's arm about this body's centre, */
 #define GRIP_OTHER_ARM 1 /* and about the partner's */
-#define GRIP_RATE 2      /* m a step: how fast this body slides */
-#define GRIP_FORCE 3     /* kg m / step^2 */
+#define GRIP_FORCE 2     /* kg m / step^2 */
 #define GRIP_STARTS 2    /* record: two forces from which the next iteration starts; two steps */
 #define GRIP_BOUNDS 3    /* record: the coefficient; two, kg m / step^2, that the forces may not exceed now */
 
@@ -293,10 +292,11 @@
 #define TOUCHING_COUNT 0 /* of the slot's contacts; -1: too many */
 #define TOUCHING_SLOT 1  /* a list: slots with contacts, in this step or in the last */
 
-/* Loads: two records a slot, of the iterations with even numbers and of the others: x, y, torque of the acceleration, a step's units, and the body's share.
- * Before them two of slot -1, of what does not move: zeros. */
-#define LOADS_WIDTH 2
+/* Loads: three records a slot: how it moves in a step, x, y, angle, in the iterations with even numbers and in the others, and by itself; and its share.
+ * Before them those of slot -1, of what does not move: zeros. */
+#define LOADS_WIDTH 3
 #define LOADS_OF(slot) (LOADS_WIDTH * ((slot) + 1))
+#define LOADS_ALONE 2
 #define LOAD_SHARE 3 /* as if so many points alone pushed it */
 
 /* Pushes: two records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular */

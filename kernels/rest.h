@@ -12,14 +12,13 @@ typedef struct rests {
 	bool rub; /* something does, somewhere */
 } rests;
 
-/* A contact, and what its points are judged by: how much the stronger push makes in a step, how near it may come, and how much of its gap it may
- * lose in a step, of a gap that is so much larger than `spared`. */
+/* A contact, and what its points are judged by: how much the stronger push makes in a step, and how near it may come. */
 typedef struct rest {
 	float4 pair, points[2], grips[2];
-	float force, cushion, ease, spared, friction;
+	float force, cushion, friction;
 } rest;
 
-rest rest_begin(int partner, float2 n, float force, float slop, int pass, float friction)
+rest rest_begin(int partner, float2 n, float force, float slop, float friction)
 {
 	rest r;
 	r.friction = friction;
@@ -28,8 +27,6 @@ rest rest_begin(int partner, float2 n, float force, float slop, int pass, float 
 	r.points[0] = r.points[1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	r.force = force;
 	r.cushion = smaller(CUSHION * slop, 0.5f * force);
-	r.ease = pass == PASS_IMPULSES ? 1.0f : EASE;
-	r.spared = pass == PASS_IMPULSES ? 0.5f * r.cushion : r.cushion;
 	return r;
 }
 
@@ -45,12 +42,11 @@ float2 touch_lever(body k, float2 lever, float2 n)
 	return k.count == 1 ? (float2)(k.radius * n.x, k.radius * n.y) : lever;
 }
 
-/* How the body slides at a point, as a record of Grips. */
-float4 grip_of(float2 n, float2 v, float w, float2 lever, float other_w, float2 other_lever)
+/* Where the body slides at a point, as a record of Grips. */
+float4 grip_of(float2 n, float2 lever, float2 other_lever)
 {
 	float2 way = aside(n);
-	float arm = cross2(lever, way), other_arm = cross2(other_lever, way);
-	return (float4)(arm, other_arm, inner(way, v) + (w * arm - other_w * other_arm), 0.0f);
+	return (float4)(cross2(lever, way), cross2(other_lever, way), 0.0f, 0.0f);
 }
 
 /* A point, if it does not come too fast. */
@@ -58,7 +54,7 @@ void rest_add(rest *r, float rate, float gap, float arm, float other_arm, float4
 {
 	if (rate < -(CONTACT_FAST * r->force))
 		return;
-	r->points[(int)CHANNEL(r->pair, PAIR_POINTS)] = (float4)(arm, other_arm, rate + r->ease * (larger(gap, 0.0f) - r->spared), 0.0f);
+	r->points[(int)CHANNEL(r->pair, PAIR_POINTS)] = (float4)(arm, other_arm, larger(gap, 0.0f) - 0.5f * r->cushion, 0.0f);
 	r->grips[(int)CHANNEL(r->pair, PAIR_POINTS)] = grip;
 	CHANNEL(r->pair, PAIR_POINTS) += 1.0f;
 }
@@ -93,7 +89,7 @@ void rests_insert(rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s, re
 }
 
 void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), int s, int other,
-	float length, int pass, rests *all)
+	float length, rests *all)
 {
 	body own = body_of(slots, s, trajectory_start(slots, s), length), partner = body_of(slots, other, trajectory_start(slots, other), length);
 	float force = larger(norm(own.a), norm(partner.a));
@@ -111,28 +107,28 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	contact c = contact_at(VERTICES, a, b, p, k, force - k.gap);
 	bool is_incident = is_row == c.swapped;
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
-	rest r = rest_begin(other, n, force, slop, pass, friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key));
-	float2 v = (float2)(own.v.x - partner.v.x, own.v.y - partner.v.y), back = (float2)(-n.x, -n.y);
+	rest r = rest_begin(other, n, force, slop, friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key));
+	float2 back = (float2)(-n.x, -n.y);
 	for (int j = 0; j < c.count; j++) {
 		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
 		float ref = cross2(c.ref[i], n), inc = cross2(c.inc[i], n);
 		float2 lever = touch_lever(own, is_incident ? c.inc[i] : c.ref[i], back),
 			   other_lever = touch_lever(partner, is_incident ? c.ref[i] : c.inc[i], n);
-		rest_add(&r, c.rate[i], gap, is_incident ? inc : ref, is_incident ? ref : inc, grip_of(n, v, own.w, lever, partner.w, other_lever));
+		rest_add(&r, c.rate[i], gap, is_incident ? inc : ref, is_incident ? ref : inc, grip_of(n, lever, other_lever));
 	}
 	rests_insert(all, contacts, grips, s, r, key);
 }
 
-void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), RECORD_OUT(grips), body k, int s, int wall, int pass, float friction, rests *all)
+void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), RECORD_OUT(grips), body k, int s, int wall, float friction, rests *all)
 {
 	float offset, force = norm(k.a);
 	float2 n = wall_normal(room, wall, &offset), none = (float2)(0.0f, 0.0f);
 	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
-	rest r = rest_begin(-1 - wall, n, force, wall_slop(k), pass, friction);
+	rest r = rest_begin(-1 - wall, n, force, wall_slop(k), friction);
 	if (k.count == 1) {
 		if (height - k.radius <= force)
-			rest_add(&r, speed, height - k.radius, 0.0f, 0.0f, grip_of(n, k.v, k.w, touch_lever(k, none, (float2)(-n.x, -n.y)), 0.0f, none));
+			rest_add(&r, speed, height - k.radius, 0.0f, 0.0f, grip_of(n, touch_lever(k, none, (float2)(-n.x, -n.y)), none));
 	} else {
 		float2 rotation = body_rotation(k, 0.0f), m = turn_back(rotation, n);
 		int deepest;
@@ -146,62 +142,18 @@ void rest_on_wall(VERTICES_IN, float4 room, RECORD_OUT(contacts), RECORD_OUT(gri
 			float gap = height + inner(m, ends[i]);
 			float2 lever = turn(rotation, ends[i]);
 			if (gap <= force)
-				rest_add(&r, speed - k.w * cross2(n, lever), gap, cross2(lever, n), 0.0f, grip_of(n, k.v, k.w, lever, 0.0f, none));
+				rest_add(&r, speed - k.w * cross2(n, lever), gap, cross2(lever, n), 0.0f, grip_of(n, lever, none));
 		}
 	}
 	rests_insert(all, contacts, grips, s, r, -1 - wall);
 }
 
-/* What is begun with, of a force of the last step: in units of this one, and none that is too large for either body. */
-float force_begun(float force, float part, float inverse_mass, float length)
-{
-	float start = part * ((force * length) * length);
-	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
-}
-
-/* The contacts that the body had in the last step begin with what pushed there. */
-void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), RECORD_IN(warm), LIST_IN(warm_counts), int s, rests *all, float length)
-{
-	int body = slot_body(slots, s);
-	for (int k = 0; k < all->count; k++) {
-		int other = (int)CHANNEL(contacts[CONTACT(s, k, CONTACT_PAIR)], PAIR_PARTNER), last = 0;
-		while (last < warm_counts[body] && (int)CHANNEL(warm[WARM(body, last, all->rub)], WARM_PARTNER) != all->keys[k])
-			last++;
-		if (last == warm_counts[body])
-			continue;
-		float4 forces = warm[WARM(body, last, all->rub)];
-		float part = all->rub && grips[GRIP(s, k, GRIP_BOUNDS)].x > 0.0f ? 1.0f : WARM_PART;
-		float mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
-		if (other >= 0)
-			mass = larger(mass, CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_INVERSE));
-		float2 start = (float2)(force_begun(forces.y, part, mass, length), force_begun(forces.z, part, mass, length));
-		contacts[CONTACT(s, k, CONTACT_START)] = (float4)(start.x, start.y, 0.0f, 0.0f);
-		for (int point = 0; point < 2; point++) {
-			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
-			CHANNEL(at, POINT_FORCE) = point ? start.y : start.x;
-			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
-		}
-		if (!all->rub)
-			continue;
-		float4 held = warm[WARM(body, last, true) + 1], bounds = grips[GRIP(s, k, GRIP_BOUNDS)];
-		float2 grip = (float2)(force_begun(held.x, part, mass, length), force_begun(held.y, part, mass, length));
-		grips[GRIP(s, k, GRIP_STARTS)] = (float4)(grip.x, grip.y, 0.0f, 0.0f);
-		grips[GRIP(s, k, GRIP_BOUNDS)] = (float4)(bounds.x, bounds.x * start.x, bounds.x * start.y, 0.0f);
-		for (int point = 0; point < 2; point++) {
-			float4 at = grips[GRIP(s, k, GRIP_POINT + point)];
-			CHANNEL(at, GRIP_FORCE) = point ? grip.y : grip.x;
-			grips[GRIP(s, k, GRIP_POINT + point)] = at;
-		}
-	}
-}
-
 /* How many contacts the body in a slot has; -1: too many. */
-int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), RECORD_OUT(grips), RECORD_IN(warm),
-	LIST_IN(warm_counts), int s, float length)
+int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), RECORD_OUT(grips), int s,
+	float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	rests all;
-	int pass = status[STATUS_PASS];
 	all.count = 0;
 	all.rub = anything_rubs(TEX(uniforms));
 	if (slot_is_static(slots, s))
@@ -210,26 +162,9 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 	bool by_walls = CHANNEL(rules, RULES_HAS_ROOM) > 0.0f && larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)) < 1.0f && norm(k.a) > 0.0f;
 	float rub = by_walls ? friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1) : 0.0f;
 	for (int wall = 0; by_walls && wall < 4; wall++)
-		rest_on_wall(VERTICES, room, contacts, grips, k, s, wall, pass, rub, &all);
+		rest_on_wall(VERTICES, room, contacts, grips, k, s, wall, rub, &all);
 	int end = spans[SPAN(s, SPAN_END)];
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i))
-		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, contacts, grips, s, neighbour_of(neighbours, extra, i), length, pass, &all);
-	if (all.count > CONTACTS_MOST)
-		return -1;
-	if (pass == PASS_FORCES)
-		rests_warm(slots, contacts, grips, warm, warm_counts, s, &all, length);
-	return all.count;
-}
-
-/* Contacts of which the other body has too many are none. */
-void rests_drop(RECORD_OUT(contacts), LIST_IN(touching), int s)
-{
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-		int other = (int)CHANNEL(pair, PAIR_PARTNER);
-		if (other >= 0 && touching[TOUCH(other, TOUCHING_COUNT)] < 0) {
-			CHANNEL(pair, PAIR_POINTS) = 0.0f;
-			contacts[CONTACT(s, k, CONTACT_PAIR)] = pair;
-		}
-	}
+		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, contacts, grips, s, neighbour_of(neighbours, extra, i), length, &all);
+	return all.count > CONTACTS_MOST ? -1 : all.count;
 }

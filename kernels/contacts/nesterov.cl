@@ -19,34 +19,35 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 }
 
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
-	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), RECORD_IN(warm), LIST_IN(warm_counts), int4 domain)
+	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_counts), int4 domain)
 {
 	int s = get_global_id(0);
-	if (s >= domain.x || status[STATUS_FIRST] != domain.z)
+	if (s >= domain.x || status[STATUS_FIRST] != domain.z || status[STATUS_PASS] != PASS_IMPULSES)
 		return;
-	bool first = status[STATUS_PASS] == PASS_IMPULSES, bore = warm_counts[slot_body(slots, s)] > 0;
-	bool listed = !first && (bore || touching[TOUCH(s, TOUCHING_COUNT)] > 0);
-	float length = step_length(TEX(uniforms), TEX(clock));
-	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, warm, warm_counts, s, length);
+	slot_keep(slots, pushes, s);
+	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, s, step_length(TEX(uniforms), TEX(clock)));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
-	if (first)
-		slot_keep(slots, pushes, s);
-	if ((bore || count > 0) && !listed)
+	if (count > 0 || warm_counts[slot_body(slots, s)] > 0)
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
 __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching),
-	RECORD_IN(grips), RECORD_OUT(loads), int4 domain)
+	RECORD_OUT(grips), RECORD_OUT(loads), RECORD_IN(warm), LIST_IN(warm_counts), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
+	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	if (status[STATUS_FIRST] != domain.z)
 		return;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		rests_drop(contacts, touching, s);
-		float4 load = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), load_begin(slots, status, s, length));
-		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)));
-		loads[LOADS_OF(s) + (domain.z & 1)] = load;
+		if (impulses)
+			rests_drop(contacts, grips, touching, s, rub);
+		else
+			rests_warm(slots, contacts, grips, touching, warm, warm_counts, s, rub, length);
+		float4 load = load_alone(slots, status, s, length);
+		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
+		loads[LOADS_OF(s) + LOADS_ALONE] = load;
+		loads[LOADS_OF(s) + (domain.z & 1)] = impulses ? load : rests_add(slots, contacts, grips, touching, s, rub, load);
 	}
 }
 
@@ -60,13 +61,12 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
-	float length = step_length(TEX(uniforms), TEX(clock));
 	bool again;
 	do {
 		bool wanted = false;
 		int now = (status[STATUS_FIRST] + done) & 1;
 		for (int i = begin; i < touches; i += stride)
-			wanted |= rests_iterate(slots, status, contacts, grips, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, length, rub);
+			wanted |= rests_iterate(slots, contacts, grips, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, rub);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;

@@ -32,23 +32,23 @@ struct Partner {
 /* Four points of a body's contacts side by side, in order; where there are no more, points that push nothing. */
 template <typename T> struct Points {
 	Lanes<T> partner; /* see Partner */
-	Lanes<T> normal_x, normal_y, arm, other_arm, rate, tolerance, step, force, start;
+	Lanes<T> normal_x, normal_y, arm, other_arm, least, tolerance, step, force, start;
 
 	void drop(int32_t i)
 	{
 		partner[i] = Partner::none;
-		for (Lanes<T> *of : {&normal_x, &normal_y, &arm, &other_arm, &rate, &tolerance, &step, &force, &start})
+		for (Lanes<T> *of : {&normal_x, &normal_y, &arm, &other_arm, &least, &tolerance, &step, &force, &start})
 			(*of)[i] = 0;
 	}
 };
 
 /* How they slide, where bodies rub, along what is left of the normal. */
 template <typename T> struct Grips {
-	Lanes<T> friction, arm, other_arm, rate, step, most, force, start;
+	Lanes<T> friction, arm, other_arm, step, most, force, start;
 
 	void drop(int32_t i)
 	{
-		for (Lanes<T> *of : {&friction, &arm, &other_arm, &rate, &step, &most, &force, &start})
+		for (Lanes<T> *of : {&friction, &arm, &other_arm, &step, &most, &force, &start})
 			(*of)[i] = 0;
 	}
 };
@@ -56,7 +56,7 @@ template <typename T> struct Grips {
 /* They lie where kernels have contacts. */
 constexpr int32_t points_most = 2 * CONTACTS_MOST / lane_count;
 static_assert(sizeof(Points<float>) * points_most == CONTACTS_MOST * CONTACT_WIDTH * 4 * sizeof(float)
-		&& sizeof(Grips<float>) * points_most == CONTACTS_MOST * GRIP_WIDTH * 4 * sizeof(float),
+		&& sizeof(Grips<float>) * points_most <= CONTACTS_MOST * GRIP_WIDTH * 4 * sizeof(float),
 	"records");
 
 /* In Touching, how many points; -1: there are too many contacts. */
@@ -66,16 +66,15 @@ struct Touching {
 
 static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");
 
-/* How a body slides at a point, seen from its partner: n is towards it, levers go from the two centres to the point. */
+/* Where a body slides at a point, seen from its partner: n is towards it, levers go from the two centres to the point. */
 template <typename T> struct Slip {
-	T arm = 0, other_arm = 0, rate = 0;
+	T arm = 0, other_arm = 0;
 
 	Slip() = default;
-	Slip(const Vec<T> &n, const Vec<T> &v, T spin, const Vec<T> &lever, T other_spin, const Vec<T> &other_lever)
+	Slip(const Vec<T> &n, const Vec<T> &lever, const Vec<T> &other_lever)
 	{
 		const Vec<T> along(-n.y(), n.x());
 		arm = cross(lever, along), other_arm = cross(other_lever, along);
-		rate = inner(along, v) + (spin * arm - other_spin * other_arm);
 	}
 };
 
@@ -89,10 +88,7 @@ template <typename T> Vec<T> touched_at(const Convex<T> &body, const Vec<T> &lev
 template <typename T> class RestFinder
 {
 public:
-	RestFinder(const Clusters<T> &all, const Rubs<T> &friction, const Warm<T> &last)
-		: clusters(all), rubs(friction), warm(last), impulses(all.status[STATUS_PASS] == PASS_IMPULSES)
-	{
-	}
+	RestFinder(const Clusters<T> &all, const Rubs<T> &friction) : clusters(all), rubs(friction) {}
 
 	/* How many points the body rests on, which are written in order, and how they slide, where anything rubs; -1 if it has too many contacts. */
 	int32_t find(int32_t s, Points<T> *to, Grips<T> *grips)
@@ -106,20 +102,19 @@ public:
 			if (may_rest(slot, clusters.slots[other]))
 				pair(s, other);
 		});
-		return count > CONTACTS_MOST ? -1 : write(to, grips, slot);
+		return count > CONTACTS_MOST ? -1 : write(to, grips);
 	}
 
 private:
 	/* A contact, seen from one of its bodies. */
 	struct Resting {
 		struct Point {
-			T arm, other_arm, rate;
+			T arm, other_arm, least;
 			Slip<T> slip;
 		};
 
 		int32_t key, points;
 		Partner partner;
-		T other_inverse_mass;
 		Vec<T> n; /* from the partner */
 		T tolerance, friction;
 		Point at[2];
@@ -128,16 +123,8 @@ private:
 	/* What is known of a contact before its points are. */
 	struct Rules {
 		T force, slop;
-		bool impulses;
 
 		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
-
-		/* How much of such a gap may be lost in a step. */
-		T part(T gap) const
-		{
-			const T room = larger(gap, T(0));
-			return impulses ? room - T(0.5) * cushion() : T(EASE) * (room - cushion());
-		}
 	};
 
 	T strength(const Slot<T> &slot) const { return (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * clusters.length * clusters.length; }
@@ -153,7 +140,7 @@ private:
 	static void add(Resting &rest, const Rules &rules, T rate, T gap, T arm, T other_arm, const Slip<T> &slip)
 	{
 		if (!(rate < -(T(CONTACT_FAST) * rules.force)))
-			rest.at[rest.points++] = {arm, other_arm, rate + rules.part(gap), slip};
+			rest.at[rest.points++] = {arm, other_arm, larger(gap, T(0)) - T(0.5) * rules.cushion(), slip};
 	}
 
 	/* By the partner's index; only so many that it is seen that there are too many. */
@@ -167,20 +154,11 @@ private:
 		found[k] = rest;
 	}
 
-	/* What is begun with, of a force of the last step: in this one's units, and none that is too large for either body. */
-	T begun(T force, T part, T inverse_mass) const
-	{
-		const T start = part * ((force * clusters.length) * clusters.length);
-		return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
-	}
-
-	int32_t write(Points<T> *to, Grips<T> *grips, const Slot<T> &slot) const
+	int32_t write(Points<T> *to, Grips<T> *grips) const
 	{
 		int32_t written = 0;
 		for (int32_t k = 0; k < count; k++) {
 			const Resting &rest = found[k];
-			const WarmForces<T> last = impulses ? WarmForces<T>() : warm.of(slot.body(), rest.key);
-			const T part = rest.friction > 0 ? T(1) : T(WARM_PART), inverse_mass = larger(slot.mass[MASS_INVERSE], rest.other_inverse_mass);
 			for (int32_t point = 0; point < rest.points; point++, written++) {
 				Points<T> &points = to[written / lane_count];
 				const int32_t i = written % lane_count;
@@ -188,11 +166,13 @@ private:
 				points.partner[i] = static_cast<T>(rest.partner.code);
 				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
 				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
-				points.rate[i] = rest.at[point].rate, points.tolerance[i] = rest.tolerance, points.step[i] = 1;
-				points.force[i] = points.start[i] = begun(last.normal[point], part, inverse_mass);
-				if (rubs.any)
-					write_grip(grips[written / lane_count], i, rest, rest.at[point].slip, points.force[i],
-						begun(last.friction[point], part, inverse_mass));
+				points.least[i] = rest.at[point].least, points.tolerance[i] = rest.tolerance, points.step[i] = 1;
+				if (!rubs.any)
+					continue;
+				Grips<T> &gripping = grips[written / lane_count];
+				gripping.drop(i);
+				gripping.friction[i] = rest.friction;
+				gripping.arm[i] = rest.at[point].slip.arm, gripping.other_arm[i] = rest.at[point].slip.other_arm;
 			}
 		}
 		for (int32_t k = written; k % lane_count > 0; k++) {
@@ -203,17 +183,9 @@ private:
 		return written;
 	}
 
-	static void write_grip(Grips<T> &grips, int32_t i, const Resting &rest, const Slip<T> &slip, T normal_force, T force)
+	static Resting begin(int32_t key, Partner partner, const Vec<T> &n, const Rules &rules, T friction)
 	{
-		grips.drop(i);
-		grips.friction[i] = rest.friction, grips.most[i] = rest.friction * normal_force;
-		grips.force[i] = grips.start[i] = force;
-		grips.arm[i] = slip.arm, grips.other_arm[i] = slip.other_arm, grips.rate[i] = slip.rate;
-	}
-
-	static Resting begin(int32_t key, Partner partner, T other_inverse_mass, const Vec<T> &n, const Rules &rules, T friction)
-	{
-		return {key, 0, partner, other_inverse_mass, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
+		return {key, 0, partner, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
 	}
 
 	void pair(int32_t s, int32_t other)
@@ -226,7 +198,7 @@ private:
 		Convex<T> a, b;
 		clusters.fill(a, clusters.slots[row], Trajectory<T>(clusters.slots[row]));
 		clusters.fill(b, clusters.slots[column], Trajectory<T>(clusters.slots[column]));
-		const Rules rules{larger(norm(a.a), norm(b.a)), pair_slop(a, b), impulses};
+		const Rules rules{larger(norm(a.a), norm(b.a)), pair_slop(a, b)};
 		const Vec<T> d = b.x - a.x;
 		if (!(rules.force > 0) || norm(d) - (a.radius + b.radius) > rules.force)
 			return;
@@ -238,12 +210,10 @@ private:
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
 		Resting rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other),
-			other_slot.mass[MASS_INVERSE], n, rules, rubs.between(slot.body(), other_slot.body()));
+			n, rules, rubs.between(slot.body(), other_slot.body()));
 		const auto slip = [&](const Vec<T> &lever, const Vec<T> &other_lever) {
 			const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
-			return rubs.any
-				? Slip<T>(n, body.v - partner.v, body.w, touched_at<T>(body, lever, -n), partner.w, touched_at<T>(partner, other_lever, n))
-				: Slip<T>();
+			return rubs.any ? Slip<T>(n, touched_at<T>(body, lever, -n), touched_at<T>(partner, other_lever, n)) : Slip<T>();
 		};
 		for (int32_t i = 0; i < c.count; i++) {
 			const int32_t k = c.from_b ? c.count - 1 - i : i; /* whichever is the reference, in the same order */
@@ -262,7 +232,7 @@ private:
 			return;
 		Convex<T> body;
 		clusters.fill(body, slot, way);
-		const Rules rules{norm(body.a), wall_slop(body), impulses};
+		const Rules rules{norm(body.a), wall_slop(body)};
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
 			wall(body, slot.body(), rules, k);
 	}
@@ -271,8 +241,8 @@ private:
 	{
 		const Wall<T> wall = clusters.wall(k);
 		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
-		Resting rest = begin(-1 - k, Partner::that_stays(-1 - k), 0, wall.n, rules, rubs.at_wall(body_index));
-		const auto slip = [&](const Vec<T> &lever) { return Slip<T>(wall.n, body.v, body.w, lever, 0, {0, 0}); };
+		Resting rest = begin(-1 - k, Partner::that_stays(-1 - k), wall.n, rules, rubs.at_wall(body_index));
+		const auto slip = [&](const Vec<T> &lever) { return Slip<T>(wall.n, lever, {0, 0}); };
 		if (body.is_circle()) {
 			if (height - body.radius <= rules.force)
 				add(rest, rules, speed, height - body.radius, 0, 0, slip(touched_at<T>(body, {0, 0}, -wall.n)));
@@ -292,8 +262,6 @@ private:
 
 	const Clusters<T> &clusters;
 	const Rubs<T> &rubs;
-	const Warm<T> &warm;
-	const bool impulses;
 	int32_t count = 0;
 	Resting found[CONTACTS_MOST + 1]{};
 };

@@ -19,7 +19,6 @@ template <typename T> class Warm
 public:
 	Warm(T *all_records, int32_t *all_counts, bool bodies_rub) : records(all_records), counts(all_counts), rubs(bodies_rub) {}
 
-	bool has_any(int32_t body) const { return counts[body] > 0; }
 	void keep_count(int32_t body, int32_t count) const { counts[body] = count; }
 
 	/* Of the contact with that partner; zeros if there was none. */

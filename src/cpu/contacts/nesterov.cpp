@@ -6,37 +6,32 @@ namespace carom::cpu {
 
 constexpr int32_t chunk = 64; /* slots */
 
-/* What forces at four points, along a unit vector each, do to a body: of each point x, y and torque. */
-template <typename T> struct Parts {
-	Lanes<T> of[lane_count];
+/* What forces at points add to the x, y and torque of a load, which has a body's share besides: a sum each of every fourth point, and then of those. */
+template <typename T> struct Sums {
+	Lanes<T> x{}, y{}, torque{};
 
-	Parts(const Slot<T> &slot, const Lanes<T> &forces, const Lanes<T> &along_x, const Lanes<T> &along_y, const Lanes<T> &arm)
+	/* Forces at four points, along a unit vector each. */
+	void add(const Slot<T> &slot, const Lanes<T> &forces, const Lanes<T> &along_x, const Lanes<T> &along_y, const Lanes<T> &arm)
 	{
 		const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
-		of[0] = straight * along_x, of[1] = straight * along_y, of[2] = turning * arm, of[3] = Lanes<T>{};
+		x += straight * along_x, y += straight * along_y, torque += turning * arm;
+	}
+
+	void add(const Slot<T> &slot, const Points<T> &points, const Lanes<T> &forces) { add(slot, forces, points.normal_x, points.normal_y, points.arm); }
+
+	/* What friction does follows the force of its point. */
+	void add(const Slot<T> &slot, const Points<T> &points, const Grips<T> &grips, const Lanes<T> &forces)
+	{
+		add(slot, forces, -points.normal_y, points.normal_x, grips.arm);
+	}
+
+	void add_to(Lanes<T> &load) const
+	{
+		Lanes<T> of[lane_count] = {x, y, torque, Lanes<T>{}};
 		transpose<T>(of);
+		load += (of[0] + of[1]) + (of[2] + of[3]);
 	}
 };
-
-/* A load has x, y, torque of an acceleration, in a step that is 1 long, and the body's share. Forces add to it, one point's after the other's. */
-template <typename T> static void add(const Points<T> &points, const Lanes<T> &forces, const Slot<T> &slot, Lanes<T> &load)
-{
-	const Parts<T> parts(slot, forces, points.normal_x, points.normal_y, points.arm);
-	for (const Lanes<T> &part : parts.of)
-		load += part;
-}
-
-/* The same with what friction does, after the force of its point. */
-template <typename T>
-static void add(const Points<T> &points, const Lanes<T> &forces, const Grips<T> &grips, const Lanes<T> &rubbing, const Slot<T> &slot, Lanes<T> &load)
-{
-	const Parts<T> parts(slot, forces, points.normal_x, points.normal_y, points.arm);
-	const Parts<T> grip_parts(slot, rubbing, -points.normal_y, points.normal_x, grips.arm);
-	for (int32_t i = 0; i < lane_count; i++) {
-		load += parts.of[i];
-		load += grip_parts.of[i];
-	}
-}
 
 /* How much a force at a point parts it. */
 template <typename T> static T gives(const Slot<T> &slot, T arm)
@@ -90,23 +85,26 @@ template <typename T> struct Rests {
 			visit(points[four], grips[rubs ? four : 0]);
 	}
 
-	/* Adds the forces at four points of a slot, and those of friction where there is any. */
-	void add_forces(const Points<T> &four, const Grips<T> &rubbing, int32_t s, Lanes<T> &load) const
+	/* Adds what all forces on a slot come to. */
+	void add_forces(int32_t s, Lanes<T> &load) const
 	{
-		if (rubs)
-			add(four, four.force, rubbing, rubbing.force, slots[s], load);
-		else
-			add(four, four.force, slots[s], load);
+		Sums<T> sums;
+		each(s, [&](const Points<T> &all, const Grips<T> &rubbing) {
+			sums.add(slots[s], all, all.force);
+			if (rubs)
+				sums.add(slots[s], all, rubbing, rubbing.force);
+		});
+		sums.add_to(load);
 	}
 
-	/* What acts on a body besides. */
-	void begin(int32_t s, T share, Lanes<T> &load) const
+	/* How a body would move by itself. */
+	void alone(int32_t s, T share, Lanes<T> &load) const
 	{
-		const T *p = slots[s].push;
-		if (impulses)
-			load = Lanes<T>{0, 0, 0, share};
-		else
-			load = Lanes<T>{(p[PUSH_X] * length) * length, (p[PUSH_Y] * length) * length, (p[PUSH_TORQUE] * length) * length, share};
+		const Slot<T> &slot = slots[s];
+		load = Lanes<T>{slot.place[LINEAR_VX], slot.place[LINEAR_VY], slot.turn[TURN_VELOCITY], 0} * length;
+		if (!impulses)
+			load += (Lanes<T>{slot.push[PUSH_X], slot.push[PUSH_Y], slot.push[PUSH_TORQUE], 0} * length) * length;
+		load[LOAD_SHARE] = share;
 	}
 };
 
@@ -136,19 +134,16 @@ template <typename T> static void find(const Job<T> &job)
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(16));
 	const Rubs<T> rubs(job.texels(1), job.texels(17));
 	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
-	const Warm<T> warm(job.records(19), job.list(20), rubs.any);
+	const int32_t *last_counts = job.list(19);
 	int32_t *status = clusters.status;
-	if (status[STATUS_FIRST] != job.domain[2])
+	if (status[STATUS_FIRST] != job.domain[2] || status[STATUS_PASS] != PASS_IMPULSES)
 		return;
-	const bool first = status[STATUS_PASS] == PASS_IMPULSES;
 	job.pool.run(job.domain[0], 256, [&](int32_t from, int32_t to) {
-		RestFinder<T> finder(clusters, rubs, warm);
+		RestFinder<T> finder(clusters, rubs);
 		for (int32_t s = from; s < to; s++) {
-			const bool bore = warm.has_any(clusters.slots[s].body()), listed = !first && (bore || touching[s].count > 0);
-			if (first)
-				kept[s].keep(clusters.slots[s]);
+			kept[s].keep(clusters.slots[s]);
 			touching[s].count = finder.find(s, points + points_most * s, grips + points_most * s);
-			if ((bore || touching[s].count > 0) && !listed)
+			if (touching[s].count > 0 || last_counts[clusters.slots[s].body()] > 0)
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
 	});
@@ -178,29 +173,72 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 }
 
 /* Contacts of which one body has too many are none. */
+template <typename T> static void drop(const Rests<T> &rests, int32_t s)
+{
+	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
+		for (int32_t i = 0; i < lane_count; i++) {
+			const Partner partner(points.partner[i]);
+			if (!partner.moves() || rests.touching[partner.slot()].count >= 0)
+				continue;
+			points.drop(i);
+			if (rests.rubs)
+				grips.drop(i);
+		}
+	});
+}
+
+/* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those of the last step. */
+template <typename T> static void warm_up(const Rests<T> &rests, const Warm<T> &warm, int32_t s)
+{
+	const Slot<T> &slot = rests.slots[s];
+	WarmForces<T> last;
+	int32_t before = Partner::none, point = 0;
+	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
+		points.least = T(EASE) * points.least - T(0.5f / CONTACT_PART) * points.tolerance;
+		for (int32_t i = 0; i < lane_count; i++) {
+			const Partner partner(points.partner[i]);
+			if (partner.code == Partner::none)
+				continue;
+			if (partner.code != before)
+				last = warm.of(slot.body(), partner.key(rests.slots)), point = 0;
+			before = partner.code;
+			const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART);
+			const T inverse_mass = partner.moves() ? larger(slot.mass[MASS_INVERSE], rests.slots[partner.slot()].mass[MASS_INVERSE]) : slot.mass[MASS_INVERSE];
+			/* In this step's units, and none that is too large for either body. */
+			const auto begun = [&](T force) {
+				const T start = part * ((force * rests.length) * rests.length);
+				return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
+			};
+			points.force[i] = points.start[i] = begun(last.normal[point]);
+			if (rests.rubs) {
+				grips.most[i] = friction * points.force[i];
+				grips.force[i] = grips.start[i] = begun(last.friction[point]);
+			}
+			point++;
+		}
+	});
+}
+
 template <typename T> static void join(const Job<T> &job)
 {
 	const Rests<T> rests(job);
 	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
+	const Warm<T> warm(job.records(8), job.list(9), rests.rubs);
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
-			rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
-				for (int32_t i = 0; i < lane_count; i++) {
-					const Partner partner(points.partner[i]);
-					if (!partner.moves() || rests.touching[partner.slot()].count >= 0)
-						continue;
-					points.drop(i);
-					if (rests.rubs)
-						grips.drop(i);
-				}
-			});
-			Lanes<T> &load = loads[LOADS_OF(s) + (first & 1)];
-			rests.begin(s, share_of(rests, s), load);
-			rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) { rests.add_forces(points, grips, s, load); });
+			if (rests.impulses)
+				drop(rests, s);
+			else
+				warm_up(rests, warm, s);
+			Lanes<T> *load = loads + LOADS_OF(s);
+			rests.alone(s, share_of(rests, s), load[LOADS_ALONE]);
+			load[first & 1] = load[LOADS_ALONE];
+			if (!rests.impulses)
+				rests.add_forces(s, load[first & 1]);
 		}
 	});
 }
@@ -233,7 +271,7 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 	const Lanes<T> x = -points.normal_y, y = points.normal_x, least = -most;
 	const Lanes<T> along = (x * load[0] + y * load[1]) + grips.arm * load[2],
 				   other_along = (x * others[0] + y * others[1]) + grips.other_arm * others[2];
-	const Lanes<T> rate = grips.rate + (along - other_along), pushed = grips.start - rate * grips.step;
+	const Lanes<T> rate = along - other_along, pushed = grips.start - rate * grips.step;
 	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = held < 0 ? -held : held;
 	const Lanes<T> left = size < most ? rate : allowed - most;
 	wanted |= (left < 0 ? -left : left) > (size < most ? T(GRIP_CREEP) * points.tolerance : (T(GRIP_SLIDE) * points.tolerance) * grips.step);
@@ -248,9 +286,8 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
 	const T usual = static_cast<T>(done) / static_cast<T>(done + 2), beta = rubs ? smaller(usual, T(GRIP_MOMENTUM)) : usual;
-	Lanes<T> next;
+	Sums<T> next;
 	decltype(load < zero) wanted{};
-	rests.begin(s, load[LOAD_SHARE], next);
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
 		for (int32_t i = 0; i < lane_count; i++)
@@ -260,19 +297,20 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 			set_steps(rests, points, grips, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
 		const Lanes<T> along = (points.normal_x * load[0] + points.normal_y * load[1]) + points.arm * load[2];
 		const Lanes<T> other_along = (points.normal_x * others[0] + points.normal_y * others[1]) + points.other_arm * others[2];
-		const Lanes<T> rate = points.rate + (along - other_along);
+		const Lanes<T> rate = points.least + (along - other_along);
 		const Lanes<T> pushed = points.start - rate * points.step, force = zero > pushed ? zero : pushed;
 		wanted |= (force > 0 ? (rate < 0 ? -rate : rate) : -rate) > points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
+		next.add(slot, points, points.start);
 		if constexpr (rubs) {
 			rub(points, grips, load, others, beta, done, wanted);
-			add(points, points.start, grips, grips.start, slot, next);
-		} else {
-			add(points, points.start, slot, next);
+			next.add(slot, points, grips, grips.start);
 		}
 	});
-	loads[LOADS_OF(s) + 1 - now] = next;
+	Lanes<T> &to = loads[LOADS_OF(s) + 1 - now];
+	to = loads[LOADS_OF(s) + LOADS_ALONE];
+	next.add_to(to);
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
@@ -314,7 +352,7 @@ template <typename T> static void apply(const Job<T> &job)
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
 			Lanes<T> sum{};
-			rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) { rests.add_forces(points, grips, s, sum); });
+			rests.add_forces(s, sum);
 			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
 			if (rests.impulses) {
 				slots[s].place[LINEAR_VX] += x;
