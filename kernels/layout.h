@@ -250,32 +250,35 @@
 #define FOUND_TIME 1    /* float bits; the sign: it is only a pause of the search */
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
-/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first; five records
- * each */
+/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first, one or two points
+ * each. Ten records for four points side by side; where there are no more, or the other body has too many contacts, points of zeros. */
 #define CONTACTS_MOST 12 /* a slot; a body with more has none */
-#define CONTACT_WIDTH 5
-#define CONTACT_PAIR 0  /* record */
-#define PAIR_PARTNER 0  /* its slot, or -1 - wall */
-#define PAIR_POINTS 1   /* 1 or 2; 0: the partner has too many contacts */
-#define PAIR_NORMAL_X 2 /* from the partner to this body, 1 long */
-#define PAIR_NORMAL_Y 3
-#define CONTACT_POINT 1   /* two records, of a point each */
-#define POINT_ARM 0       /* m: the normal's arm about this body's centre, */
-#define POINT_OTHER_ARM 1 /* and about the partner's */
-#define POINT_LEAST 2     /* m a step: how fast the points may come together */
-#define POINT_FORCE 3     /* kg m / step^2, 0 or more */
-#define CONTACT_START 3   /* record: two forces from which the next iteration starts */
-#define CONTACT_STEPS 4   /* record: two, kg: by how much a rate changes a force in an iteration; and */
-#define STEPS_TOLERANCE 2 /* m a step */
+#define FOURS_MOST (2 * CONTACTS_MOST / 4)
+#define FOUR_WIDTH 10
+#define FOUR_PARTNER 0  /* as below */
+#define FOUR_NORMAL_X 1 /* from the partner to this body, 1 long */
+#define FOUR_NORMAL_Y 2
+#define FOUR_ARM 3       /* m: the normal's arm about this body's centre, */
+#define FOUR_OTHER_ARM 4 /* and about the partner's */
+#define FOUR_LEAST 5     /* m a step: how fast the points may come together */
+#define FOUR_TOLERANCE 6 /* m a step */
+#define FOUR_STEP 7      /* kg: by how much a rate changes a force in an iteration */
+#define FOUR_FORCE 8     /* kg m / step^2, 0 or more */
+#define FOUR_START 9     /* that from which the next iteration starts */
+/* The other's slot if it moves, else one of these. */
+#define PARTNER_NONE (-1)
+#define PARTNER_WALL(wall) (-2 - (wall))
+#define PARTNER_STATIC(index) (-6 - (index))
 
-/* Grips, where bodies rub: how the points of Contacts slide along u = (-n.y, n.x); four records a contact */
-#define GRIP_WIDTH 4
-#define GRIP_POINT 0     /* two records, of a point each */
-#define GRIP_ARM 0       /* m: u's arm about this body's centre, */
-#define GRIP_OTHER_ARM 1 /* and about the partner's */
-#define GRIP_FORCE 2     /* kg m / step^2 */
-#define GRIP_STARTS 2    /* record: two forces from which the next iteration starts; two steps */
-#define GRIP_BOUNDS 3    /* record: the coefficient; two, kg m / step^2, that the forces may not exceed now */
+/* Grips, where bodies rub: how the points of Contacts slide along u = (-n.y, n.x); seven records for four of them */
+#define GRIP_WIDTH 7
+#define GRIP_FRICTION 0  /* the coefficient */
+#define GRIP_ARM 1       /* m: u's arm about this body's centre, */
+#define GRIP_OTHER_ARM 2 /* and about the partner's */
+#define GRIP_STEP 3      /* kg */
+#define GRIP_BOUND 4     /* kg m / step^2: what the force may not exceed now */
+#define GRIP_FORCE 5
+#define GRIP_START 6
 
 /* Warm: the forces that the last step ended with. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies rub
  * two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations end,
@@ -289,7 +292,7 @@
 
 /* Touching: two ints a slot */
 #define TOUCHING_WIDTH 2
-#define TOUCHING_COUNT 0 /* of the slot's contacts; -1: too many */
+#define TOUCHING_COUNT 0 /* of the slot's points; -1: too many contacts */
 #define TOUCHING_SLOT 1  /* a list: slots with contacts, in this step or in the last */
 
 /* Loads: three records a slot: how it moves in a step, x, y, angle, in the iterations with even numbers and in the others, and by itself; and its share.

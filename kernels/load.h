@@ -1,44 +1,53 @@
-/* The forces between bodies that rest on each other, and what they make of loads, how bodies move in a step: CONTRACT.md, "contacts". */
+/* The forces between bodies that rest on each other, and what they make of loads, how bodies move in a step: CONTRACT.md, "contacts". Of points, four are
+ * side by side. */
 
-/* A load along n and about the centre at its arm. */
-float load_along(float4 load, float2 n, float arm)
+/* Four units vectors along which bodies press, or slide, and their arms about a body's centre. */
+typedef struct ways {
+	float4 x, y, arm, other_arm;
+} ways;
+
+ways ways_of_normals(RECORD_IN(contacts), int s, int four)
 {
-	return (n.x * load.x + n.y * load.y) + arm * load.z;
+	ways w;
+	w.x = contacts[FOUR(s, four, FOUR_NORMAL_X)];
+	w.y = contacts[FOUR(s, four, FOUR_NORMAL_Y)];
+	w.arm = contacts[FOUR(s, four, FOUR_ARM)];
+	w.other_arm = contacts[FOUR(s, four, FOUR_OTHER_ARM)];
+	return w;
 }
 
-/* What forces add to a load: a sum each of every fourth point, and then of those. */
+ways ways_of_grips(RECORD_IN(grips), int s, int four, ways normals)
+{
+	ways w;
+	w.x = -normals.y;
+	w.y = normals.x;
+	w.arm = grips[GRIP(s, four, GRIP_ARM)];
+	w.other_arm = grips[GRIP(s, four, GRIP_OTHER_ARM)];
+	return w;
+}
+
+int fours_of(LIST_IN(touching), int s)
+{
+	return (touching[TOUCH(s, TOUCHING_COUNT)] + 3) / 4;
+}
+
+/* What forces add to a load, x, y and torque: a sum each of every fourth point, and then of those. */
 typedef struct sums {
-	float4 of[4];
-	int point;
+	float4 x, y, torque;
 } sums;
 
-sums sums_none(void)
+void sums_add(sums *all, float4 forces, ways w, float4 mass)
 {
-	sums none;
-	for (int i = 0; i < 4; i++)
-		none.of[i] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	none.point = 0;
-	return none;
+	float4 straight = CHANNEL(mass, MASS_INVERSE) * forces, turning = CHANNEL(mass, MASS_INVERSE_INERTIA) * forces;
+	all->x += straight * w.x;
+	all->y += straight * w.y;
+	all->torque += turning * w.arm;
 }
 
-/* A force along n, at the point that is now. */
-void sums_add(sums *all, float force, float2 n, float arm, float4 mass)
+float4 sums_with(sums all, float4 load)
 {
-	float straight = CHANNEL(mass, MASS_INVERSE) * force, turning = CHANNEL(mass, MASS_INVERSE_INERTIA) * force;
-	float4 *to = &all->of[all->point & 3];
-	*to = (float4)(to->x + straight * n.x, to->y + straight * n.y, to->z + turning * arm, 0.0f);
-}
-
-float4 sums_all(const sums *all, float4 load)
-{
-	const float4 *of = all->of;
-	return load + ((of[0] + of[1]) + (of[2] + of[3]));
-}
-
-/* How much a force at a point parts it. */
-float point_gives(float4 mass, float arm)
-{
-	return CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm);
+	return (float4)(load.x + ((all.x.x + all.x.y) + (all.x.z + all.x.w)), load.y + ((all.y.x + all.y.y) + (all.y.z + all.y.w)),
+		load.z + ((all.torque.x + all.torque.y) + (all.torque.z + all.torque.w)), load.w);
 }
 
 /* A symmetric matrix of x, y and turning. */
@@ -68,32 +77,51 @@ float response_bound(response m)
 	return smaller(row, sqrt(sqrt(sqrt(squares))));
 }
 
-/* Adds a force along n with that arm, as if it alone pushed the body. */
-void response_add(response *all, float4 mass, float2 n, float arm)
+/* The same sum of four points, and of how they slide after each. */
+float response_add(float sum, float4 normals, float4 grips)
+{
+	return (((((((sum + normals.x) + grips.x) + normals.y) + grips.y) + normals.z) + grips.z) + normals.w) + grips.w;
+}
+
+/* What four forces along such ways do, each as if it alone pushed the body and it gave way by 1. */
+typedef struct responses {
+	float4 xx, xy, yy, xt, yt, tt;
+} responses;
+
+responses responses_of(ways w, float4 mass)
 {
 	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), both = sqrt(straight) * sqrt(turning);
-	float gives = point_gives(mass, arm);
-	all->xx += (straight / gives) * (n.x * n.x);
-	all->xy += (straight / gives) * (n.x * n.y);
-	all->yy += (straight / gives) * (n.y * n.y);
-	all->xt += (both / gives) * (n.x * arm);
-	all->yt += (both / gives) * (n.y * arm);
-	all->tt += (turning / gives) * (arm * arm);
+	float4 gives = straight + turning * (w.arm * w.arm);
+	responses r;
+	r.xx = (straight / gives) * (w.x * w.x);
+	r.xy = (straight / gives) * (w.x * w.y);
+	r.yy = (straight / gives) * (w.y * w.y);
+	r.xt = (both / gives) * (w.x * w.arm);
+	r.yt = (both / gives) * (w.y * w.arm);
+	r.tt = (turning / gives) * (w.arm * w.arm);
+	return r;
 }
 
 /* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together. */
 float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
 {
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
 	response all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
-		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++) {
-			response_add(&all, mass, n, CHANNEL(contacts[CONTACT(s, k, CONTACT_POINT + point)], POINT_ARM));
-			if (rub && grips[GRIP(s, k, GRIP_BOUNDS)].x > 0.0f)
-				response_add(&all, mass, aside(n), CHANNEL(grips[GRIP(s, k, GRIP_POINT + point)], GRIP_ARM));
+	for (int four = 0; four < fours_of(touching, s); four++) {
+		ways normals = ways_of_normals(contacts, s, four);
+		responses n = responses_of(normals, mass), g = {none, none, none, none, none, none};
+		if (rub) {
+			int4 rubs = grips[GRIP(s, four, GRIP_FRICTION)] > 0.0f;
+			g = responses_of(ways_of_grips(grips, s, four, normals), mass);
+			g.xx = rubs ? g.xx : none, g.xy = rubs ? g.xy : none, g.yy = rubs ? g.yy : none;
+			g.xt = rubs ? g.xt : none, g.yt = rubs ? g.yt : none, g.tt = rubs ? g.tt : none;
 		}
+		all.xx = response_add(all.xx, n.xx, g.xx);
+		all.xy = response_add(all.xy, n.xy, g.xy);
+		all.yy = response_add(all.yy, n.yy, g.yy);
+		all.xt = response_add(all.xt, n.xt, g.xt);
+		all.yt = response_add(all.yt, n.yt, g.yt);
+		all.tt = response_add(all.tt, n.tt, g.tt);
 	}
 	return response_bound(all);
 }
@@ -113,38 +141,38 @@ float4 load_alone(RECORD_IN(slots), LIST_IN(status), int s, float length)
 /* What all forces on a body add to a load. */
 float4 rests_add(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float4 load)
 {
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
-	sums all = sums_none();
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
-		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++, all.point++) {
-			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
-			sums_add(&all, CHANNEL(at, POINT_FORCE), n, CHANNEL(at, POINT_ARM), mass);
-			if (rub) {
-				float4 grip = grips[GRIP(s, k, GRIP_POINT + point)];
-				sums_add(&all, CHANNEL(grip, GRIP_FORCE), aside(n), CHANNEL(grip, GRIP_ARM), mass);
-			}
-		}
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
+	sums all = {none, none, none};
+	for (int four = 0; four < fours_of(touching, s); four++) {
+		ways normals = ways_of_normals(contacts, s, four);
+		sums_add(&all, contacts[FOUR(s, four, FOUR_FORCE)], normals, mass);
+		if (rub)
+			sums_add(&all, grips[GRIP(s, four, GRIP_FORCE)], ways_of_grips(grips, s, four, normals), mass);
 	}
-	return sums_all(&all, load);
+	return sums_with(all, load);
 }
 
-/* Contacts of which the other body has too many push nothing. */
+/* Points of which the other body has too many contacts are none. */
 void rests_drop(RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), int s, bool rub)
 {
-	float4 none = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-		int other = (int)CHANNEL(pair, PAIR_PARTNER);
+	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global float *at = POINT_OUT(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_OUT(grips, GRIP(s, point / 4, 0)) + point % 4;
+		int other = (int)at[4 * FOUR_PARTNER];
 		if (other < 0 || touching[TOUCH(other, TOUCHING_COUNT)] >= 0)
 			continue;
-		for (int i = 0; i < CONTACT_WIDTH; i++)
-			contacts[CONTACT(s, k, i)] = none;
-		contacts[CONTACT(s, k, CONTACT_PAIR)] = (float4)(-1.0f, CHANNEL(pair, PAIR_POINTS), 0.0f, 0.0f);
-		for (int i = 0; rub && i < GRIP_WIDTH; i++)
-			grips[GRIP(s, k, i)] = none;
+		for (int record = 0; record < FOUR_WIDTH; record++)
+			at[4 * record] = record == FOUR_PARTNER ? (float)PARTNER_NONE : 0.0f;
+		for (int record = 0; rub && record < GRIP_WIDTH; record++)
+			grip[4 * record] = 0.0f;
 	}
+}
+
+/* Who a partner is: its index, or -1 - wall. */
+int partner_key(RECORD_IN(slots), int partner)
+{
+	if (partner >= 0)
+		return slot_body(slots, partner);
+	return partner > PARTNER_STATIC(0) ? partner + 1 : PARTNER_STATIC(0) - partner;
 }
 
 /* What is begun with, of a force of the last step: in units of this one, and none that is too large for either body. */
@@ -155,120 +183,118 @@ float force_begun(float force, float part, float inverse_mass, float length)
 }
 
 /* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those that pushed there in the last step. */
-void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s,
-	bool rub, float length)
+void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
+	float length)
 {
-	int body = slot_body(slots, s);
-	float own_mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float tolerance = CHANNEL(contacts[CONTACT(s, k, CONTACT_STEPS)], STEPS_TOLERANCE);
-		int other = (int)CHANNEL(contacts[CONTACT(s, k, CONTACT_PAIR)], PAIR_PARTNER), key = other < 0 ? other : slot_body(slots, other), last = 0;
-		while (last < warm_counts[body] && (int)CHANNEL(warm[WARM(body, last, rub)], WARM_PARTNER) != key)
-			last++;
-		float4 bounds = rub ? grips[GRIP(s, k, GRIP_BOUNDS)] : (float4)(0.0f, 0.0f, 0.0f, 0.0f), forces = 0.0f, held = 0.0f;
-		if (last < warm_counts[body] && tolerance > 0.0f) {
-			forces = warm[WARM(body, last, rub)];
-			held = rub ? warm[WARM(body, last, true) + 1] : held;
-		}
-		float part = bounds.x > 0.0f ? 1.0f : WARM_PART, mass = other < 0 ? own_mass : larger(own_mass, CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_INVERSE));
-		float2 start = (float2)(force_begun(forces.y, part, mass, length), force_begun(forces.z, part, mass, length));
-		float2 grip = (float2)(force_begun(held.x, part, mass, length), force_begun(held.y, part, mass, length));
-		contacts[CONTACT(s, k, CONTACT_START)] = (float4)(start.x, start.y, 0.0f, 0.0f);
-		if (rub) {
-			grips[GRIP(s, k, GRIP_STARTS)] = (float4)(grip.x, grip.y, 0.0f, 0.0f);
-			grips[GRIP(s, k, GRIP_BOUNDS)] = (float4)(bounds.x, bounds.x * start.x, bounds.x * start.y, 0.0f);
-		}
-		for (int point = 0; point < 2; point++) {
-			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
-			CHANNEL(at, POINT_LEAST) = EASE * CHANNEL(at, POINT_LEAST) - (0.5f / CONTACT_PART) * tolerance;
-			CHANNEL(at, POINT_FORCE) = point ? start.y : start.x;
-			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
-			if (rub)
-				CHANNEL(grips[GRIP(s, k, GRIP_POINT + point)], GRIP_FORCE) = point ? grip.y : grip.x;
-		}
+	int body = slot_body(slots, s), before = PARTNER_NONE, second = 0, last = 0;
+	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global float *at = POINT_OUT(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_OUT(grips, GRIP(s, point / 4, 0)) + point % 4;
+		int other = (int)at[4 * FOUR_PARTNER];
+		if (other == PARTNER_NONE)
+			continue;
+		second = other == before;
+		if (!second)
+			for (last = 0; last < warm_counts[body] && (int)warm[WARM(body, last, rub)].x != partner_key(slots, other);)
+				last++;
+		before = other;
+		at[4 * FOUR_LEAST] = EASE * at[4 * FOUR_LEAST] - (0.5f / CONTACT_PART) * at[4 * FOUR_TOLERANCE];
+		bool lasts = last < warm_counts[body];
+		float4 none = (float4)(0.0f), forces = lasts ? warm[WARM(body, last, rub)] : none;
+		float friction = rub ? grip[4 * GRIP_FRICTION] : 0.0f, part = friction > 0.0f ? 1.0f : WARM_PART;
+		float mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
+		if (other >= 0)
+			mass = larger(mass, CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_INVERSE));
+		float force = force_begun(second ? forces.z : forces.y, part, mass, length);
+		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force;
+		if (!rub)
+			continue;
+		float4 held = lasts ? warm[WARM(body, last, true) + 1] : none;
+		grip[4 * GRIP_BOUND] = friction * force;
+		grip[4 * GRIP_FORCE] = grip[4 * GRIP_START] = force_begun(second ? held.y : held.x, part, mass, length);
 	}
 }
 
-/* By how much rates change forces, once all bodies have their share. */
+/* By how much rates change forces, once all bodies have their share; 0 where there is no point. */
 void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, int now, bool rub)
 {
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now];
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)];
-		int other = (int)CHANNEL(contacts[CONTACT(s, k, CONTACT_PAIR)], PAIR_PARTNER);
-		float gives[4]; /* of the normals, then of friction */
-		for (int i = 0; i < (rub ? 4 : 2); i++) {
-			float4 at = i < 2 ? contacts[CONTACT(s, k, CONTACT_POINT + i)] : grips[GRIP(s, k, GRIP_POINT + i - 2)]; /* both begin with arms */
-			gives[i] = CHANNEL(load, LOAD_SHARE) * point_gives(mass, CHANNEL(at, POINT_ARM));
-			if (other >= 0 && !slot_is_static(slots, other))
-				gives[i] += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE)
-					* point_gives(SLOT_LOAD(slots, other, SLOT_MASS), CHANNEL(at, POINT_OTHER_ARM));
-		}
-		contacts[CONTACT(s, k, CONTACT_STEPS)] = (float4)(1.0f / gives[0], 1.0f / gives[1], CHANNEL(steps, STEPS_TOLERANCE), 0.0f);
-		if (rub) {
-			float4 starts = grips[GRIP(s, k, GRIP_STARTS)];
-			grips[GRIP(s, k, GRIP_STARTS)] = (float4)(starts.x, starts.y, 1.0f / gives[2], 1.0f / gives[3]);
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	float share = CHANNEL(loads[LOADS_OF(s) + now], LOAD_SHARE);
+	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global float *at = POINT_OUT(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_OUT(grips, GRIP(s, point / 4, 0)) + point % 4;
+		int other = (int)at[4 * FOUR_PARTNER];
+		for (int i = 0; other != PARTNER_NONE && i < (rub ? 2 : 1); i++) {
+			float arm = i ? grip[4 * GRIP_ARM] : at[4 * FOUR_ARM], other_arm = i ? grip[4 * GRIP_OTHER_ARM] : at[4 * FOUR_OTHER_ARM];
+			float gives = share * (CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm));
+			if (other >= 0) {
+				float4 other_mass = SLOT_LOAD(slots, other, SLOT_MASS);
+				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE)
+					* (CHANNEL(other_mass, MASS_INVERSE) + CHANNEL(other_mass, MASS_INVERSE_INERTIA) * (other_arm * other_arm));
+			}
+			*(i ? &grip[4 * GRIP_STEP] : &at[4 * FOUR_STEP]) = 1.0f / gives;
 		}
 	}
 }
 
-/* An iteration of the friction at a point of contact k, whose normal force is `force` now: the force from which the next one starts. */
-float grip_iterate(RECORD_OUT(grips), int s, int k, int point, float force, float4 load, float4 other_load, float2 n, float tolerance, int done,
-	float beta, bool *wanted)
+/* The loads of four bodies that move, or of what doesn't: x, y and torque side by side. */
+typedef struct moves {
+	float4 x, y, torque;
+} moves;
+
+moves moves_of(RECORD_IN(loads), float4 partners, int now)
 {
-	float4 at = grips[GRIP(s, k, GRIP_POINT + point)], starts = grips[GRIP(s, k, GRIP_STARTS)], bounds = grips[GRIP(s, k, GRIP_BOUNDS)];
-	float2 way = aside(n);
-	float slip = load_along(load, way, CHANNEL(at, GRIP_ARM)) - load_along(other_load, way, CHANNEL(at, GRIP_OTHER_ARM));
-	float allowed = bounds.x * force, before = point ? bounds.z : bounds.y, from = point ? starts.y : starts.x, step = point ? starts.w : starts.z;
-	float most = done < GRIP_FOLLOW ? allowed : before + GRIP_BLEND * (allowed - before);
-	float held = larger(smaller(from - slip * step, most), -most), to = held + beta * (held - CHANNEL(at, GRIP_FORCE));
-	if (fabs(held) < most)
-		*wanted = *wanted || fabs(slip) > GRIP_CREEP * tolerance;
-	else
-		*wanted = *wanted || fabs(allowed - most) > (GRIP_SLIDE * tolerance) * step;
-	CHANNEL(at, GRIP_FORCE) = held;
-	grips[GRIP(s, k, GRIP_POINT + point)] = at;
-	grips[GRIP(s, k, GRIP_STARTS)] = point ? (float4)(starts.x, to, starts.z, starts.w) : (float4)(to, starts.y, starts.z, starts.w);
-	grips[GRIP(s, k, GRIP_BOUNDS)] = point ? (float4)(bounds.x, bounds.y, most, 0.0f) : (float4)(bounds.x, most, bounds.z, 0.0f);
-	return to;
+	int4 s = max(convert_int4(partners), -1);
+	float4 a = loads[LOADS_OF(s.x) + now], b = loads[LOADS_OF(s.y) + now], c = loads[LOADS_OF(s.z) + now], d = loads[LOADS_OF(s.w) + now];
+	moves m = {(float4)(a.x, b.x, c.x, d.x), (float4)(a.y, b.y, c.y, d.y), (float4)(a.z, b.z, c.z, d.z)};
+	return m;
 }
 
-/* One iteration of a body's contacts, after so many, from the loads of one parity to the other. True if another is wanted. */
-bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), int s, int now, int done, bool rub)
+/* How fast points part, or slide. */
+float4 rates_of(ways w, float4 load, moves others)
 {
-	bool wanted = false;
+	return ((w.x * load.x + w.y * load.y) + w.arm * load.z) - ((w.x * others.x + w.y * others.y) + w.other_arm * others.torque);
+}
+
+/* What four points' friction does in an iteration, once they have new forces. Returns where another one is wanted. */
+int4 grips_iterate(RECORD_OUT(grips), int s, int four, float4 force, ways w, float4 load, moves others, float4 tolerance, int done, float beta)
+{
+	__global float4 *at = grips + GRIP(s, four, 0);
+	float4 allowed = at[GRIP_FRICTION] * force, bound = at[GRIP_BOUND], step = at[GRIP_STEP], slip = rates_of(w, load, others);
+	float4 most = done < GRIP_FOLLOW ? allowed : bound + GRIP_BLEND * (allowed - bound), pushed = at[GRIP_START] - slip * step;
+	float4 below = most < pushed ? most : pushed, held = -most > below ? -most : below;
+	at[GRIP_BOUND] = most;
+	at[GRIP_START] = held + beta * (held - at[GRIP_FORCE]);
+	at[GRIP_FORCE] = held;
+	return fabs(held) < most ? fabs(slip) > GRIP_CREEP * tolerance : fabs(allowed - most) > (GRIP_SLIDE * tolerance) * step;
+}
+
+/* One iteration of a body's points, after so many, from the loads of one parity to the other. True if another is wanted. */
+bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), int s, int now, int done,
+	bool rub)
+{
 	float usual = (float)done / (float)(done + 2), beta = rub ? smaller(usual, GRIP_MOMENTUM) : usual;
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now];
-	sums next = sums_none();
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], none = (float4)(0.0f);
+	sums next = {none, none, none};
+	int4 wanted = (int4)(0);
 	if (done == 0)
 		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)], start = contacts[CONTACT(s, k, CONTACT_START)];
-		float4 steps = contacts[CONTACT(s, k, CONTACT_STEPS)], other_load = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-		float2 n = (float2)(CHANNEL(pair, PAIR_NORMAL_X), CHANNEL(pair, PAIR_NORMAL_Y));
-		int other = (int)CHANNEL(pair, PAIR_PARTNER);
-		if (other >= 0 && !slot_is_static(slots, other))
-			other_load = loads[LOADS_OF(other) + now];
-		for (int point = 0; point < (int)CHANNEL(pair, PAIR_POINTS); point++, next.point++) {
-			float4 at = contacts[CONTACT(s, k, CONTACT_POINT + point)];
-			float arm = CHANNEL(at, POINT_ARM), from = point ? start.y : start.x, step = point ? steps.y : steps.x;
-			float rate = CHANNEL(at, POINT_LEAST) + (load_along(load, n, arm) - load_along(other_load, n, CHANNEL(at, POINT_OTHER_ARM)));
-			float force = larger(from - rate * step, 0.0f), to = force + beta * (force - CHANNEL(at, POINT_FORCE));
-			wanted = wanted || (force > 0.0f ? fabs(rate) : -rate) > CHANNEL(steps, STEPS_TOLERANCE);
-			start = point ? (float4)(start.x, to, 0.0f, 0.0f) : (float4)(to, start.y, 0.0f, 0.0f);
-			CHANNEL(at, POINT_FORCE) = force;
-			contacts[CONTACT(s, k, CONTACT_POINT + point)] = at;
-			sums_add(&next, to, n, arm, mass);
-			if (rub) {
-				float tolerance = CHANNEL(steps, STEPS_TOLERANCE), grip_arm = CHANNEL(grips[GRIP(s, k, GRIP_POINT + point)], GRIP_ARM);
-				float grip = grip_iterate(grips, s, k, point, force, load, other_load, n, tolerance, done, beta, &wanted);
-				sums_add(&next, grip, aside(n), grip_arm, mass);
-			}
+	for (int four = 0; four < fours_of(touching, s); four++) {
+		__global float4 *at = contacts + FOUR(s, four, 0);
+		ways normals = ways_of_normals(contacts, s, four);
+		moves others = moves_of(loads, at[FOUR_PARTNER], now);
+		float4 rate = at[FOUR_LEAST] + rates_of(normals, load, others), tolerance = at[FOUR_TOLERANCE];
+		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = none > pushed ? none : pushed, start = force + beta * (force - at[FOUR_FORCE]);
+		wanted |= (force > 0.0f ? fabs(rate) : -rate) > tolerance;
+		at[FOUR_START] = start;
+		at[FOUR_FORCE] = force;
+		sums_add(&next, start, normals, mass);
+		if (rub) {
+			ways grip = ways_of_grips(grips, s, four, normals);
+			wanted |= grips_iterate(grips, s, four, force, grip, load, others, tolerance, done, beta);
+			sums_add(&next, grips[GRIP(s, four, GRIP_START)], grip, mass);
 		}
-		contacts[CONTACT(s, k, CONTACT_START)] = start;
 	}
-	loads[LOADS_OF(s) + 1 - now] = sums_all(&next, loads[LOADS_OF(s) + LOADS_ALONE]);
-	return wanted;
+	loads[LOADS_OF(s) + 1 - now] = sums_with(next, loads[LOADS_OF(s) + LOADS_ALONE]);
+	return any(wanted);
 }
 
 void velocities_set(RECORD_OUT(slots), int s, float x, float y, float turning)
@@ -311,21 +337,24 @@ void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocit
 void forces_keep(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_counts), int s, bool rub,
 	float length)
 {
-	int body = slot_body(slots, s), count = 0;
-	for (int k = 0; k < touching[TOUCH(s, TOUCHING_COUNT)]; k++) {
-		float4 pair = contacts[CONTACT(s, k, CONTACT_PAIR)];
-		int other = (int)CHANNEL(pair, PAIR_PARTNER), points = (int)CHANNEL(pair, PAIR_POINTS), at = WARM(body, count, rub);
-		if (!(CHANNEL(contacts[CONTACT(s, k, CONTACT_STEPS)], STEPS_TOLERANCE) > 0.0f))
+	int body = slot_body(slots, s), count = 0, before = PARTNER_NONE;
+	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global const float *at = POINT_IN(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_IN(grips, GRIP(s, point / 4, 0)) + point % 4;
+		int other = (int)at[4 * FOUR_PARTNER];
+		if (other == PARTNER_NONE)
 			continue;
-		float4 first = contacts[CONTACT(s, k, CONTACT_POINT)], second = contacts[CONTACT(s, k, CONTACT_POINT + 1)];
-		warm[at] = (float4)((float)(other < 0 ? other : slot_body(slots, other)), (CHANNEL(first, POINT_FORCE) / length) / length,
-			points > 1 ? (CHANNEL(second, POINT_FORCE) / length) / length : 0.0f, 0.0f);
+		int second = other == before, to = WARM(body, count - second, rub);
+		float force = (at[4 * FOUR_FORCE] / length) / length;
+		if (second)
+			warm[to].z = force;
+		else
+			warm[to] = (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
 		if (rub) {
-			first = grips[GRIP(s, k, GRIP_POINT)], second = grips[GRIP(s, k, GRIP_POINT + 1)];
-			warm[at + 1] = (float4)((CHANNEL(first, GRIP_FORCE) / length) / length,
-				points > 1 ? (CHANNEL(second, GRIP_FORCE) / length) / length : 0.0f, 0.0f, 0.0f);
+			float held = (grip[4 * GRIP_FORCE] / length) / length;
+			warm[to + 1] = second ? (float4)(warm[to + 1].x, held, 0.0f, 0.0f) : (float4)(held, 0.0f, 0.0f, 0.0f);
 		}
-		count++;
+		before = other;
+		count += !second;
 	}
 	warm_counts[body] = count;
 }

@@ -9,23 +9,23 @@
 
 namespace carom::cpu {
 
-/* Whom a point is shared with, as one number: the slot of a body that moves, or below 0 who else it is. */
+/* Whom a point is shared with, as one number. */
 struct Partner {
-	static constexpr int32_t none = -1;
-	int32_t code = none;
+	int32_t code = PARTNER_NONE;
 
 	Partner() = default;
 
 	template <typename T> explicit Partner(T number) : code(static_cast<int32_t>(number)) {}
 
 	/* Of another one's index, or -1 - wall. */
-	static Partner that_stays(int32_t key) { return Partner(key < 0 ? key - 1 : none - wall_count - 1 - key); }
+	static Partner that_stays(int32_t key) { return Partner(key < 0 ? PARTNER_WALL(-1 - key) : PARTNER_STATIC(key)); }
 
+	bool is_none() const { return code == PARTNER_NONE; }
 	bool moves() const { return code >= 0; }
-	int32_t slot() const { return std::max(code, none); } /* -1: of what does not move */
+	int32_t slot() const { return std::max(code, -1); } /* -1: of what does not move */
 	template <typename T> int32_t key(const Slot<T> *slots) const
 	{
-		return moves() ? slots[code].body() : code >= none - wall_count ? code + 1 : none - wall_count - 1 - code;
+		return moves() ? slots[code].body() : code > PARTNER_STATIC(0) ? -1 - (PARTNER_WALL(0) - code) : PARTNER_STATIC(0) - code;
 	}
 };
 
@@ -36,7 +36,7 @@ template <typename T> struct Points {
 
 	void drop(int32_t i)
 	{
-		partner[i] = Partner::none;
+		partner[i] = PARTNER_NONE;
 		for (Lanes<T> *of : {&normal_x, &normal_y, &arm, &other_arm, &least, &tolerance, &step, &force, &start})
 			(*of)[i] = 0;
 	}
@@ -44,20 +44,16 @@ template <typename T> struct Points {
 
 /* How they slide, where bodies rub, along what is left of the normal. */
 template <typename T> struct Grips {
-	Lanes<T> friction, arm, other_arm, step, most, force, start;
+	Lanes<T> friction, arm, other_arm, step, bound, force, start;
 
 	void drop(int32_t i)
 	{
-		for (Lanes<T> *of : {&friction, &arm, &other_arm, &step, &most, &force, &start})
+		for (Lanes<T> *of : {&friction, &arm, &other_arm, &step, &bound, &force, &start})
 			(*of)[i] = 0;
 	}
 };
 
-/* They lie where kernels have contacts. */
-constexpr int32_t points_most = 2 * CONTACTS_MOST / lane_count;
-static_assert(sizeof(Points<float>) * points_most == CONTACTS_MOST * CONTACT_WIDTH * 4 * sizeof(float)
-		&& sizeof(Grips<float>) * points_most <= CONTACTS_MOST * GRIP_WIDTH * 4 * sizeof(float),
-	"records");
+static_assert(sizeof(Points<float>) == FOUR_WIDTH * 4 * sizeof(float) && sizeof(Grips<float>) == GRIP_WIDTH * 4 * sizeof(float), "records");
 
 /* In Touching, how many points; -1: there are too many contacts. */
 struct Touching {
@@ -209,8 +205,8 @@ private:
 		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
-		Resting rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other),
-			n, rules, rubs.between(slot.body(), other_slot.body()));
+		Resting rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), n, rules,
+			rubs.between(slot.body(), other_slot.body()));
 		const auto slip = [&](const Vec<T> &lever, const Vec<T> &other_lever) {
 			const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
 			return rubs.any ? Slip<T>(n, touched_at<T>(body, lever, -n), touched_at<T>(partner, other_lever, n)) : Slip<T>();

@@ -57,10 +57,10 @@ static carom_status begin(carom_world *world, carom_error *error)
 
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
-	const uint64_t n = carom_capacity(body_count), grips = CONTACTS_MOST * GRIP_WIDTH * (def->friction > 0 ? n : 1);
+	const uint64_t n = carom_capacity(body_count), grips = FOURS_MOST * GRIP_WIDTH * (def->friction > 0 ? n : 1);
 	const uint64_t warm = CONTACTS_MOST * n * (uint64_t)WARM_WIDTH(def->friction > 0);
 	return carom_events_memory(pipeline, def, body_count, vertex_count)
-		+ n * (16 * (CONTACTS_MOST * CONTACT_WIDTH + PUSHES_WIDTH) + 4 * (TOUCHING_WIDTH + 1)) + 16 * (LOADS_OF(n) + grips + warm);
+		+ n * (16 * (FOURS_MOST * FOUR_WIDTH + PUSHES_WIDTH) + 4 * (TOUCHING_WIDTH + 1)) + 16 * (LOADS_OF(n) + grips + warm);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -69,8 +69,8 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_prepare(world, error));
 	world->events.iterations = FIRST_ITERATIONS;
 	world->contacts_sent = false;
-	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, CONTACTS_MOST * CONTACT_WIDTH * n, error));
-	TRY(carom_events_create_list(world, ROLE_GRIPS, false, CONTACTS_MOST * GRIP_WIDTH * (world->rubs ? n : 1), error));
+	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, FOURS_MOST * FOUR_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_GRIPS, false, FOURS_MOST * GRIP_WIDTH * (world->rubs ? n : 1), error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_OF(n), error));
 	TRY(carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error));

@@ -17,7 +17,10 @@ template <typename T> struct Sums {
 		x += straight * along_x, y += straight * along_y, torque += turning * arm;
 	}
 
-	void add(const Slot<T> &slot, const Points<T> &points, const Lanes<T> &forces) { add(slot, forces, points.normal_x, points.normal_y, points.arm); }
+	void add(const Slot<T> &slot, const Points<T> &points, const Lanes<T> &forces)
+	{
+		add(slot, forces, points.normal_x, points.normal_y, points.arm);
+	}
 
 	/* What friction does follows the force of its point. */
 	void add(const Slot<T> &slot, const Points<T> &points, const Grips<T> &grips, const Lanes<T> &forces)
@@ -80,7 +83,7 @@ template <typename T> struct Rests {
 	/* Calls `visit(points, grips)` for all the points of a slot, in order; where nothing rubs there are no grips. */
 	template <typename Visit> void each(int32_t s, const Visit &visit) const
 	{
-		int32_t four = points_most * s;
+		int32_t four = FOURS_MOST * s;
 		for (int32_t left = touching[s].count; left > 0; left -= lane_count, four++)
 			visit(points[four], grips[rubs ? four : 0]);
 	}
@@ -142,7 +145,7 @@ template <typename T> static void find(const Job<T> &job)
 		RestFinder<T> finder(clusters, rubs);
 		for (int32_t s = from; s < to; s++) {
 			kept[s].keep(clusters.slots[s]);
-			touching[s].count = finder.find(s, points + points_most * s, grips + points_most * s);
+			touching[s].count = finder.find(s, points + FOURS_MOST * s, grips + FOURS_MOST * s);
 			if (touching[s].count > 0 || last_counts[clusters.slots[s].body()] > 0)
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
@@ -192,18 +195,19 @@ template <typename T> static void warm_up(const Rests<T> &rests, const Warm<T> &
 {
 	const Slot<T> &slot = rests.slots[s];
 	WarmForces<T> last;
-	int32_t before = Partner::none, point = 0;
+	int32_t before = PARTNER_NONE, point = 0;
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		points.least = T(EASE) * points.least - T(0.5f / CONTACT_PART) * points.tolerance;
 		for (int32_t i = 0; i < lane_count; i++) {
 			const Partner partner(points.partner[i]);
-			if (partner.code == Partner::none)
+			if (partner.is_none())
 				continue;
 			if (partner.code != before)
 				last = warm.of(slot.body(), partner.key(rests.slots)), point = 0;
 			before = partner.code;
 			const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART);
-			const T inverse_mass = partner.moves() ? larger(slot.mass[MASS_INVERSE], rests.slots[partner.slot()].mass[MASS_INVERSE]) : slot.mass[MASS_INVERSE];
+			const T inverse_mass = partner.moves() ? larger(slot.mass[MASS_INVERSE], rests.slots[partner.slot()].mass[MASS_INVERSE])
+												   : slot.mass[MASS_INVERSE];
 			/* In this step's units, and none that is too large for either body. */
 			const auto begun = [&](T force) {
 				const T start = part * ((force * rests.length) * rests.length);
@@ -211,7 +215,7 @@ template <typename T> static void warm_up(const Rests<T> &rests, const Warm<T> &
 			};
 			points.force[i] = points.start[i] = begun(last.normal[point]);
 			if (rests.rubs) {
-				grips.most[i] = friction * points.force[i];
+				grips.bound[i] = friction * points.force[i];
 				grips.force[i] = grips.start[i] = begun(last.friction[point]);
 			}
 			point++;
@@ -267,7 +271,8 @@ template <typename T, typename Wanted>
 static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, const Lanes<T> (&others)[lane_count], T beta, int32_t done,
 	Wanted &wanted)
 {
-	const Lanes<T> allowed = grips.friction * points.force, most = done < GRIP_FOLLOW ? allowed : grips.most + T(GRIP_BLEND) * (allowed - grips.most);
+	const Lanes<T> allowed = grips.friction * points.force,
+				   most = done < GRIP_FOLLOW ? allowed : grips.bound + T(GRIP_BLEND) * (allowed - grips.bound);
 	const Lanes<T> x = -points.normal_y, y = points.normal_x, least = -most;
 	const Lanes<T> along = (x * load[0] + y * load[1]) + grips.arm * load[2],
 				   other_along = (x * others[0] + y * others[1]) + grips.other_arm * others[2];
@@ -275,7 +280,7 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = held < 0 ? -held : held;
 	const Lanes<T> left = size < most ? rate : allowed - most;
 	wanted |= (left < 0 ? -left : left) > (size < most ? T(GRIP_CREEP) * points.tolerance : (T(GRIP_SLIDE) * points.tolerance) * grips.step);
-	grips.most = most;
+	grips.bound = most;
 	grips.start = held + beta * (held - grips.force);
 	grips.force = held;
 }
@@ -373,11 +378,11 @@ template <typename T> static void apply(const Job<T> &job)
 template <typename T> static void keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
 {
 	const int32_t body = rests.slots[s].body();
-	int32_t count = 0, point = 0, before = Partner::none;
+	int32_t count = 0, point = 0, before = PARTNER_NONE;
 	rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
 		for (int32_t i = 0; i < lane_count; i++) {
 			const Partner partner(points.partner[i]);
-			if (partner.code == Partner::none)
+			if (partner.is_none())
 				continue;
 			if (partner.code != before) {
 				before = partner.code, point = 0;
