@@ -84,11 +84,10 @@ rules_of_hit event_rules(float restitution, float friction, bool rapid, int even
 	rules.restitution = restitution;
 	rules.micro = restitution < 1.0f ? MICRO : 0.0f;
 	rules.crowd = rules.shake = 0.0f;
-	if (restitution < 1.0f && events > CROWD) {
-		rules.crowd = smaller((float)(events - CROWD) * CROWD_PART, CROWD_MOST);
-		if (borne)
-			rules.crowd = CROWD_BORNE * rules.crowd;
-		rules.shake = (float)(1 << min((events - CROWD) / CROWD_DOUBLING, CROWD_DOUBLINGS));
+	int beyond = events - (borne ? CROWD_BORNE : CROWD);
+	if (restitution < 1.0f && beyond > 0) {
+		rules.crowd = smaller((float)beyond * (borne ? CROWD_BORNE_PART : CROWD_PART), borne ? CROWD_BORNE_MOST : CROWD_MOST);
+		rules.shake = (float)(1 << min(beyond / CROWD_DOUBLING, CROWD_DOUBLINGS));
 	}
 	rules.part = 0.5f;
 	rules.slow = borne ? CONTACT_FAST : 1.0f;

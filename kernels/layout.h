@@ -364,15 +364,17 @@
  * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end;
  * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step.
  * Unless it was in a hit that was not slow, it is no faster then than when the step began: what holds it may not make it faster from step to step.
- * Where forces bear what rests, the next step's impulses stop what a crowd does: there it parts CROWD_BORNE times as fast, slow is what they stop, and STUCK_BORNE
- * events are enough. */
+ * Where forces bear what rests, the next step's impulses stop what a crowd does: there it is one from CROWD_BORNE events on, and parts sooner and faster, slow is
+ * what they stop, and STUCK_BORNE events are enough. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
 #define CROWD 32
 #define CROWD_PART 0.0078125f
 #define CROWD_MOST 0.25f
-#define CROWD_BORNE 4.0f
+#define CROWD_BORNE 8
+#define CROWD_BORNE_PART 0.125f
+#define CROWD_BORNE_MOST 1.0f
 #define CROWD_DOUBLING 8
 #define CROWD_DOUBLINGS 10
 #define HOLD_LIMIT 4096

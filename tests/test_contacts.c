@@ -279,7 +279,8 @@ static void without_rest_it_is_events(void **unused)
 	}
 }
 
-/* On a plate lie more balls than a body can have contacts: those are events, the plate and all others are none the worse. */
+/* On a plate lie more balls than a body can have contacts: those are events, the plate and all others are none the worse. They part as a crowd does, with
+ * what gravity makes of a speed in a step at most, balls from a plate that does so itself: they hop by 5.5 mm at most. */
 static void too_many_on_one_are_events(void **unused)
 {
 	enum { BALLS = CONTACTS_MOST + 4 };
@@ -297,7 +298,7 @@ static void too_many_on_one_are_events(void **unused)
 		assert_true(runs_step(world, runs_affordable(SETTLED)).held == 0);
 		runs_enough(fabs((double)runs_state(world, 0).position.y - 0.25) < 0.001);
 		for (uint32_t i = 1; i <= BALLS; i++)
-			runs_enough(fabs((double)runs_state(world, i).position.y - 1.0) < 0.002);
+			runs_enough(fabs((double)runs_state(world, i).position.y - 1.0) < 0.0055);
 		runs_near(runs_measure(world).max_penetration, 0.0, 40.0 * (double)SLOP);
 		runs_same_hash(&first, runs_hash(world), device);
 		carom_world_destroy(world);

@@ -16,7 +16,7 @@ static const struct reference {
 	uint64_t state, picture;
 } references[] = {
 	{"events", 60, false, 0x47802de09e4fda93, 0x64b4ba205c03b904},
-	{"contacts", 12, true, 0x2e6472e99c104fd0, 0x9c814b7a48e53e15},
+	{"contacts", 12, true, 0xe0a9177719776c22, 0x5725d09a18fe9cfd},
 	{"first_impact", 60, false, 0x9cfb8ce84ad197b6, 0xc000cfa6fcfd14ed},
 };
 

@@ -17,12 +17,11 @@ template <typename T> struct Past {
 	/* The speed with which a crowd comes apart at least. `push` is what the stronger push makes in a step. */
 	T crowd_speed(T push, T stillness) const
 	{
-		const int32_t beyond = events - CROWD;
+		const int32_t beyond = events - (borne ? CROWD_BORNE : CROWD);
 		if (beyond <= 0)
 			return 0;
-		const T part = smaller(T(beyond) * T(CROWD_PART), T(CROWD_MOST));
-		return larger((borne ? T(CROWD_BORNE) * part : part) * push,
-			stillness * static_cast<T>(1 << std::min(beyond / CROWD_DOUBLING, CROWD_DOUBLINGS)));
+		const T part = smaller(T(beyond) * T(borne ? CROWD_BORNE_PART : CROWD_PART), T(borne ? CROWD_BORNE_MOST : CROWD_MOST));
+		return larger(part * push, stillness * static_cast<T>(1 << std::min(beyond / CROWD_DOUBLING, CROWD_DOUBLINGS)));
 	}
 };
 

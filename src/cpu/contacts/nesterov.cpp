@@ -1,40 +1,10 @@
 /* The forces between bodies that rest on each other: a projected gradient, accelerated as Nesterov did. */
 #include "cpu/response.hpp"
-#include "cpu/resting.hpp"
+#include "cpu/rests.hpp"
 
 namespace carom::cpu {
 
 constexpr int32_t chunk = 64; /* slots */
-
-/* What forces at points add to the x, y and torque of a load, which has a body's share besides: a sum each of every fourth point, and then of those. */
-template <typename T> struct Sums {
-	Lanes<T> x{}, y{}, torque{};
-
-	/* Forces at four points, along a unit vector each. */
-	void add(const Slot<T> &slot, const Lanes<T> &forces, const Lanes<T> &along_x, const Lanes<T> &along_y, const Lanes<T> &arm)
-	{
-		const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
-		x += straight * along_x, y += straight * along_y, torque += turning * arm;
-	}
-
-	void add(const Slot<T> &slot, const Points<T> &points, const Lanes<T> &forces)
-	{
-		add(slot, forces, points.normal_x, points.normal_y, points.arm);
-	}
-
-	/* What friction does follows the force of its point. */
-	void add(const Slot<T> &slot, const Points<T> &points, const Grips<T> &grips, const Lanes<T> &forces)
-	{
-		add(slot, forces, -points.normal_y, points.normal_x, grips.arm);
-	}
-
-	void add_to(Lanes<T> &load) const
-	{
-		Lanes<T> of[lane_count] = {x, y, torque, Lanes<T>{}};
-		transpose<T>(of);
-		load += (of[0] + of[1]) + (of[2] + of[3]);
-	}
-};
 
 /* How much a force at a point parts it. */
 template <typename T> static T gives(const Slot<T> &slot, T arm)
@@ -58,56 +28,6 @@ template <typename T> struct Kept {
 		std::copy_n(push, PUSH_BODY, slot.push);
 		if (with_velocities)
 			slot.place[LINEAR_VX] = velocities[0], slot.place[LINEAR_VY] = velocities[1], slot.turn[TURN_VELOCITY] = velocities[2];
-	}
-};
-
-/* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching, Grips. */
-template <typename T> struct Rests {
-	const Slot<T> *slots;
-	int32_t *status;
-	Points<T> *points;
-	const Touching *touching;
-	Grips<T> *grips;
-	T length;
-	bool rubs;
-	bool impulses; /* of the pass; read once, for in Status it lies beside what an iteration writes */
-
-	explicit Rests(const Job<T> &job)
-		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
-		  touching(reinterpret_cast<const Touching *>(job.list(5))), grips(reinterpret_cast<Grips<T> *>(job.records(6))),
-		  length(step_length(job.texels(1), job.texels(0))), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
-		  impulses(status[STATUS_PASS] == PASS_IMPULSES)
-	{
-	}
-
-	/* Calls `visit(points, grips)` for all the points of a slot, in order; where nothing rubs there are no grips. */
-	template <typename Visit> void each(int32_t s, const Visit &visit) const
-	{
-		int32_t four = FOURS_MOST * s;
-		for (int32_t left = touching[s].count; left > 0; left -= lane_count, four++)
-			visit(points[four], grips[rubs ? four : 0]);
-	}
-
-	/* Adds what all forces on a slot come to. */
-	void add_forces(int32_t s, Lanes<T> &load) const
-	{
-		Sums<T> sums;
-		each(s, [&](const Points<T> &all, const Grips<T> &rubbing) {
-			sums.add(slots[s], all, all.force);
-			if (rubs)
-				sums.add(slots[s], all, rubbing, rubbing.force);
-		});
-		sums.add_to(load);
-	}
-
-	/* How a body would move by itself. */
-	void alone(int32_t s, T share, Lanes<T> &load) const
-	{
-		const Slot<T> &slot = slots[s];
-		load = Lanes<T>{slot.place[LINEAR_VX], slot.place[LINEAR_VY], slot.turn[TURN_VELOCITY], 0} * length;
-		if (!impulses)
-			load += (Lanes<T>{slot.push[PUSH_X], slot.push[PUSH_Y], slot.push[PUSH_TORQUE], 0} * length) * length;
-		load[LOAD_SHARE] = share;
 	}
 };
 
@@ -319,29 +239,49 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
-/* One iteration, if it is wanted, of all bodies that touch. */
-template <bool rubs, typename T> static void iterate_all(const Job<T> &job, const Rests<T> &rests)
+/* The same of some of the bodies that touch. */
+template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests, Lanes<T> *loads, int32_t from, int32_t to, int32_t number)
 {
-	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
-	const int32_t number = job.domain[2], done = number - rests.status[STATUS_FIRST];
-	if (rests.status[STATUS_WANTED] != number)
-		return;
-	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
-		bool wanted = false;
-		for (int32_t k = from; k < to; k++)
-			wanted |= iterate_one<rubs>(rests, loads, rests.touching[k].slot, number & 1, done);
-		if (wanted && done + 1 < CONTACT_ITERATIONS && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
-			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
-	});
+	const int32_t done = number - rests.status[STATUS_FIRST];
+	bool wanted = false;
+	for (int32_t k = from; k < to; k++)
+		wanted |= iterate_one<rubs>(rests, loads, rests.touching[k].slot, number & 1, done);
+	return wanted && done + 1 < CONTACT_ITERATIONS;
 }
 
+#if defined(__x86_64__)
+/* The same in fewer instructions, where the processor has them. */
+template <bool rubs>
+[[gnu::target("avx2"), gnu::flatten]] static bool iterate_some_avx2(const Rests<float> &rests, Lanes<float> *loads, int32_t from, int32_t to,
+	int32_t number)
+{
+	return iterate_some<rubs>(rests, loads, from, to, number);
+}
+
+template <bool rubs> static auto best_iteration(float)
+{
+	return __builtin_cpu_supports("avx2") ? iterate_some_avx2<rubs> : iterate_some<rubs, float>;
+}
+#endif
+
+template <bool rubs, typename T> static auto best_iteration(T)
+{
+	return iterate_some<rubs, T>;
+}
+
+/* One iteration, if it is wanted, of all. */
 template <typename T> static void iterate(const Job<T> &job)
 {
 	const Rests<T> rests(job);
-	if (rests.rubs)
-		iterate_all<true>(job, rests);
-	else
-		iterate_all<false>(job, rests);
+	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
+	const int32_t number = job.domain[2];
+	const auto some = rests.rubs ? best_iteration<true>(T()) : best_iteration<false>(T());
+	if (rests.status[STATUS_WANTED] != number)
+		return;
+	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
+		if (some(rests, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
+			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
+	});
 }
 
 template <typename T> static void apply(const Job<T> &job)

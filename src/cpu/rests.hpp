@@ -1,0 +1,91 @@
+/* What forces do to bodies that rest on each other, of the step contacts: CONTRACT.md, "contacts". */
+#ifndef CAROM_CPU_RESTS_HPP
+#define CAROM_CPU_RESTS_HPP
+
+#include "cpu/resting.hpp"
+
+namespace carom::cpu {
+
+/* What forces at points add to the x, y and torque of a load, which has a body's share besides: a sum each of every fourth point, and then of those. */
+template <typename T> struct Sums {
+	Lanes<T> x{}, y{}, torque{};
+
+	/* Forces at four points, along a unit vector each. */
+	void add(const Slot<T> &slot, const Lanes<T> &forces, const Lanes<T> &along_x, const Lanes<T> &along_y, const Lanes<T> &arm)
+	{
+		const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
+		x += straight * along_x, y += straight * along_y, torque += turning * arm;
+	}
+
+	void add(const Slot<T> &slot, const Points<T> &points, const Lanes<T> &forces)
+	{
+		add(slot, forces, points.normal_x, points.normal_y, points.arm);
+	}
+
+	/* What friction does follows the force of its point. */
+	void add(const Slot<T> &slot, const Points<T> &points, const Grips<T> &grips, const Lanes<T> &forces)
+	{
+		add(slot, forces, -points.normal_y, points.normal_x, grips.arm);
+	}
+
+	void add_to(Lanes<T> &load) const
+	{
+		Lanes<T> of[lane_count] = {x, y, torque, Lanes<T>{}};
+		transpose<T>(of);
+		load += (of[0] + of[1]) + (of[2] + of[3]);
+	}
+};
+
+/* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching, Grips. */
+template <typename T> struct Rests {
+	const Slot<T> *slots;
+	int32_t *status;
+	Points<T> *points;
+	const Touching *touching;
+	Grips<T> *grips;
+	T length;
+	bool rubs;
+	bool impulses; /* of the pass; read once, for in Status it lies beside what an iteration writes */
+
+	explicit Rests(const Job<T> &job)
+		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
+		  touching(reinterpret_cast<const Touching *>(job.list(5))), grips(reinterpret_cast<Grips<T> *>(job.records(6))),
+		  length(step_length(job.texels(1), job.texels(0))), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
+		  impulses(status[STATUS_PASS] == PASS_IMPULSES)
+	{
+	}
+
+	/* Calls `visit(points, grips)` for all the points of a slot, in order; where nothing rubs there are no grips. */
+	template <typename Visit> void each(int32_t s, const Visit &visit) const
+	{
+		int32_t four = FOURS_MOST * s;
+		for (int32_t left = touching[s].count; left > 0; left -= lane_count, four++)
+			visit(points[four], grips[rubs ? four : 0]);
+	}
+
+	/* Adds what all forces on a slot come to. */
+	void add_forces(int32_t s, Lanes<T> &load) const
+	{
+		Sums<T> sums;
+		each(s, [&](const Points<T> &all, const Grips<T> &rubbing) {
+			sums.add(slots[s], all, all.force);
+			if (rubs)
+				sums.add(slots[s], all, rubbing, rubbing.force);
+		});
+		sums.add_to(load);
+	}
+
+	/* How a body would move by itself. */
+	void alone(int32_t s, T share, Lanes<T> &load) const
+	{
+		const Slot<T> &slot = slots[s];
+		load = Lanes<T>{slot.place[LINEAR_VX], slot.place[LINEAR_VY], slot.turn[TURN_VELOCITY], 0} * length;
+		if (!impulses)
+			load += (Lanes<T>{slot.push[PUSH_X], slot.push[PUSH_Y], slot.push[PUSH_TORQUE], 0} * length) * length;
+		load[LOAD_SHARE] = share;
+	}
+};
+
+}
+
+#endif
