@@ -390,12 +390,13 @@
  * Where bodies rub, the bound of a force of friction follows what the normal force allows at once in the first GRIP_FOLLOW iterations, and then by a
  * GRIP_BLEND of what is missing: in many iterations the two would drive each other on, and so would more momentum than GRIP_MOMENTUM. What does not slide may
  * creep by GRIP_CREEP of what normal forces are found within: little is left of that when coordinates are rounded; what slides is slowed within a
- * GRIP_SLIDE of it. */
+ * GRIP_SLIDE of it. Where bodies rub and slide impulses come to no end: GRIP_IMPULSES iterations do, for what those leave is a hit. */
 #define GRIP_FOLLOW 16
 #define GRIP_BLEND 0.0625f
 #define GRIP_MOMENTUM 0.9375f
 #define GRIP_CREEP 0.0078125f
 #define GRIP_SLIDE 0.25f
+#define GRIP_IMPULSES 64
 #define CONTACT_FAST 4.0f
 #define EASE 0.5f
 #define CUSHION 64.0f

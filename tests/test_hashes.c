@@ -21,7 +21,7 @@ static const struct {
 	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x78861c24a5d7c41e, 0xd494b532f10c3b6b},
 	{"scenes/mixed.json", 0xcc24b0a3369bcac1, 0xdca5a4f981ed5756, 0},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
-	{"scenes/pyramid.json", 0xfac98044abc74ff1, 0x1b059d1a9257b9c3, 0x97e8d41b14ab769e},
+	{"scenes/pyramid.json", 0xfac98044abc74ff1, 0x7593f2c6b4a10426, 0xcdbf0f3da7e81b31},
 	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0xdd27dd88bbe84178, 0},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x191f59180c97010f, 0},
 	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f, 0},
@@ -66,9 +66,9 @@ static const struct {
 	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, 0.0f, STEPS, {0xed03ece2bc91b620}, {0x13378613a64cb821}, 0x596bd0e5a062364b},
 	{9, SCENERY_CIRCLES, 36, 0.875f, -3.0f, 0.0f, STEPS, {0x050b36b217d5ff67}, {0x88a992790e483f1c}, 0x2c1d02d5e04ef672},
 	{10, SCENERY_MIXED, 49, 0.5f, -9.81f, 0.5f, RESTING_STEPS, {0x0c3ead4c230722ec, 0x32e4659c5f1d96f6}, {0xb95a28f63ffd6aee, 0x7a35235cdc5dfcb6},
-		0x2bf1be251a04b403},
+		0xc00612521b7d0b26},
 	{11, SCENERY_POLYGONS, 25, 0.75f, -3.0f, 1000.0f, RESTING_STEPS, {0x0adc6a3a146a038a, 0x420d9e63c030fdeb},
-		{0x8a8c19f9f1b360f1, 0x3050c20de6e2b720}, 0xce175dc29e4de47f},
+		{0x8a8c19f9f1b360f1, 0x3050c20de6e2b720}, 0x5b07b8c04c44e0e3},
 	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xb0af4e0886036521}, {0xdb0ea15d092cc348}, 0xb39405e2eb4162bf},
 };
 

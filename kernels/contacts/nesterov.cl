@@ -58,6 +58,7 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
 	bool alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms));
+	int most = rub && status[STATUS_PASS] == PASS_IMPULSES ? GRIP_IMPULSES : CONTACT_ITERATIONS;
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
@@ -71,7 +72,7 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 		if (get_local_id(0) == 0)
 			more = 0;
 		barrier(CLK_LOCAL_MEM_FENCE);
-		if (wanted && done < CONTACT_ITERATIONS)
+		if (wanted && done < most)
 			atomic_or(&more, 1);
 		barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 		again = more;

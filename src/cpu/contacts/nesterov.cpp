@@ -246,7 +246,7 @@ template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests,
 	bool wanted = false;
 	for (int32_t k = from; k < to; k++)
 		wanted |= iterate_one<rubs>(rests, loads, rests.touching[k].slot, number & 1, done);
-	return wanted && done + 1 < CONTACT_ITERATIONS;
+	return wanted && done + 1 < (rubs && rests.impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS);
 }
 
 #if defined(__x86_64__)
