@@ -1,7 +1,7 @@
 /* The forces between bodies that rest on each other, and what they make of loads, how bodies move in a step: CONTRACT.md, "contacts". Of points, four are
  * side by side. */
 
-/* Four units vectors along which bodies press, or slide, and their arms about a body's centre. */
+/* Four unit vectors along which bodies press, or slide, and their arms about a body's centre. */
 typedef struct ways {
 	float4 x, y, arm, other_arm;
 } ways;
@@ -77,7 +77,7 @@ float response_bound(response m)
 	return smaller(row, sqrt(sqrt(sqrt(squares))));
 }
 
-/* The same sum of four points, and of how they slide after each. */
+/* A sum with what four points do, and after each with how it slides. */
 float response_add(float sum, float4 normals, float4 grips)
 {
 	return (((((((sum + normals.x) + grips.x) + normals.y) + grips.y) + normals.z) + grips.z) + normals.w) + grips.w;
@@ -156,14 +156,9 @@ float4 rests_add(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_I
 void rests_drop(RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), int s, bool rub)
 {
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global float *at = POINT_OUT(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_OUT(grips, GRIP(s, point / 4, 0)) + point % 4;
-		int other = (int)at[4 * FOUR_PARTNER];
-		if (other < 0 || touching[TOUCH(other, TOUCHING_COUNT)] >= 0)
-			continue;
-		for (int record = 0; record < FOUR_WIDTH; record++)
-			at[4 * record] = record == FOUR_PARTNER ? (float)PARTNER_NONE : 0.0f;
-		for (int record = 0; rub && record < GRIP_WIDTH; record++)
-			grip[4 * record] = 0.0f;
+		int other = (int)POINT_OUT(contacts, FOUR_WIDTH, s, point)[4 * FOUR_PARTNER];
+		if (other >= 0 && touching[TOUCH(other, TOUCHING_COUNT)] < 0)
+			point_drop(contacts, grips, s, point, rub);
 	}
 }
 
@@ -173,6 +168,15 @@ int partner_key(RECORD_IN(slots), int partner)
 	if (partner >= 0)
 		return slot_body(slots, partner);
 	return partner > PARTNER_STATIC(0) ? partner + 1 : PARTNER_STATIC(0) - partner;
+}
+
+/* Which of a body's contacts in the last step was that with a partner; if none was, how many there were. */
+int warm_of(RECORD_IN(warm), LIST_IN(warm_counts), int body, int key, bool rub)
+{
+	int k = 0;
+	while (k < warm_counts[body] && (int)CHANNEL(warm[WARM(body, k, rub)], WARM_PARTNER) != key)
+		k++;
+	return k;
 }
 
 /* What is begun with, of a force of the last step: in units of this one, and none that is too large for either body. */
@@ -186,16 +190,14 @@ float force_begun(float force, float part, float inverse_mass, float length)
 void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
 	float length)
 {
-	int body = slot_body(slots, s), before = PARTNER_NONE, second = 0, last = 0;
+	int body = slot_body(slots, s), before = PARTNER_NONE, last = 0;
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global float *at = POINT_OUT(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_OUT(grips, GRIP(s, point / 4, 0)) + point % 4;
+		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;
-		second = other == before;
-		if (!second)
-			for (last = 0; last < warm_counts[body] && (int)warm[WARM(body, last, rub)].x != partner_key(slots, other);)
-				last++;
+		bool second = other == before;
+		last = second ? last : warm_of(warm, warm_counts, body, partner_key(slots, other), rub);
 		before = other;
 		at[4 * FOUR_LEAST] = EASE * at[4 * FOUR_LEAST] - (0.5f / CONTACT_PART) * at[4 * FOUR_TOLERANCE];
 		bool lasts = last < warm_counts[body];
@@ -220,7 +222,7 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	float share = CHANNEL(loads[LOADS_OF(s) + now], LOAD_SHARE);
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global float *at = POINT_OUT(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_OUT(grips, GRIP(s, point / 4, 0)) + point % 4;
+		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		for (int i = 0; other != PARTNER_NONE && i < (rub ? 2 : 1); i++) {
 			float arm = i ? grip[4 * GRIP_ARM] : at[4 * FOUR_ARM], other_arm = i ? grip[4 * GRIP_OTHER_ARM] : at[4 * FOUR_OTHER_ARM];
@@ -339,7 +341,7 @@ void forces_keep(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_I
 {
 	int body = slot_body(slots, s), count = 0, before = PARTNER_NONE;
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global const float *at = POINT_IN(contacts, FOUR(s, point / 4, 0)) + point % 4, *grip = POINT_IN(grips, GRIP(s, point / 4, 0)) + point % 4;
+		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;

@@ -6,9 +6,10 @@
 #define WARM(body, k, rub) ((CONTACTS_MOST * (body) + (k)) * WARM_WIDTH(rub))
 #define CONTACTS_ALONE 512 /* bodies for which one group iterates alone */
 
-/* A point alone of four, in a record. */
-#define POINT_IN(records, at) ((__global const float *)(records) + 4 * (at))
-#define POINT_OUT(records, at) ((__global float *)(records) + 4 * (at))
+/* A point alone, in Contacts or in Grips: its number in a record, from which on each record's is 4 farther. */
+#define POINT_AT(width, s, point) (4 * (width) * (FOURS_MOST * (s) + (point) / 4) + (point) % 4)
+#define POINT_IN(records, width, s, point) ((__global const float *)(records) + POINT_AT(width, s, point))
+#define POINT_OUT(records, width, s, point) ((__global float *)(records) + POINT_AT(width, s, point))
 
 typedef struct rest_point {
 	float arm, other_arm, least, grip_arm, grip_other_arm;
@@ -139,6 +140,16 @@ void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, re
 	rests_insert(all, r);
 }
 
+/* A point that pushes nothing. */
+void point_drop(RECORD_OUT(contacts), RECORD_OUT(grips), int s, int point, bool rub)
+{
+	__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point);
+	for (int record = 0; record < FOUR_WIDTH; record++)
+		at[4 * record] = record == FOUR_PARTNER ? (float)PARTNER_NONE : 0.0f;
+	for (int record = 0; rub && record < GRIP_WIDTH; record++)
+		POINT_OUT(grips, GRIP_WIDTH, s, point)[4 * record] = 0.0f;
+}
+
 /* Writes the points side by side, and how they slide where bodies rub; how many there are. */
 int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s, bool rub)
 {
@@ -146,12 +157,8 @@ int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s
 	for (int k = 0; k < all->count; k++) {
 		const rest *r = &all->of[k];
 		for (int i = 0; i < r->count; i++, count++) {
-			int four = count / 4, lane = count % 4;
-			for (int record = 0; lane == 0 && record < FOUR_WIDTH; record++)
-				contacts[FOUR(s, four, record)] = (float4)(record == FOUR_PARTNER ? (float)PARTNER_NONE : 0.0f);
-			for (int record = 0; lane == 0 && rub && record < GRIP_WIDTH; record++)
-				grips[GRIP(s, four, record)] = (float4)(0.0f);
-			__global float *to = POINT_OUT(contacts, FOUR(s, four, 0)) + lane;
+			__global float *to = POINT_OUT(contacts, FOUR_WIDTH, s, count);
+			point_drop(contacts, grips, s, count, rub);
 			to[4 * FOUR_PARTNER] = (float)r->partner;
 			to[4 * FOUR_NORMAL_X] = r->n.x;
 			to[4 * FOUR_NORMAL_Y] = r->n.y;
@@ -161,12 +168,14 @@ int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s
 			to[4 * FOUR_TOLERANCE] = CONTACT_PART * (EASE * r->cushion);
 			if (!rub)
 				continue;
-			to = POINT_OUT(grips, GRIP(s, four, 0)) + lane;
+			to = POINT_OUT(grips, GRIP_WIDTH, s, count);
 			to[4 * GRIP_FRICTION] = r->friction;
 			to[4 * GRIP_ARM] = r->points[i].grip_arm;
 			to[4 * GRIP_OTHER_ARM] = r->points[i].grip_other_arm;
 		}
 	}
+	for (int point = count; point % 4 > 0; point++)
+		point_drop(contacts, grips, s, point, rub);
 	return count;
 }
 
