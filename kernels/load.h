@@ -6,24 +6,20 @@ typedef struct ways {
 	float4 x, y, arm, other_arm;
 } ways;
 
-ways ways_of_normals(RECORD_IN(contacts), int s, int four)
+void ways_of_normals(ways *w, RECORD_IN(contacts), int s, int four)
 {
-	ways w;
-	w.x = contacts[FOUR(s, four, FOUR_NORMAL_X)];
-	w.y = contacts[FOUR(s, four, FOUR_NORMAL_Y)];
-	w.arm = contacts[FOUR(s, four, FOUR_ARM)];
-	w.other_arm = contacts[FOUR(s, four, FOUR_OTHER_ARM)];
-	return w;
+	w->x = contacts[FOUR(s, four, FOUR_NORMAL_X)];
+	w->y = contacts[FOUR(s, four, FOUR_NORMAL_Y)];
+	w->arm = contacts[FOUR(s, four, FOUR_ARM)];
+	w->other_arm = contacts[FOUR(s, four, FOUR_OTHER_ARM)];
 }
 
-ways ways_of_grips(RECORD_IN(grips), int s, int four, ways normals)
+void ways_of_grips(ways *w, RECORD_IN(grips), int s, int four, const ways *normals)
 {
-	ways w;
-	w.x = -normals.y;
-	w.y = normals.x;
-	w.arm = grips[GRIP(s, four, GRIP_ARM)];
-	w.other_arm = grips[GRIP(s, four, GRIP_OTHER_ARM)];
-	return w;
+	w->x = -normals->y;
+	w->y = normals->x;
+	w->arm = grips[GRIP(s, four, GRIP_ARM)];
+	w->other_arm = grips[GRIP(s, four, GRIP_OTHER_ARM)];
 }
 
 int fours_of(LIST_IN(touching), int s)
@@ -36,18 +32,18 @@ typedef struct sums {
 	float4 x, y, torque;
 } sums;
 
-void sums_add(sums *all, float4 forces, ways w, float4 mass)
+void sums_add(sums *all, float4 forces, const ways *w, float4 mass)
 {
 	float4 straight = CHANNEL(mass, MASS_INVERSE) * forces, turning = CHANNEL(mass, MASS_INVERSE_INERTIA) * forces;
-	all->x += straight * w.x;
-	all->y += straight * w.y;
-	all->torque += turning * w.arm;
+	all->x += straight * w->x;
+	all->y += straight * w->y;
+	all->torque += turning * w->arm;
 }
 
-float4 sums_with(sums all, float4 load)
+float4 sums_with(const sums *all, float4 load)
 {
-	return (float4)(load.x + ((all.x.x + all.x.y) + (all.x.z + all.x.w)), load.y + ((all.y.x + all.y.y) + (all.y.z + all.y.w)),
-		load.z + ((all.torque.x + all.torque.y) + (all.torque.z + all.torque.w)), load.w);
+	return (float4)(load.x + ((all->x.x + all->x.y) + (all->x.z + all->x.w)), load.y + ((all->y.x + all->y.y) + (all->y.z + all->y.w)),
+		load.z + ((all->torque.x + all->torque.y) + (all->torque.z + all->torque.w)), load.w);
 }
 
 /* A symmetric matrix of x, y and turning. */
@@ -88,18 +84,16 @@ typedef struct responses {
 	float4 xx, xy, yy, xt, yt, tt;
 } responses;
 
-responses responses_of(ways w, float4 mass)
+void responses_of(responses *r, const ways *w, float4 mass)
 {
 	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), both = sqrt(straight) * sqrt(turning);
-	float4 gives = straight + turning * (w.arm * w.arm);
-	responses r;
-	r.xx = (straight / gives) * (w.x * w.x);
-	r.xy = (straight / gives) * (w.x * w.y);
-	r.yy = (straight / gives) * (w.y * w.y);
-	r.xt = (both / gives) * (w.x * w.arm);
-	r.yt = (both / gives) * (w.y * w.arm);
-	r.tt = (turning / gives) * (w.arm * w.arm);
-	return r;
+	float4 gives = straight + turning * (w->arm * w->arm);
+	r->xx = (straight / gives) * (w->x * w->x);
+	r->xy = (straight / gives) * (w->x * w->y);
+	r->yy = (straight / gives) * (w->y * w->y);
+	r->xt = (both / gives) * (w->x * w->arm);
+	r->yt = (both / gives) * (w->y * w->arm);
+	r->tt = (turning / gives) * (w->arm * w->arm);
 }
 
 /* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together. */
@@ -108,11 +102,15 @@ float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
 	response all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
 	for (int four = 0; four < fours_of(touching, s); four++) {
-		ways normals = ways_of_normals(contacts, s, four);
-		responses n = responses_of(normals, mass), g = {none, none, none, none, none, none};
+		ways normals;
+		ways_of_normals(&normals, contacts, s, four);
+		responses n, g = {none, none, none, none, none, none};
+		responses_of(&n, &normals, mass);
 		if (rub) {
 			int4 rubs = grips[GRIP(s, four, GRIP_FRICTION)] > 0.0f;
-			g = responses_of(ways_of_grips(grips, s, four, normals), mass);
+			ways along;
+			ways_of_grips(&along, grips, s, four, &normals);
+			responses_of(&g, &along, mass);
 			g.xx = rubs ? g.xx : none, g.xy = rubs ? g.xy : none, g.yy = rubs ? g.yy : none;
 			g.xt = rubs ? g.xt : none, g.yt = rubs ? g.yt : none, g.tt = rubs ? g.tt : none;
 		}
@@ -144,12 +142,16 @@ float4 rests_add(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_I
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
 	sums all = {none, none, none};
 	for (int four = 0; four < fours_of(touching, s); four++) {
-		ways normals = ways_of_normals(contacts, s, four);
-		sums_add(&all, contacts[FOUR(s, four, FOUR_FORCE)], normals, mass);
-		if (rub)
-			sums_add(&all, grips[GRIP(s, four, GRIP_FORCE)], ways_of_grips(grips, s, four, normals), mass);
+		ways normals;
+		ways_of_normals(&normals, contacts, s, four);
+		sums_add(&all, contacts[FOUR(s, four, FOUR_FORCE)], &normals, mass);
+		if (rub) {
+			ways along;
+			ways_of_grips(&along, grips, s, four, &normals);
+			sums_add(&all, grips[GRIP(s, four, GRIP_FORCE)], &along, mass);
+		}
 	}
-	return sums_with(all, load);
+	return sums_with(&all, load);
 }
 
 /* Points of which the other body has too many contacts are none. */
@@ -237,27 +239,30 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 	}
 }
 
-/* The loads of four bodies that move, or of what doesn't: x, y and torque side by side. */
+/* The loads of four bodies that move, or of what doesn't: x, y and torque side by side. (Here and below results are handed out by pointers, max has two vectors, and
+ * there is no any: Oclgrind 21.10 gets the shorter forms wrong.) */
 typedef struct moves {
 	float4 x, y, torque;
 } moves;
 
-moves moves_of(RECORD_IN(loads), float4 partners, int now)
+void moves_of(moves *all, RECORD_IN(loads), float4 partners, int now)
 {
-	int4 s = max(convert_int4(partners), -1);
+	int4 s = max(convert_int4(partners), (int4)(-1));
 	float4 a = loads[LOADS_OF(s.x) + now], b = loads[LOADS_OF(s.y) + now], c = loads[LOADS_OF(s.z) + now], d = loads[LOADS_OF(s.w) + now];
-	moves m = {(float4)(a.x, b.x, c.x, d.x), (float4)(a.y, b.y, c.y, d.y), (float4)(a.z, b.z, c.z, d.z)};
-	return m;
+	all->x = (float4)(a.x, b.x, c.x, d.x);
+	all->y = (float4)(a.y, b.y, c.y, d.y);
+	all->torque = (float4)(a.z, b.z, c.z, d.z);
 }
 
 /* How fast points part, or slide. */
-float4 rates_of(ways w, float4 load, moves others)
+float4 rates_of(const ways *w, float4 load, const moves *others)
 {
-	return ((w.x * load.x + w.y * load.y) + w.arm * load.z) - ((w.x * others.x + w.y * others.y) + w.other_arm * others.torque);
+	return ((w->x * load.x + w->y * load.y) + w->arm * load.z) - ((w->x * others->x + w->y * others->y) + w->other_arm * others->torque);
 }
 
 /* What four points' friction does in an iteration, once they have new forces. Returns where another one is wanted. */
-int4 grips_iterate(RECORD_OUT(grips), int s, int four, float4 force, ways w, float4 load, moves others, float4 tolerance, int done, float beta)
+int4 grips_iterate(RECORD_OUT(grips), int s, int four, float4 force, const ways *w, float4 load, const moves *others, float4 tolerance, int done,
+	float beta)
 {
 	__global float4 *at = grips + GRIP(s, four, 0);
 	float4 allowed = at[GRIP_FRICTION] * force, bound = at[GRIP_BOUND], step = at[GRIP_STEP], slip = rates_of(w, load, others);
@@ -281,22 +286,25 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
 	for (int four = 0; four < fours_of(touching, s); four++) {
 		__global float4 *at = contacts + FOUR(s, four, 0);
-		ways normals = ways_of_normals(contacts, s, four);
-		moves others = moves_of(loads, at[FOUR_PARTNER], now);
-		float4 rate = at[FOUR_LEAST] + rates_of(normals, load, others), tolerance = at[FOUR_TOLERANCE];
+		ways normals;
+		ways_of_normals(&normals, contacts, s, four);
+		moves others;
+		moves_of(&others, loads, at[FOUR_PARTNER], now);
+		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
 		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = none > pushed ? none : pushed, start = force + beta * (force - at[FOUR_FORCE]);
 		wanted |= (force > 0.0f ? fabs(rate) : -rate) > tolerance;
 		at[FOUR_START] = start;
 		at[FOUR_FORCE] = force;
-		sums_add(&next, start, normals, mass);
+		sums_add(&next, start, &normals, mass);
 		if (rub) {
-			ways grip = ways_of_grips(grips, s, four, normals);
-			wanted |= grips_iterate(grips, s, four, force, grip, load, others, tolerance, done, beta);
-			sums_add(&next, grips[GRIP(s, four, GRIP_START)], grip, mass);
+			ways along;
+			ways_of_grips(&along, grips, s, four, &normals);
+			wanted |= grips_iterate(grips, s, four, force, &along, load, &others, tolerance, done, beta);
+			sums_add(&next, grips[GRIP(s, four, GRIP_START)], &along, mass);
 		}
 	}
-	loads[LOADS_OF(s) + 1 - now] = sums_with(next, loads[LOADS_OF(s) + LOADS_ALONE]);
-	return any(wanted);
+	loads[LOADS_OF(s) + 1 - now] = sums_with(&next, loads[LOADS_OF(s) + LOADS_ALONE]);
+	return (wanted.x | wanted.y | wanted.z | wanted.w) != 0;
 }
 
 void velocities_set(RECORD_OUT(slots), int s, float x, float y, float turning)
