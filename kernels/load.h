@@ -125,12 +125,12 @@ float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_
 }
 
 /* How a body would move by itself: as it stands in that pass. */
-float4 load_alone(RECORD_IN(slots), LIST_IN(status), int s, float length)
+float4 load_alone(RECORD_IN(slots), bool impulses, int s, float length)
 {
 	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), place = SLOT_LOAD(slots, s, SLOT_PLACE);
 	float4 load = (float4)(CHANNEL(place, LINEAR_VX) * length, CHANNEL(place, LINEAR_VY) * length,
 		CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) * length, 0.0f);
-	if (status[STATUS_PASS] == PASS_IMPULSES)
+	if (impulses)
 		return load;
 	return (float4)(load.x + (CHANNEL(push, PUSH_X) * length) * length, load.y + (CHANNEL(push, PUSH_Y) * length) * length,
 		load.z + (CHANNEL(push, PUSH_TORQUE) * length) * length, 0.0f);
@@ -218,6 +218,12 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_
 	}
 }
 
+/* How much a force at a point parts it. */
+float point_gives(float4 mass, float arm)
+{
+	return CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm);
+}
+
 /* By how much rates change forces, once all bodies have their share; 0 where there is no point. */
 void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, int now, bool rub)
 {
@@ -228,12 +234,9 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 		int other = (int)at[4 * FOUR_PARTNER];
 		for (int i = 0; other != PARTNER_NONE && i < (rub ? 2 : 1); i++) {
 			float arm = i ? grip[4 * GRIP_ARM] : at[4 * FOUR_ARM], other_arm = i ? grip[4 * GRIP_OTHER_ARM] : at[4 * FOUR_OTHER_ARM];
-			float gives = share * (CHANNEL(mass, MASS_INVERSE) + CHANNEL(mass, MASS_INVERSE_INERTIA) * (arm * arm));
-			if (other >= 0) {
-				float4 other_mass = SLOT_LOAD(slots, other, SLOT_MASS);
-				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE)
-					* (CHANNEL(other_mass, MASS_INVERSE) + CHANNEL(other_mass, MASS_INVERSE_INERTIA) * (other_arm * other_arm));
-			}
+			float gives = share * point_gives(mass, arm);
+			if (other >= 0)
+				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE) * point_gives(SLOT_LOAD(slots, other, SLOT_MASS), other_arm);
 			*(i ? &grip[4 * GRIP_STEP] : &at[4 * FOUR_STEP]) = 1.0f / gives;
 		}
 	}

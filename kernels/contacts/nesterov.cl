@@ -44,7 +44,7 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 			rests_drop(contacts, grips, touching, s, rub);
 		else
 			rests_warm(slots, contacts, grips, touching, warm, warm_counts, s, rub, length);
-		float4 load = load_alone(slots, status, s, length);
+		float4 load = load_alone(slots, impulses, s, length);
 		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 		loads[LOADS_OF(s) + LOADS_ALONE] = load;
 		loads[LOADS_OF(s) + (domain.z & 1)] = impulses ? load : rests_add(slots, contacts, grips, touching, s, rub, load);

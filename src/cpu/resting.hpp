@@ -162,7 +162,7 @@ private:
 				points.partner[i] = static_cast<T>(rest.partner.code);
 				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
 				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
-				points.least[i] = rest.at[point].least, points.tolerance[i] = rest.tolerance, points.step[i] = 1;
+				points.least[i] = rest.at[point].least, points.tolerance[i] = rest.tolerance;
 				if (!rubs.any)
 					continue;
 				Grips<T> &gripping = grips[written / lane_count];

@@ -63,6 +63,23 @@ template <typename T> struct Rests {
 			visit(points[four], grips[rubs ? four : 0]);
 	}
 
+	/* Calls `visit(points, grips, i, partner, which of the contact's points it is)` for each point alone, but for those that are none. */
+	template <typename Visit> void each_point(int32_t s, const Visit &visit) const
+	{
+		Partner before;
+		int32_t point = 0;
+		each(s, [&](Points<T> &four, Grips<T> &rubbing) {
+			for (int32_t i = 0; i < lane_count; i++) {
+				const Partner partner(four.partner[i]);
+				if (partner.is_none())
+					continue;
+				point = partner.code == before.code ? point + 1 : 0;
+				before = partner;
+				visit(four, rubbing, i, partner, point);
+			}
+		});
+	}
+
 	/* Adds what all forces on a slot come to. */
 	void add_forces(int32_t s, Lanes<T> &load) const
 	{

@@ -98,15 +98,12 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 /* Contacts of which one body has too many are none. */
 template <typename T> static void drop(const Rests<T> &rests, int32_t s)
 {
-	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
-		for (int32_t i = 0; i < lane_count; i++) {
-			const Partner partner(points.partner[i]);
-			if (!partner.moves() || rests.touching[partner.slot()].count >= 0)
-				continue;
-			points.drop(i);
-			if (rests.rubs)
-				grips.drop(i);
-		}
+	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t) {
+		if (!partner.moves() || rests.touching[partner.slot()].count >= 0)
+			return;
+		points.drop(i);
+		if (rests.rubs)
+			grips.drop(i);
 	});
 }
 
@@ -115,30 +112,21 @@ template <typename T> static void warm_up(const Rests<T> &rests, const Warm<T> &
 {
 	const Slot<T> &slot = rests.slots[s];
 	WarmForces<T> last;
-	int32_t before = PARTNER_NONE, point = 0;
-	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
-		points.least = T(EASE) * points.least - T(0.5f / CONTACT_PART) * points.tolerance;
-		for (int32_t i = 0; i < lane_count; i++) {
-			const Partner partner(points.partner[i]);
-			if (partner.is_none())
-				continue;
-			if (partner.code != before)
-				last = warm.of(slot.body(), partner.key(rests.slots)), point = 0;
-			before = partner.code;
-			const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART);
-			const T inverse_mass = partner.moves() ? larger(slot.mass[MASS_INVERSE], rests.slots[partner.slot()].mass[MASS_INVERSE])
-												   : slot.mass[MASS_INVERSE];
-			/* In this step's units, and none that is too large for either body. */
-			const auto begun = [&](T force) {
-				const T start = part * ((force * rests.length) * rests.length);
-				return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
-			};
-			points.force[i] = points.start[i] = begun(last.normal[point]);
-			if (rests.rubs) {
-				grips.bound[i] = friction * points.force[i];
-				grips.force[i] = grips.start[i] = begun(last.friction[point]);
-			}
-			point++;
+	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
+		if (point == 0)
+			last = warm.of(slot.body(), partner.key(rests.slots));
+		const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART), own = slot.mass[MASS_INVERSE];
+		const T inverse_mass = partner.moves() ? larger(own, rests.slots[partner.slot()].mass[MASS_INVERSE]) : own;
+		/* In this step's units, and none that is too large for either body. */
+		const auto begun = [&](T force) {
+			const T start = part * ((force * rests.length) * rests.length);
+			return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
+		};
+		points.least[i] = T(EASE) * points.least[i] - T(0.5f / CONTACT_PART) * points.tolerance[i];
+		points.force[i] = points.start[i] = begun(last.normal[point]);
+		if (rests.rubs) {
+			grips.bound[i] = friction * points.force[i];
+			grips.force[i] = grips.start[i] = begun(last.friction[point]);
 		}
 	});
 }
@@ -167,7 +155,7 @@ template <typename T> static void join(const Job<T> &job)
 	});
 }
 
-/* By how much rates change forces: from 1, or 0 where there is no point. */
+/* By how much rates change forces; 0 where there is no point. */
 template <typename T>
 static void set_steps(const Rests<T> &rests, Points<T> &points, Grips<T> &grips, const Slot<T> &slot, T share, const Lanes<T> &others)
 {
@@ -177,7 +165,7 @@ static void set_steps(const Rests<T> &rests, Points<T> &points, Grips<T> &grips,
 			const T own = share * gives(slot, arm);
 			return 1 / (partner.moves() ? own + others[i] * gives(rests.slots[partner.slot()], other_arm) : own);
 		};
-		if (!(points.step[i] > 0))
+		if (partner.is_none())
 			continue;
 		points.step[i] = step(points.arm[i], points.other_arm[i]);
 		if (rests.rubs)
@@ -185,7 +173,15 @@ static void set_steps(const Rests<T> &rests, Points<T> &points, Grips<T> &grips,
 	}
 }
 
-/* The same of friction, once the points have new forces. Another iteration is wanted where something slides that could be held, or by a force that is not
+/* How fast points part, or slide, along a unit vector each. */
+template <typename T>
+[[gnu::always_inline]] static inline void find_rates(const Lanes<T> &x, const Lanes<T> &y, const Lanes<T> &arm, const Lanes<T> &other_arm,
+	const Lanes<T> &load, const Lanes<T> (&others)[lane_count], Lanes<T> &rate)
+{
+	rate = ((x * load[0] + y * load[1]) + arm * load[2]) - ((x * others[0] + y * others[1]) + other_arm * others[2]);
+}
+
+/* What friction does in an iteration, once the points have new forces. Another iteration is wanted where something slides that could be held, or by a force that is not
  * yet what it may be. */
 template <typename T, typename Wanted>
 static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, const Lanes<T> (&others)[lane_count], T beta, int32_t done,
@@ -193,10 +189,10 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 {
 	const Lanes<T> allowed = grips.friction * points.force,
 				   most = done < GRIP_FOLLOW ? allowed : grips.bound + T(GRIP_BLEND) * (allowed - grips.bound);
-	const Lanes<T> x = -points.normal_y, y = points.normal_x, least = -most;
-	const Lanes<T> along = (x * load[0] + y * load[1]) + grips.arm * load[2],
-				   other_along = (x * others[0] + y * others[1]) + grips.other_arm * others[2];
-	const Lanes<T> rate = along - other_along, pushed = grips.start - rate * grips.step;
+	const Lanes<T> least = -most;
+	Lanes<T> rate;
+	find_rates<T>(-points.normal_y, points.normal_x, grips.arm, grips.other_arm, load, others, rate);
+	const Lanes<T> pushed = grips.start - rate * grips.step;
 	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = held < 0 ? -held : held;
 	const Lanes<T> left = size < most ? rate : allowed - most;
 	wanted |= (left < 0 ? -left : left) > (size < most ? T(GRIP_CREEP) * points.tolerance : (T(GRIP_SLIDE) * points.tolerance) * grips.step);
@@ -220,9 +216,9 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 		transpose<T>(others);
 		if (done == 0)
 			set_steps(rests, points, grips, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
-		const Lanes<T> along = (points.normal_x * load[0] + points.normal_y * load[1]) + points.arm * load[2];
-		const Lanes<T> other_along = (points.normal_x * others[0] + points.normal_y * others[1]) + points.other_arm * others[2];
-		const Lanes<T> rate = points.least + (along - other_along);
+		Lanes<T> rate;
+		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
+		rate += points.least;
 		const Lanes<T> pushed = points.start - rate * points.step, force = zero > pushed ? zero : pushed;
 		wanted |= (force > 0 ? (rate < 0 ? -rate : rate) : -rate) > points.tolerance;
 		points.start = force + beta * (force - points.force);
@@ -314,22 +310,15 @@ template <typename T> static void apply(const Job<T> &job)
 	});
 }
 
-/* Keeps the forces on a slot for the next step; the points of a contact follow each other. */
+/* Keeps the forces on a slot for the next step. */
 template <typename T> static void keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
 {
 	const int32_t body = rests.slots[s].body();
-	int32_t count = 0, point = 0, before = PARTNER_NONE;
-	rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
-		for (int32_t i = 0; i < lane_count; i++) {
-			const Partner partner(points.partner[i]);
-			if (partner.is_none())
-				continue;
-			if (partner.code != before) {
-				before = partner.code, point = 0;
-				warm.begin(body, count++, partner.key(rests.slots));
-			}
-			warm.keep(body, count - 1, point++, (points.force[i] / length) / length, rests.rubs ? (grips.force[i] / length) / length : T(0));
-		}
+	int32_t count = 0;
+	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
+		if (point == 0)
+			warm.begin(body, count++, partner.key(rests.slots));
+		warm.keep(body, count - 1, point, (points.force[i] / length) / length, rests.rubs ? (grips.force[i] / length) / length : T(0));
 	});
 	warm.keep_count(body, count);
 }
