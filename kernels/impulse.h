@@ -110,7 +110,7 @@ float4 contact_push(body a, body b, contact c, float2 v, float wa, float wb, flo
 }
 
 /* Of body k's contact with a wall at time t of its step. */
-float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_hit rules, float length, impact *hit)
+SELDOM float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_hit rules, float length, impact *hit)
 {
 	float offset;
 	body walls = k;
@@ -129,7 +129,7 @@ float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rules_of_h
 }
 
 /* Of the contact of bodies a and b, the row's and the column's, at time t of their step. */
-float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float length, impact *hit)
+SELDOM float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float length, impact *hit)
 {
 	pose p = pose_at(a, b, t);
 	float slop = pair_slop(a, b), still = pair_stillness(a, b);
@@ -148,6 +148,7 @@ float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules, float
 	return c.swapped ? (float4)(along.x, along.y, done.z / length, done.w / length) : (float4)(-along.x, -along.y, done.w / length, done.z / length);
 }
 
+#ifndef CAROM_OUTLINES /* first_impact alone has it */
 float4 hit_push(STATE_IN, VERTICES_IN, TEX_IN(friction), float4 hit, float length)
 {
 	int row = (int)CHANNEL(hit, HIT_ROW), column = (int)CHANNEL(hit, HIT_COLUMN);
@@ -174,3 +175,4 @@ __kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_IN(friction), TE
 		result = hit_push(STATE, VERTICES, TEX(friction), hit, length);
 	TEX_STORE(impulse, 0, 0, result);
 }
+#endif

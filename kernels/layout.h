@@ -174,11 +174,12 @@
 #define WORK_TURN 1  /* record */
 #define WORK_ANGLE 0
 #define WORK_VELOCITY 1
-#define WORK_TIME 2 /* part of the step */
-#define WORK_HELD 3 /* 1: it stays where it is until the step ends */
-#define WORK_NEXT 2 /* record: the body's first event, by what is known */
-#define NEXT_TIME 0 /* part of the step, NO_HIT if there is none */
-#define NEXT_ROW 1  /* bodies: the larger index, the less; or the body and -1 - wall */
+#define WORK_TIME 2          /* part of the step */
+#define WORK_HELD 3          /* 1: it stays where it is until the step ends */
+#define WORK_NEXT 2          /* record: the body's first event, by what is known */
+#define NEXT_TIME 0          /* part of the step, NO_HIT if there is none */
+#define NEXT_UNKNOWN (-1.0f) /* this time: it is to be looked for, before all others */
+#define NEXT_ROW 1           /* bodies: the larger index, the less; or the body and -1 - wall */
 #define NEXT_COLUMN 2
 #define NEXT_PARTNER 3 /* its slot, or -1 - wall; a half farther from 0 if the event is only a pause of the search */
 #define WORK_BOX 3     /* record: AABB's channels, of all the way in this step */
@@ -306,6 +307,8 @@
 #define PUSHES_WIDTH 2
 
 #define GROUP_MOST 64 /* work-items of a group */
+#define GROUP_FEW 32  /* of a smaller one */
+#define SEEK_EACH 4   /* slots at most for each of those that look for hits, where most sleep: those that do not are shared */
 
 /* Status: ints, and some floats in their bits */
 #define STATUS_WIDTH 64
@@ -332,6 +335,7 @@
 #define STATUS_EXTRA_ROOM 20 /* ints there are in Extra */
 #define STATUS_MENDED 21     /* of Movers: those that are with their new neighbours */
 #define STATUS_AHEAD 22      /* steps after this one that a look is good for */
+#define STATUS_LITTERED 31   /* numbers that a step which was not done has left as they were, when the lists were made; of OpenCL devices */
 #define STATUS_BUSTLE 28     /* hits of the last step that is done: where there are many, shorter lists are better */
 #define STATUS_BRIEF 29      /* float bits, s: how long the lists of bodies are to last that are far faster than most */
 /* Of the step contacts, whose iterations are numbered on and on: */

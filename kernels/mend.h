@@ -1,4 +1,5 @@
-/* New neighbours of a body whose reach has changed since the lists were made: nodes in Extra, which others may be adding to at the same time. */
+/* New neighbours of a body whose reach has changed since the lists were made: nodes in Extra, which others may be adding to at the same time. Two that
+ * find each other at the same time may be noted twice. */
 
 /* Is the other one of the slot's neighbours already? */
 bool mend_knows(LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), int s, int other)
@@ -29,10 +30,9 @@ void mend_add(LIST_OUT(status), LIST_OUT(extra), int s, int other)
 	} while (next != seen);
 }
 
-void mend_meet(RECORD_IN(reach), LIST_OUT(status), LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), LIST_OUT(wakes), int s, int other)
+void mend_meet(LIST_OUT(status), LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), LIST_OUT(wakes), int s, int other)
 {
-	float4 a = reach[s], b = reach[other];
-	if (other == s || b.x > a.z || b.z < a.x || b.y > a.w || b.w < a.y || mend_knows(spans, neighbours, extra, s, other))
+	if (other == s || mend_knows(spans, neighbours, extra, s, other))
 		return;
 	mend_add(status, extra, s, other);
 	mend_add(status, extra, other, s);
@@ -40,22 +40,33 @@ void mend_meet(RECORD_IN(reach), LIST_OUT(status), LIST_IN(spans), LIST_IN(neigh
 	atomic_xchg(&wakes[WAKE(other, WAKE_NEXT)], status[STATUS_AGE]);
 }
 
-/* Among the slots in the cells of all levels, and those that are not in the cells any more in which they would be looked for. */
+/* Among the slots in the cells of all levels, and those that are not in the cells any more in which they would be looked for: a lane's part of them. */
 void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers), LIST_OUT(extra),
-	LIST_OUT(wakes), int s, int columns, int rows)
+	LIST_OUT(wakes), int s, int columns, int rows, int lane, int lanes)
 {
 	float4 box = reach[s];
+	int levels = status[STATUS_LEVELS], count = status[STATUS_MOVERS];
 	for (int level = 0; level < CELL_LEVELS; level++) {
-		if (!(status[STATUS_LEVELS] & (1 << level)))
+		if (!(levels & (1 << level)))
 			continue;
 		int2 low, high = cells_around(box, level_side(status, level), columns, level_rows(rows, level), &low);
-		for (int y = low.y; y <= high.y; y++)
-			for (int x = low.x; x <= high.x; x++) {
-				int cell = CELL_WIDTH * cell_index((int2)(x, y), level, columns, rows);
-				for (int other = cells[cell + CELL_START]; other < cells[cell + CELL_END]; other++)
-					mend_meet(reach, status, spans, neighbours, extra, wakes, s, other);
-			}
+		int width = high.x - low.x + 1, all = width * (high.y - low.y + 1);
+		for (int k = lane; k < all; k += lanes) {
+			int cell = CELL_WIDTH * cell_index((int2)(low.x + k % width, low.y + k / width), level, columns, rows);
+			for (int other = cells[cell + CELL_START]; other < cells[cell + CELL_END]; other++)
+				if (boxes_touch(box, reach[other]))
+					mend_meet(status, spans, neighbours, extra, wakes, s, other);
+		}
 	}
-	for (int i = 0; i < status[STATUS_MOVERS]; i++)
-		mend_meet(reach, status, spans, neighbours, extra, wakes, s, movers[i]);
+	for (int i = lane; i < count; i += 4 * lanes) {
+		int others[4];
+		float4 boxes[4];
+		for (int k = 0; k < 4; k++)
+			others[k] = movers[min(i + k * lanes, count - 1)];
+		for (int k = 0; k < 4; k++)
+			boxes[k] = reach[others[k]];
+		for (int k = 0; k < 4; k++)
+			if (boxes_touch(box, boxes[k]))
+				mend_meet(status, spans, neighbours, extra, wakes, s, others[k]);
+	}
 }

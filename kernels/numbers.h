@@ -9,6 +9,13 @@
 #define INLINE
 #endif
 
+/* For what is long and seldom called: compilers for GPUs put all in one, which then takes so many registers that few work-items run at once. */
+#if defined(__NV_CL_C_VERSION) && defined(CAROM_OUTLINES)
+#define SELDOM __attribute__((noinline))
+#else
+#define SELDOM
+#endif
+
 float2 turn(float2 rotation, float2 v) /* rotation = (cosine, sine) */
 {
 	return (float2)(rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y);

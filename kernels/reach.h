@@ -16,6 +16,7 @@ void status_begin(LIST_OUT(status), int count)
 {
 	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
 	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = status[STATUS_RULED] = 0;
+	status[STATUS_LITTERED] = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;
 	status[STATUS_LEVELS] = 1;
@@ -23,29 +24,37 @@ void status_begin(LIST_OUT(status), int count)
 	status[STATUS_BUILDS]++;
 }
 
-/* How far bodies go, from a sample of them, but so many tenths of a radius at least. None of this changes a result: it only decides how long lists last. */
-void pace_choose(RECORD_IN(slots), int count, float time_step, float tenths, LIST_OUT(status))
+/* s, how long lists are to last. */
+float pace_window(LIST_IN(status), int count, float time_step)
 {
-	float window = time_step * larger(MOST_STEPS / (1.0f + HIT_FACTOR * ((float)status[STATUS_BUSTLE] / (float)count)), LEAST_STEPS);
-	int step = count / 256 + 1, n = 0;
-	float square = 0.0f, root = 0.0f, radius = 0.0f;
-	for (int s = 0; s < count; s += step) {
+	return time_step * larger(MOST_STEPS / (1.0f + HIT_FACTOR * ((float)status[STATUS_BUSTLE] / (float)count)), LEAST_STEPS);
+}
+
+/* Of a lane's part of a sample of the bodies that move: sums of their speeds' squares and roots, and of their radii, and how many there are. */
+float4 pace_sample(RECORD_IN(slots), int count, float window, int lane, int lanes)
+{
+	int step = count / 256 + 1;
+	float4 sum = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	for (int s = lane * step; s < count; s += lanes * step) {
 		float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), acceleration = SLOT_LOAD(slots, s, SLOT_PUSH);
 		if (slot_is_static(slots, s))
 			continue;
 		float speed = norm((float2)(at.z, at.w)) + norm((float2)(acceleration.x, acceleration.y)) * window;
-		square += speed * speed;
-		root += sqrt(speed);
-		radius += CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
-		n++;
+		sum += (float4)(speed * speed, sqrt(speed), CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS), 1.0f);
 	}
-	float many = n > 0 ? (float)n : 1.0f, size = radius / many, typical = TYPICAL_FACTOR * (root / many) * (root / many);
-	float way = smaller(REACH_FACTOR * window * sqrt(square / many), larger(REACH_FACTOR * window * typical, size));
+	return sum;
+}
+
+/* How far bodies go, from such a sample, but so many tenths of a radius at least. None of this changes a result: it only decides how long lists last. */
+void pace_choose(float4 sum, float window, float brief, float tenths, LIST_OUT(status))
+{
+	float many = larger(sum.w, 1.0f), size = sum.z / many, typical = TYPICAL_FACTOR * (sum.y / many) * (sum.y / many);
+	float way = smaller(REACH_FACTOR * window * sqrt(sum.x / many), larger(REACH_FACTOR * window * typical, size));
 	float pace = larger(PACE_FACTOR * way, tenths * 0.1f * size), side = 1.01f * (size + larger(pace, CELL_FACTOR * way));
 	status[STATUS_PACE] = as_int(pace);
 	status[STATUS_CELL] = as_int(side > 0.0f && side < 1e30f ? side : 1.0f);
 	status[STATUS_WINDOW] = as_int(window);
-	status[STATUS_BRIEF] = as_int(LEAST_STEPS * time_step);
+	status[STATUS_BRIEF] = as_int(brief);
 }
 
 /* A static body's box is tight. */
@@ -170,6 +179,12 @@ int neighbours_take(LIST_OUT(status), int count)
 	return -1;
 }
 
+/* Do two reaches touch? */
+INLINE bool boxes_touch(float4 a, float4 b)
+{
+	return (b.x <= a.z) & (b.z >= a.x) & (b.y <= a.w) & (b.w >= a.y);
+}
+
 #define NEAR_MOST 48 /* more neighbours are searched twice */
 
 typedef struct near_list {
@@ -206,8 +221,7 @@ INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIS
 	bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	for (int other = from; other < to; other++) {
-		float4 b = reach[other];
-		int near = (other != s) & (b.x <= box.z) & (b.z >= box.x) & (b.y <= box.w) & (b.w >= box.y);
+		int near = (other != s) & boxes_touch(box, reach[other]);
 		if (stands && near && slot_is_static(slots, other))
 			near = 0;
 		near_add(list, neighbours, half_at, other, !same_level || other > s, near);

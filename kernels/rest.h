@@ -69,11 +69,14 @@ void rest_add(rest *r, float rate, float gap, float2 lever, float2 other_lever, 
 	r->count++;
 }
 
-/* Where its key says; the count is more than CONTACTS_MOST once there are too many. */
+/* Where its key says, but once: a neighbour may be noted twice. The count is more than CONTACTS_MOST once there are too many. */
 void rests_insert(rests *all, rest r)
 {
 	if (r.count == 0 || all->count > CONTACTS_MOST)
 		return;
+	for (int k = 0; k < all->count; k++)
+		if (all->of[k].key == r.key)
+			return;
 	int k = all->count++;
 	if (k == CONTACTS_MOST)
 		return;

@@ -76,7 +76,7 @@ float circles_meet(body a, body b, float slop)
 }
 
 /* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch, or that is not asked for any more. */
-float4 search_separating(VERTICES_IN, body a, body b, float until)
+SELDOM float4 search_separating(VERTICES_IN, body a, body b, float until)
 {
 	float slop = pair_slop(a, b), stillness = pair_stillness(a, b);
 	float t = circles_touch(a, b, slop), creep = 0.0f;

@@ -1,6 +1,7 @@
 /* The hits that a step begins with. To count where all work-items count costs as much as the search for a hit: those of a group are counted at once. */
 
-#define SEEDS_MOST 4 /* of a slot; those beyond are counted each alone */
+#define SEEDS_MOST 4   /* of a slot; those beyond are counted each alone */
+#define PAIRS_MOST 256 /* of a group, that are looked at closely together: else the slots that have some would keep the others waiting */
 
 /* Hits that a slot found, once for each body that they change. */
 typedef struct seeds {
@@ -93,53 +94,78 @@ void seeds_keep(LISTS_IN, LIST_OUT(owners), const seeds *all, int entry, int id,
 	}
 }
 
-/* Of the pairs that this slot watches. */
-void seek_neighbours(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), float4 rules, int s, trajectory k, float length,
-	float ahead, int round, seeds *all)
+/* A pair whose discs meet. */
+void seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), float4 rules, int s, int other, float length, int round,
+	seeds *all)
 {
-	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
-	int changed = wakes[WAKE(s, WAKE_CHANGED)], half_end = spans[SPAN(s, SPAN_HALF)], end = changed > 0 ? spans[SPAN(s, SPAN_END)] : half_end;
-	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
-		int other = neighbour_of(neighbours, extra, i), other_changed = status[STATUS_AGE] > 0 ? wakes[WAKE(other, WAKE_CHANGED)] : 0;
-		bool watches = changed > other_changed || (changed == other_changed && (i < 0 ? s < other : i < half_end)), pause;
-		if (!watches || boxes_apart(disc_k, slots, other, length, 1.0f + ahead))
-			continue;
-		disc disc_o = disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length);
-		float meeting = first_meeting(disc_k, disc_o, ahead, are_plain(slots, s, other));
-		wake_before(status, wakes, s, meeting);
-		if (meeting > 1.0f || stay_apart(disc_k, disc_o))
-			continue;
-		float t = pair_time(VERTICES, slots, rules, s, k, other, trajectory_start(slots, other), length, 1.0f, &pause);
-		if (!(t <= 1.0f))
-			continue;
-		bool changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
-		if (changes)
-			seeds_add(LISTS, owners, all, s, other, t, pause, round);
-		if (other_changes)
-			seeds_add(LISTS, owners, all, other, s, t, pause, round);
-		if (changes && other_changes)
-			unite(parents, s, other);
-	}
+	bool pause, changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
+	float t = pair_time(VERTICES, slots, rules, s, trajectory_start(slots, s), other, trajectory_start(slots, other), length, 1.0f, &pause);
+	if (!(t <= 1.0f))
+		return;
+	if (changes)
+		seeds_add(LISTS, owners, all, s, other, t, pause, round);
+	if (other_changes)
+		seeds_add(LISTS, owners, all, other, s, t, pause, round);
+	if (changes && other_changes)
+		unite(parents, s, other);
 }
 
-/* All that the slot looks at, if it is awake. */
-void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int s, float length, int round, seeds *all)
+/* Of the four those that this slot watches. */
+INLINE int4 watched(LIST_IN(status), LIST_IN(wakes), int s, fours others, int changed, int cursor, int half_end)
 {
-	int wall;
+	int4 theirs = (int4)(0), at = (int4)(cursor, cursor + 1, cursor + 2, cursor + 3), own = (int4)(changed);
+	if (status[STATUS_AGE] > 0)
+		theirs = (int4)(wakes[WAKE(others.slots.x, WAKE_CHANGED)], wakes[WAKE(others.slots.y, WAKE_CHANGED)],
+			wakes[WAKE(others.slots.z, WAKE_CHANGED)], wakes[WAKE(others.slots.w, WAKE_CHANGED)]);
+	int4 first = cursor < 0 ? (int4)(s) < others.slots : at < (int4)(half_end);
+	return others.live & ((own > theirs) | ((own == theirs) & first));
+}
+
+/* Is the slot to look for hits in this step? */
+bool is_awake(LIST_IN(status), LIST_OUT(wakes), int s)
+{
+	if (status[STATUS_AGE] > 0)
+		return wakes[WAKE(s, WAKE_NEXT)] <= status[STATUS_AGE];
+	wakes[WAKE(s, WAKE_CHANGED)] = 0;
+	return true;
+}
+
+/* All that the slot looks at: pairs that are to be looked at closely go to those of the group. */
+void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int s, float length, int round, seeds *all,
+	__local int *pairs, __local int *pair_count)
+{
+	int wall, changed = wakes[WAKE(s, WAKE_CHANGED)];
 	bool pause;
-	if (s == 0)
-		status[STATUS_BEGUN] = round;
-	if (status[STATUS_AGE] == 0)
-		wakes[WAKE(s, WAKE_CHANGED)] = 0;
-	else if (wakes[WAKE(s, WAKE_NEXT)] > status[STATUS_AGE])
-		return;
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
+	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
 	float ahead = steps_ahead(TEX(uniforms), status, length);
 	bool clear = is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
-	wakes[WAKE(s, WAKE_NEXT)] = step_of(status, clear ? 1.0f + ahead : 1.0f);
-	float t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
+	float next = clear ? 1.0f + ahead : 1.0f, t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		seeds_add(LISTS, owners, all, s, -1 - wall, t, pause, round);
-	seek_neighbours(VERTICES, slots, LISTS, owners, parents, rules, s, k, length, ahead, round, all);
+	int half_end = spans[SPAN(s, SPAN_HALF)], end = changed > 0 ? spans[SPAN(s, SPAN_END)] : half_end;
+	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = fours_next(extra, s, end, i)) {
+		fours others = fours_at(neighbours, extra, end, i);
+		int4 wanted = watched(status, wakes, s, others, changed, i, half_end);
+		discs all_discs = discs_at_start(slots, s, others.slots, length);
+		float4 meetings = wanted ? first_meetings(disc_k, &all_discs, ahead) : (float4)(next);
+		int4 close = meetings <= (float4)(1.0f);
+		next = smaller(next, smaller(smaller(meetings.x, meetings.y), smaller(meetings.z, meetings.w)));
+		if (!is_any(wanted & close))
+			continue;
+		for (int n = 0; n < 4; n++, close = close.yzwx, wanted = wanted.yzwx, others.slots = others.slots.yzwx) {
+			int other = others.slots.x;
+			if (!(close.x & wanted.x) || stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
+				continue;
+			int pair = atomic_inc(pair_count);
+			if (pair < PAIRS_MOST) {
+				pairs[2 * pair] = s;
+				pairs[2 * pair + 1] = other;
+			} else {
+				seek_pair(VERTICES, slots, LISTS, owners, parents, rules, s, other, length, round, all);
+			}
+		}
+	}
+	wakes[WAKE(s, WAKE_NEXT)] = step_of(status, next);
 }

@@ -16,6 +16,7 @@ uint4 overlap_load(BYTES_IN(overlap), bool any_there, int column, int i)
 	return any_there ? BYTES_LOAD(overlap, column, i) : (uint4)(0u, 0u, 0u, 0u);
 }
 
+#ifndef CAROM_OUTLINES /* first_impact alone has it */
 __kernel void toi_first(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), BYTES_IN(overlap), BYTES_IN(before), TEX_OUT(hits), TEX_OUT(tile_hits),
 	int4 domain)
 {
@@ -49,3 +50,4 @@ __kernel void toi_first(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), B
 	}
 	TEX_STORE(tile_hits, column, row, first);
 }
+#endif

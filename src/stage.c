@@ -71,26 +71,26 @@ const carom_stage_def carom_stages[STAGE_COUNT] = {
 };
 
 const carom_slot carom_slots[] = {
-	{"step", offsetof(carom_pipeline, step), "events", false},
-	{"aabb", offsetof(carom_pipeline, aabb), "tight", false},
-	{"overlap", offsetof(carom_pipeline, overlap), "all_pairs", false},
-	{"inside", offsetof(carom_pipeline, inside), "naive", false},
-	{"toi", offsetof(carom_pipeline, toi), "circle_quadratic", false},
-	{"walls", offsetof(carom_pipeline, walls), "half_planes", false},
-	{"reduce", offsetof(carom_pipeline, reduce), "tiled", false},
-	{"first", SIZE_MAX, "earliest", false},
-	{"impulse", offsetof(carom_pipeline, impulse), "pair_exact", false},
-	{"slots", SIZE_MAX, "records", false},
-	{"neighbours", SIZE_MAX, "grid", false},
-	{"contacts", SIZE_MAX, "nesterov", false},
-	{"events", SIZE_MAX, "clusters", false},
-	{"settle", SIZE_MAX, "clock", false},
-	{"forward", SIZE_MAX, NULL, false},
-	{"transforms", offsetof(carom_pipeline, transforms), "index", true},
-	{"vertices", offsetof(carom_pipeline, vertices), "option3", true},
-	{"shapes", SIZE_MAX, "convex", true},
-	{"bins", SIZE_MAX, "tiles", true},
-	{"pixels", SIZE_MAX, "distance", true},
+	{"step", offsetof(carom_pipeline, step), "events", USED_ALL},
+	{"aabb", offsetof(carom_pipeline, aabb), "tight", USED_FIRST_IMPACT},
+	{"overlap", offsetof(carom_pipeline, overlap), "all_pairs", USED_FIRST_IMPACT},
+	{"inside", offsetof(carom_pipeline, inside), "naive", USED_ALL},
+	{"toi", offsetof(carom_pipeline, toi), "circle_quadratic", USED_ALL},
+	{"walls", offsetof(carom_pipeline, walls), "half_planes", USED_ALL},
+	{"reduce", offsetof(carom_pipeline, reduce), "tiled", USED_FIRST_IMPACT},
+	{"first", SIZE_MAX, "earliest", USED_FIRST_IMPACT},
+	{"impulse", offsetof(carom_pipeline, impulse), "pair_exact", USED_ALL},
+	{"slots", SIZE_MAX, "records", USED_EVENTS},
+	{"neighbours", SIZE_MAX, "grid", USED_EVENTS},
+	{"contacts", SIZE_MAX, "nesterov", USED_CONTACTS},
+	{"events", SIZE_MAX, "clusters", USED_EVENTS},
+	{"settle", SIZE_MAX, "clock", USED_EVENTS},
+	{"forward", SIZE_MAX, NULL, USED_ALL},
+	{"transforms", offsetof(carom_pipeline, transforms), "index", USED_PICTURES},
+	{"vertices", offsetof(carom_pipeline, vertices), "option3", USED_PICTURES},
+	{"shapes", SIZE_MAX, "convex", USED_PICTURES},
+	{"bins", SIZE_MAX, "tiles", USED_PICTURES},
+	{"pixels", SIZE_MAX, "distance", USED_PICTURES},
 };
 const size_t carom_slot_count = sizeof carom_slots / sizeof *carom_slots;
 
@@ -110,7 +110,7 @@ static const carom_slot *slot_named(const char *name)
 bool carom_slot_draws(const char *name)
 {
 	const carom_slot *slot = slot_named(name);
-	return slot && slot->draws;
+	return slot && slot->usage == USED_PICTURES;
 }
 
 /* The index-th alternative of a slot, whichever side has it; NULL past the last. */

@@ -90,14 +90,14 @@ typedef enum carom_stage {
 	STAGE_COLLISION,    /* (bodies) */
 	/* the step events; "share": work-items that share what is active, `round` being the number of the round */
 	STAGE_LOAD,    /* (slots): the state into slots */
-	STAGE_PACE,    /* (1, 1, slots, tenths of a radius that all get at least) */
+	STAGE_PACE,    /* (a group, 1, slots, tenths of a radius that all get at least) */
 	STAGE_REACH,   /* (slots, 1, cells a row, rows) */
-	STAGE_CELLS,   /* (rows, 1, cells a row) */
+	STAGE_CELLS,   /* (a group, rows of all levels, cells a row, rows) */
 	STAGE_SORT,    /* (slots) */
 	STAGE_NEAR,    /* (slots, 1, cells a row, rows) */
 	STAGE_GATHER,  /* (slots) */
-	STAGE_MEND,    /* (share, 1, cells a row, rows) */
-	STAGE_SEEK,    /* (slots, 1, round) */
+	STAGE_MEND,    /* (groups, 1, cells a row, rows) */
+	STAGE_SEEK,    /* (slots, or one for SEEK_EACH of them, 1, round, slots) */
 	STAGE_MUSTER,  /* (share, 1, round) */
 	STAGE_RESOLVE, /* (share, 1, round) */
 	STAGE_CHECK,   /* (share, 1, round) */
@@ -134,12 +134,21 @@ typedef struct carom_stage_def {
 
 extern const carom_stage_def carom_stages[STAGE_COUNT];
 
+/* Whose program a slot is part of: drivers for GPUs build for long, so that each has only what it runs. */
+typedef enum carom_usage {
+	USED_ALL, /* by all steps */
+	USED_FIRST_IMPACT,
+	USED_EVENTS, /* and contacts */
+	USED_CONTACTS,
+	USED_PICTURES,
+} carom_usage;
+
 /* All slots in the order in which a step runs them, with the field of carom_pipeline that chooses, and their default. */
 typedef struct carom_slot {
 	const char *name;
 	size_t field; /* offset in carom_pipeline; SIZE_MAX where nothing is to choose */
 	const char *standard;
-	bool draws; /* used by pictures alone */
+	carom_usage usage;
 } carom_slot;
 
 extern const carom_slot carom_slots[];

@@ -51,6 +51,7 @@ typedef struct carom_events {
 	uint32_t rounds;          /* handed over a step, */
 	uint32_t iterations;      /* and of the step contacts iterations */
 	uint32_t since;           /* steps handed over since the last making */
+	bool sleeps;              /* most bodies do not look for hits in each step */
 	uint32_t good;            /* makings since one died before its time */
 	int32_t round, iteration; /* numbers of the last ones handed over */
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */

@@ -2,14 +2,29 @@
 
 __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int4 domain)
 {
-	__local int wanted[GROUP_MOST], first[2];
-	int s = get_global_id(0), local_id = get_local_id(0);
+	__local int wanted[GROUP_MOST], first[2], awake[SEEK_EACH * GROUP_MOST], pairs[2 * PAIRS_MOST], awake_count, pair_count;
+	int local_id = get_local_id(0), lanes = get_local_size(0), slots_each = (domain.w - 1) / (int)get_global_size(0) + 1;
+	int begin = get_group_id(0) * (slots_each * lanes);
 	float length = step_length(TEX(uniforms), TEX(clock));
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	bool begins = length > 0.0f && lists_are_good(status) && !forces_are_wanted(status) && !status[STATUS_UNDER_WAY];
+	int end = begins ? min(begin + slots_each * lanes, domain.w) : 0;
 	seeds all;
 	all.count = 0;
-	if (begins && s < domain.x)
-		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, s, length, domain.z, &all);
+	if (local_id == 0)
+		awake_count = pair_count = 0;
+	if (begins && get_global_id(0) == 0)
+		status[STATUS_BEGUN] = domain.z;
+	barrier(CLK_LOCAL_MEM_FENCE);
+	for (int s = begin + local_id; s < end; s += lanes)
+		if (is_awake(status, wakes, s))
+			awake[atomic_inc(&awake_count)] = s;
+	barrier(CLK_LOCAL_MEM_FENCE);
+	for (int k = local_id; k < awake_count; k += lanes)
+		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, awake[k], length, domain.z, &all, pairs, &pair_count);
+	barrier(CLK_LOCAL_MEM_FENCE);
+	for (int k = local_id; k < min(pair_count, PAIRS_MOST); k += lanes)
+		seek_pair(VERTICES, slots, LISTS, owners, parents, rules, pairs[2 * k], pairs[2 * k + 1], length, domain.z, &all);
 	wanted[local_id] = seeds_take(owners, &all);
 	barrier(CLK_LOCAL_MEM_FENCE);
 	if (local_id == 0)
@@ -73,17 +88,22 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
 			continue;
 		int end = spans[SPAN(s, status[STATUS_BEGUN] == domain.z ? SPAN_HALF : SPAN_END)];
-		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = next_neighbour(extra, s, end, k)) {
-			int other = neighbour_of(neighbours, extra, k), other_id = owners[other];
-			if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
-				continue;
-			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
-			if (theirs == owner || PEEK(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
-				continue;
-			if (ways_meet(VERTICES, slots, members, work, rules, s, id, other, other_id, length))
-				conflict(status, members, active, parents, owner, theirs, domain.z);
-			atomic_xchg(&wakes[WAKE(s, WAKE_NEXT)], status[STATUS_AGE] + 1); /* neither knew of the other's change */
-			atomic_xchg(&wakes[WAKE(other, WAKE_NEXT)], status[STATUS_AGE] + 1);
+		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = fours_next(extra, s, end, k)) {
+			fours others = fours_at(neighbours, extra, end, k);
+			int4 ids = (int4)(owners[others.slots.x], owners[others.slots.y], owners[others.slots.z], owners[others.slots.w]);
+			ids = others.live ? ids : (int4)(-1);
+			for (int n = is_any(ids >= (int4)(0)) ? 0 : 4; n < 4; n++, others.slots = others.slots.yzwx, ids = ids.yzwx) {
+				int other = others.slots.x, other_id = ids.x;
+				if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
+					continue;
+				int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
+				if (theirs == owner || PEEK(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
+					continue;
+				if (ways_meet(VERTICES, slots, members, work, rules, s, id, other, other_id, length))
+					conflict(status, members, active, parents, owner, theirs, domain.z);
+				atomic_xchg(&wakes[WAKE(s, WAKE_NEXT)], status[STATUS_AGE] + 1); /* neither knew of the other's change */
+				atomic_xchg(&wakes[WAKE(other, WAKE_NEXT)], status[STATUS_AGE] + 1);
+			}
 		}
 	}
 }

@@ -2,10 +2,18 @@
 
 __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(status), int4 domain)
 {
+	__local float4 found[GROUP_MOST];
+	int lane = get_local_id(0), lanes = get_local_size(0);
+	float step = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP), window = pace_window(status, domain.z, step);
+	if (get_group_id(0) == 0)
+		found[lane] = pace_sample(slots, domain.z, window, lane, lanes);
+	barrier(CLK_LOCAL_MEM_FENCE);
 	if (get_global_id(0) > 0)
 		return;
+	for (int k = 1; k < lanes; k++)
+		found[0] += found[k];
 	status_begin(status, domain.z);
-	pace_choose(slots, domain.z, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP), (float)domain.w, status);
+	pace_choose(found[0], window, LEAST_STEPS * step, (float)domain.w, status);
 }
 
 __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST_OUT(status), LIST_OUT(spans), LIST_OUT(cells), int4 domain)
@@ -22,20 +30,44 @@ __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIS
 		atomic_or(&status[STATUS_LEVELS], 1 << level);
 }
 
-/* A row of cells gets its places together, so that cells beside each other are so in memory. Levels that have no bodies are not looked at. */
+#define CELLS_EACH 4 /* that a work-item takes one after the other */
+
+/* A row of cells, and so a group, gets its places together, so that cells beside each other are so in memory. Levels that have no bodies are not looked
+ * at. */
 __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 {
-	int row = get_global_id(0), sum = 0;
-	if (row >= domain.x || !(status[STATUS_LEVELS] & (1 << row_level(domain.w, row))))
-		return;
-	__global int *first = cells + (size_t)CELL_WIDTH * (size_t)(row * domain.z);
-	for (int i = 0; i < domain.z; i++)
-		sum += first[CELL_WIDTH * i + CELL_COUNT];
-	int next = atomic_add(&status[STATUS_PLACED], sum);
-	for (int i = 0; i < domain.z; i++) {
-		first[CELL_WIDTH * i + CELL_START] = first[CELL_WIDTH * i + CELL_END] = next;
-		next += first[CELL_WIDTH * i + CELL_COUNT];
-		first[CELL_WIDTH * i + CELL_COUNT] = 0;
+	__local int wanted[GROUP_MOST], first, next;
+	int row = get_global_id(1), lane = get_local_id(0), lanes = get_local_size(0), sum = 0;
+	bool live = get_group_id(0) == 0 && status[STATUS_LEVELS] & (1 << row_level(domain.w, row));
+	int begin = CELLS_EACH * lane, step = CELLS_EACH * lanes, columns = live ? domain.z : 0;
+	__global int *all = cells + (size_t)CELL_WIDTH * (size_t)(row * domain.z);
+	for (int i = begin; i < columns; i += step)
+		for (int k = i; k < i + CELLS_EACH; k++)
+			sum += all[CELL_WIDTH * k + CELL_COUNT];
+	wanted[lane] = sum;
+	barrier(CLK_LOCAL_MEM_FENCE);
+	if (lane == 0 && live)
+		next = atomic_add(&status[STATUS_PLACED], group_sum(wanted));
+	barrier(CLK_LOCAL_MEM_FENCE);
+	for (int i = begin; i - begin < columns; i += step) {
+		__global int *cell = all + CELL_WIDTH * i;
+		int end = i < columns ? CELLS_EACH : 0, place;
+		sum = 0;
+		for (int k = 0; k < end; k++)
+			sum += cell[CELL_WIDTH * k + CELL_COUNT];
+		wanted[lane] = sum;
+		barrier(CLK_LOCAL_MEM_FENCE);
+		if (lane == 0) {
+			first = next;
+			next += group_sum(wanted);
+		}
+		barrier(CLK_LOCAL_MEM_FENCE);
+		place = first + wanted[lane];
+		for (int k = 0; k < end; k++, cell += CELL_WIDTH) {
+			cell[CELL_START] = cell[CELL_END] = place;
+			place += cell[CELL_COUNT];
+			cell[CELL_COUNT] = 0;
+		}
 	}
 }
 
@@ -50,10 +82,11 @@ __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST
 		new_slots[SLOT_WIDTH * to + k] = SLOT_LOAD(slots, s, k);
 	reach[to] = reach_box(VERTICES, slots, s, as_float(need[s]), status);
 	new_need[to] = status[STATUS_COMMIT] ? 0 : need[s];
-	member_reset(members, to);
+	if (!status[STATUS_LITTERED])
+		return;
 	owners[to] = -1;
 	parents[to] = to;
-	for (int id = domain.x + s; id < status[STATUS_NUMBERS]; id += domain.x)
+	for (int id = s; id < status[STATUS_LITTERED]; id += domain.x)
 		member_reset(members, id);
 }
 
@@ -107,12 +140,12 @@ __kernel void neighbours_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neig
 	members[MEMBER(s, MEMBER_HEAD)] = -1;
 }
 
-/* The neighbours of bodies that have got another reach. */
+/* The neighbours of bodies that have got another reach, each by a group. */
 __kernel void neighbours_mend(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers),
 	LIST_OUT(extra), LIST_OUT(wakes), int4 domain)
 {
 	if (PEEK(status, STATUS_STALE) || status[STATUS_SMALL])
 		return;
-	for (int i = get_global_id(0); status[STATUS_MENDED] + i < status[STATUS_MOVERS]; i += get_global_size(0))
-		mend_search(reach, status, cells, spans, neighbours, movers, extra, wakes, movers[status[STATUS_MENDED] + i], domain.z, domain.w);
+	for (int i = status[STATUS_MENDED] + get_group_id(0); i < status[STATUS_MOVERS]; i += get_num_groups(0))
+		mend_search(reach, status, cells, spans, neighbours, movers, extra, wakes, movers[i], domain.z, domain.w, get_local_id(0), get_local_size(0));
 }

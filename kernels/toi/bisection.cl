@@ -66,6 +66,7 @@ float4 pair_next(STATE_IN, VERTICES_IN, float4 hit, int i, int j, float length)
 		TEX_LOAD(uniforms, UNIFORMS_RULES, 0));
 }
 
+#ifndef CAROM_OUTLINES /* first_impact alone has it */
 __kernel void toi_next(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), BYTES_IN(overlap), BYTES_IN(before), TEX_IN(old_hits), TEX_OUT(hits),
 	TEX_OUT(tile_hits), int4 domain)
 {
@@ -94,3 +95,4 @@ __kernel void toi_next(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), BY
 	}
 	TEX_STORE(tile_hits, column, row, first);
 }
+#endif

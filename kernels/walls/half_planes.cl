@@ -30,7 +30,7 @@ float wall_safe_time(VERTICES_IN, body k, float2 n, float offset, float t, float
 }
 
 /* As for pairs: conservative advancement. *done is 0 if the search was not finished. */
-float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
+SELDOM float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 {
 	float slop = wall_slop(k), stillness = wall_stillness(k), creep = 0.0f, t = 0.0f;
 	if (((inner(n, k.x) - offset) - k.radius) - (norm(k.v) + norm(k.a)) > slop)
@@ -51,6 +51,7 @@ float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 	return smaller(t, 1.0f);
 }
 
+#ifndef CAROM_OUTLINES /* first_impact alone has it */
 __kernel void walls(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(walls), int4 domain)
 {
 	int group = get_global_id(0), count = domain.z;
@@ -74,3 +75,4 @@ __kernel void walls(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_OUT(walls), int4 d
 	}
 	ROW_STORE(walls, group, first);
 }
+#endif

@@ -45,11 +45,20 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 	return CL_SUCCESS;
 }
 
+/* A group for a stage. What is done one after the other, by few work-items that have nothing in common, is done by small ones. */
+static size_t wanted_size(const cl_device *d, carom_stage stage)
+{
+	if (stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES))
+		return 1;
+	if (stage == STAGE_MEND || (stage == STAGE_RESOLVE && !d->is_cpu))
+		return GROUP_FEW;
+	return GROUP_MOST;
+}
+
 /* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. Some devices take only small groups. */
 static cl_int local_size(const cl_device *d, carom_stage stage, cl_kernel kernel, size_t *local)
 {
-	bool few = stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES);
-	size_t wanted = few ? 1 : GROUP_MOST, most = 1;
+	size_t wanted = wanted_size(d, stage), most = 1;
 	cl_int code = d->cl.clGetKernelWorkGroupInfo(kernel, d->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
 	*local = wanted < most ? wanted : most;
 	return code;

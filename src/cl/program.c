@@ -11,9 +11,9 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][23] = {
+static const char *const headers[2][24] = {
 	{"layout", "texture", "numbers", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster",
-		"mend", "answer", "heap", "queue", "seek", "rest", "load"},
+		"around", "mend", "answer", "heap", "queue", "seek", "rest", "load"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
 };
 
@@ -105,13 +105,22 @@ static carom_status append_slot(sources *all, const carom_slot *slot, const caro
 	return CAROM_OK;
 }
 
+static bool is_used(carom_usage usage, const char *step, bool draws)
+{
+	const bool dense = !strcmp(step, "first_impact");
+	if (draws || usage == USED_PICTURES)
+		return draws && usage == USED_PICTURES;
+	return usage == USED_ALL || (usage == USED_FIRST_IMPACT && dense) || (usage == USED_EVENTS && !dense)
+		|| (usage == USED_CONTACTS && !strcmp(step, "contacts"));
+}
+
 static carom_status collect(sources *all, const carom_pipeline *pipeline, bool draws, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	for (const char *const *header = headers[draws]; !status && *header; header++)
 		status = append(all, "", *header, error);
 	for (size_t i = 0; !status && i < carom_slot_count; i++)
-		if (carom_slots[i].draws == draws)
+		if (is_used(carom_slots[i].usage, carom_pipeline_get(pipeline, "step"), draws))
 			status = append_slot(all, &carom_slots[i], pipeline, error);
 	return status;
 }

@@ -144,10 +144,14 @@ private:
 	{
 		if (rest.points == 0 || count > CONTACTS_MOST)
 			return;
-		int32_t k = count++;
-		for (; k > 0 && found[k - 1].key > rest.key; k--)
-			found[k] = found[k - 1];
-		found[k] = rest;
+		int32_t place = count;
+		while (place > 0 && found[place - 1].key > rest.key)
+			place--;
+		if (place > 0 && found[place - 1].key == rest.key)
+			return; /* two that became neighbours at the same time may have noted each other twice */
+		std::move_backward(found + place, found + count, found + count + 1);
+		found[place] = rest;
+		count++;
 	}
 
 	int32_t write(Points<T> *to, Grips<T> *grips) const

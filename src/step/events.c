@@ -20,8 +20,9 @@
 #define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
 #define GOOD_LISTS 4       /* made in a row that were good to the end: the next may be used a step longer */
 #define MOST_MOVERS 4096
-#define MENDERS 64 /* work-items that look for new neighbours */
-#define SHARE 16   /* slots for one work-item of those that share what is active */
+#define MENDED 1024 /* slots for one group of those that look for new neighbours */
+#define SHARE 16    /* slots for one work-item of those that share what is active, on a CPU, */
+#define SHARE_GPU 4 /* and on a GPU, which has work-items in plenty */
 
 /* Slots that may get another reach while the lists last. Each is looked for among them all, so there are not too many. */
 static uint32_t movers_of(uint32_t capacity)
@@ -37,7 +38,8 @@ static uint64_t extra_of(uint64_t capacity)
 
 int32_t carom_events_share(const carom_world *world)
 {
-	return (int32_t)world->body_count / SHARE + 64;
+	const bool is_gpu = world->device->info.is_opencl && !world->device->info.is_cpu;
+	return (int32_t)world->body_count / (is_gpu ? SHARE_GPU : SHARE) + 64;
 }
 
 int32_t carom_events_movers(const carom_world *world)
@@ -55,9 +57,9 @@ carom_status carom_events_find_neighbours(carom_world *world, carom_error *error
 	carom_events *events = &world->events;
 	const int32_t count = (int32_t)world->body_count, columns = (int32_t)events->columns, rows = (int32_t)events->rows;
 	const int32_t tenths = events->doublings > 0 ? 4 << events->doublings : 1; /* of a radius, that all are taken to get */
-	TRY(carom_run(world, STAGE_PACE, 1, 1, count, tenths, error));
+	TRY(carom_run(world, STAGE_PACE, GROUP_MOST, 1, count, tenths, error));
 	TRY(carom_run(world, STAGE_REACH, count, 1, columns, rows, error));
-	TRY(carom_run(world, STAGE_CELLS, CELL_ROWS(rows), 1, columns, rows, error));
+	TRY(carom_run(world, STAGE_CELLS, GROUP_MOST, CELL_ROWS(rows), columns, rows, error));
 	TRY(carom_run(world, STAGE_SORT, count, 1, 0, 0, error));
 	carom_swap(world, ROLE_SLOTS);
 	carom_swap(world, ROLE_NEED);
@@ -71,7 +73,7 @@ carom_status carom_events_find_neighbours(carom_world *world, carom_error *error
 static carom_status run_rounds(carom_world *world, int32_t count, carom_error *error)
 {
 	const int32_t share = carom_events_share(world);
-	TRY(carom_run(world, STAGE_SEEK, count, 1, world->events.round + 1, 0, error));
+	TRY(carom_run(world, STAGE_SEEK, world->events.sleeps ? (count + SEEK_EACH - 1) / SEEK_EACH : count, 1, world->events.round + 1, count, error));
 	for (uint32_t i = 0; i < world->events.rounds; i++) {
 		const int32_t round = ++world->events.round;
 		TRY(carom_run(world, STAGE_MUSTER, share, 1, round, 0, error));
@@ -86,7 +88,7 @@ carom_status carom_events_resolve(carom_world *world, carom_error *error)
 	const int32_t count = (int32_t)world->body_count;
 	carom_status status;
 	world->events.since++;
-	TRY(carom_run(world, STAGE_MEND, MENDERS, 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
+	TRY(carom_run(world, STAGE_MEND, GROUP_FEW * (count / MENDED + 4), 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
 	TRY(run_rounds(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, count, error));
 	carom_swap(world, ROLE_CLOCK);
@@ -147,7 +149,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	status[STATUS_ROOM] = (int32_t)world->events.room;
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
 	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
-	status[STATUS_NUMBERS] = (int32_t)numbers_of(world->capacity);
+	status[STATUS_NUMBERS] = status[STATUS_ACTIVE] = (int32_t)numbers_of(world->capacity); /* all are to be reset */
 	TRY(send_status(world, status, error));
 	TRY(carom_outlines_send(world, error));
 	TRY(carom_run(world, STAGE_LOAD, (int32_t)world->body_count, 1, 0, 0, error));
@@ -205,6 +207,7 @@ static carom_status adapt(carom_world *world, const int32_t *status, carom_error
 	carom_events *events = &world->events;
 	const int32_t steps = status[STATUS_STEPS], builds = status[STATUS_BUILDS];
 	events->idle = steps > 0 ? 0 : events->idle + 1;
+	events->sleeps = status[STATUS_AHEAD] > 0;
 	adapt_reach(world, status);
 	if (events->idle > MOST_IDLE)
 		return carom_fail(error, CAROM_DEVICE, "'%s' ends no step of events any more", world->device->info.name);

@@ -19,7 +19,7 @@ public:
 	};
 
 	Seek(const Job<T> &job, std::vector<Seed> &room)
-		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), is_large(job.domain[0] >= many_slots), sieve(clusters.ahead),
+		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), is_large(job.domain[3] >= many_slots), sieve(clusters.ahead),
 		  seeds(room)
 	{
 		seeds.clear();
@@ -148,7 +148,7 @@ template <typename T> static void seek(const Job<T> &job)
 	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
 		return;
 	clusters.status[STATUS_BEGUN] = job.domain[2];
-	job.pool.run(job.domain[0], 512, [&](int32_t begin, int32_t end) {
+	job.pool.run(job.domain[3], 512, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<typename Seek<T>::Seed> room;
 		Seek<T>(job, room).run(begin, end);
 	});
