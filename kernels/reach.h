@@ -157,6 +157,28 @@ void member_reset(LIST_OUT(members), int id)
 	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = m[MEMBER_RULED] = 0;
 }
 
+#define CELLS_EACH 4 /* that a work-item takes together */
+
+/* The bodies in such cells, from one of a row on. */
+int cells_count(LIST_IN(row), int from)
+{
+	int sum = 0;
+	for (int k = from; k < from + CELLS_EACH; k++)
+		sum += row[CELL_WIDTH * k + CELL_COUNT];
+	return sum;
+}
+
+/* They get their places from that one on, and are to be counted anew. */
+void cells_place(LIST_OUT(row), int from, int place)
+{
+	for (int k = from; k < from + CELLS_EACH; k++) {
+		__global int *cell = row + CELL_WIDTH * k;
+		cell[CELL_START] = cell[CELL_END] = place;
+		place += cell[CELL_COUNT];
+		cell[CELL_COUNT] = 0;
+	}
+}
+
 /* All that a group wants; what each of its work-items wants becomes what those before it do. To be done by one of them. */
 int group_sum(__local int *wanted)
 {
@@ -270,6 +292,25 @@ void near_write(const near_list *list, int start, int half_end, int end, LIST_OU
 		neighbours[k] = list->found[k - start];
 	for (int k = half_end; k < end; k++)
 		neighbours[k] = list->found[NEAR_MOST - 1 - (k - half_end)];
+}
+
+/* What smaller bodies found beside this one joins its span. */
+void span_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neighbours), LIST_IN(nodes), LIST_OUT(members), int s)
+{
+	int start = spans[SPAN(s, SPAN_START)], middle = spans[SPAN(s, SPAN_HALF)], end = spans[SPAN(s, SPAN_END)], extra = 0;
+	for (int k = members[MEMBER(s, MEMBER_HEAD)]; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
+		extra++;
+	int to = neighbours_take(status, (end - start) + extra);
+	if (to >= 0) {
+		spans[SPAN(s, SPAN_START)] = to;
+		spans[SPAN(s, SPAN_HALF)] = to + (middle - start);
+		for (int k = start; k < end; k++)
+			neighbours[to++] = neighbours[k];
+		for (int k = members[MEMBER(s, MEMBER_HEAD)]; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
+			neighbours[to++] = nodes[NODE_WIDTH * k + NODE_SLOT];
+		spans[SPAN(s, SPAN_END)] = to;
+	}
+	members[MEMBER(s, MEMBER_HEAD)] = -1;
 }
 
 /* How far the body may go in the next step. */

@@ -15,7 +15,7 @@ tool() {
 	done
 }
 
-# ---- The kernels. The programs are put together from the tables of the library, as it does itself.
+# ---- The kernels. The programs are put together from the tables of the library, as it does itself, but those of all steps are one here.
 
 # headers NUMBER: the headers of the first program (of steps) or the second (of pictures)
 headers() {
@@ -24,7 +24,8 @@ headers() {
 
 # The slots in their order, each with its default alternative and whether it is one of pictures.
 slots() {
-	sed -nE 's/^\t\{"([a-z_]+)", .*, "?([A-Za-z0-9_]+)"?, (true|false)\},$/\1 \2 \3/p' src/stage.c | grep -v '^step '
+	sed -nE 's/^\t\{"([a-z_]+)", .*, "?([A-Za-z0-9_]+)"?, (USED_[A-Z_]+)\},$/\1 \2 \3/p' src/stage.c |
+		awk '$1 != "step" { print $1, $2, $3 == "USED_PICTURES" ? "true" : "false" }'
 }
 
 # program FILE: the files of a program with that alternative and beside it the defaults

@@ -4,7 +4,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 {
 	__local int wanted[GROUP_MOST], first[2], awake[SEEK_EACH * GROUP_MOST], pairs[2 * PAIRS_MOST], awake_count, pair_count;
 	int local_id = get_local_id(0), lanes = get_local_size(0), slots_each = (domain.w - 1) / (int)get_global_size(0) + 1;
-	int begin = get_group_id(0) * (slots_each * lanes);
+	int begin = (int)get_group_id(0) * (slots_each * lanes);
 	float length = step_length(TEX(uniforms), TEX(clock));
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	bool begins = length > 0.0f && lists_are_good(status) && !forces_are_wanted(status) && !status[STATUS_UNDER_WAY];

@@ -30,44 +30,32 @@ __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIS
 		atomic_or(&status[STATUS_LEVELS], 1 << level);
 }
 
-#define CELLS_EACH 4 /* that a work-item takes one after the other */
-
 /* A row of cells, and so a group, gets its places together, so that cells beside each other are so in memory. Levels that have no bodies are not looked
  * at. */
 __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 {
 	__local int wanted[GROUP_MOST], first, next;
-	int row = get_global_id(1), lane = get_local_id(0), lanes = get_local_size(0), sum = 0;
+	int row = get_global_id(1), lane = get_local_id(0), lanes = get_local_size(0), begin = CELLS_EACH * lane, sum = 0;
 	bool live = get_group_id(0) == 0 && status[STATUS_LEVELS] & (1 << row_level(domain.w, row));
-	int begin = CELLS_EACH * lane, step = CELLS_EACH * lanes, columns = live ? domain.z : 0;
+	int columns = live ? domain.z : 0;
 	__global int *all = cells + (size_t)CELL_WIDTH * (size_t)(row * domain.z);
-	for (int i = begin; i < columns; i += step)
-		for (int k = i; k < i + CELLS_EACH; k++)
-			sum += all[CELL_WIDTH * k + CELL_COUNT];
+	for (int i = begin; i < columns; i += CELLS_EACH * lanes)
+		sum += cells_count(all, i);
 	wanted[lane] = sum;
 	barrier(CLK_LOCAL_MEM_FENCE);
 	if (lane == 0 && live)
 		next = atomic_add(&status[STATUS_PLACED], group_sum(wanted));
 	barrier(CLK_LOCAL_MEM_FENCE);
-	for (int i = begin; i - begin < columns; i += step) {
-		__global int *cell = all + CELL_WIDTH * i;
-		int end = i < columns ? CELLS_EACH : 0, place;
-		sum = 0;
-		for (int k = 0; k < end; k++)
-			sum += cell[CELL_WIDTH * k + CELL_COUNT];
-		wanted[lane] = sum;
+	for (int i = begin; i - begin < columns; i += CELLS_EACH * lanes) {
+		wanted[lane] = i < columns ? cells_count(all, i) : 0;
 		barrier(CLK_LOCAL_MEM_FENCE);
 		if (lane == 0) {
 			first = next;
 			next += group_sum(wanted);
 		}
 		barrier(CLK_LOCAL_MEM_FENCE);
-		place = first + wanted[lane];
-		for (int k = 0; k < end; k++, cell += CELL_WIDTH) {
-			cell[CELL_START] = cell[CELL_END] = place;
-			place += cell[CELL_COUNT];
-			cell[CELL_COUNT] = 0;
-		}
+		if (i < columns)
+			cells_place(all, i, first + wanted[lane]);
 	}
 }
 
@@ -118,26 +106,11 @@ __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(statu
 		near_write(&list, start, half_end, start + all, neighbours);
 }
 
-/* What smaller bodies found beside this one joins its span. */
 __kernel void neighbours_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neighbours), LIST_IN(nodes), LIST_OUT(members), int4 domain)
 {
-	int s = get_global_id(0), extra = 0;
-	if (s >= domain.x || members[MEMBER(s, MEMBER_HEAD)] < 0)
-		return;
-	int start = spans[SPAN(s, SPAN_START)], middle = spans[SPAN(s, SPAN_HALF)], end = spans[SPAN(s, SPAN_END)];
-	for (int k = members[MEMBER(s, MEMBER_HEAD)]; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
-		extra++;
-	int to = neighbours_take(status, (end - start) + extra);
-	if (to >= 0) {
-		spans[SPAN(s, SPAN_START)] = to;
-		spans[SPAN(s, SPAN_HALF)] = to + (middle - start);
-		for (int k = start; k < end; k++)
-			neighbours[to++] = neighbours[k];
-		for (int k = members[MEMBER(s, MEMBER_HEAD)]; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
-			neighbours[to++] = nodes[NODE_WIDTH * k + NODE_SLOT];
-		spans[SPAN(s, SPAN_END)] = to;
-	}
-	members[MEMBER(s, MEMBER_HEAD)] = -1;
+	int s = get_global_id(0);
+	if (s < domain.x && members[MEMBER(s, MEMBER_HEAD)] >= 0)
+		span_gather(status, spans, neighbours, nodes, members, s);
 }
 
 /* The neighbours of bodies that have got another reach, each by a group. */
@@ -146,6 +119,7 @@ __kernel void neighbours_mend(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells)
 {
 	if (PEEK(status, STATUS_STALE) || status[STATUS_SMALL])
 		return;
-	for (int i = status[STATUS_MENDED] + get_group_id(0); i < status[STATUS_MOVERS]; i += get_num_groups(0))
-		mend_search(reach, status, cells, spans, neighbours, movers, extra, wakes, movers[i], domain.z, domain.w, get_local_id(0), get_local_size(0));
+	int lane = get_local_id(0), lanes = get_local_size(0), group = get_group_id(0), groups = get_num_groups(0);
+	for (int i = status[STATUS_MENDED] + group; i < status[STATUS_MOVERS]; i += groups)
+		mend_search(reach, status, cells, spans, neighbours, movers, extra, wakes, movers[i], domain.z, domain.w, lane, lanes);
 }
