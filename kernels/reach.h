@@ -157,6 +157,17 @@ void member_reset(LIST_OUT(members), int id)
 	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = m[MEMBER_RULED] = 0;
 }
 
+/* What a step that was not done has left of its clusters. */
+void litter_clear(LIST_IN(status), LIST_OUT(members), LIST_OUT(owners), LIST_OUT(parents), int s, int count)
+{
+	if (!status[STATUS_LITTERED])
+		return;
+	owners[s] = -1;
+	parents[s] = s;
+	for (int id = s; id < status[STATUS_LITTERED]; id += count)
+		member_reset(members, id);
+}
+
 #define CELLS_EACH 4 /* that a work-item takes together */
 
 /* The bodies in such cells, from one of a row on. */

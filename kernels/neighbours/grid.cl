@@ -70,12 +70,7 @@ __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST
 		new_slots[SLOT_WIDTH * to + k] = SLOT_LOAD(slots, s, k);
 	reach[to] = reach_box(VERTICES, slots, s, as_float(need[s]), status);
 	new_need[to] = status[STATUS_COMMIT] ? 0 : need[s];
-	if (!status[STATUS_LITTERED])
-		return;
-	owners[to] = -1;
-	parents[to] = to;
-	for (int id = s; id < status[STATUS_LITTERED]; id += domain.x)
-		member_reset(members, id);
+	litter_clear(status, members, owners, parents, s, domain.x);
 }
 
 __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans), LIST_OUT(neighbours),
