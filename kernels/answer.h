@@ -43,12 +43,12 @@ trajectory limited(trajectory k, trajectory start)
 }
 
 /* A party's new trajectory, by the impulse `sign` j and the torque on it, and what is counted of the event. */
-trajectory pushed(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque, bool rapid,
+trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque, bool rapid, bool borne,
 	impact hit)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	int before = members[MEMBER(id, MEMBER_STUCK)], fast = hit.total > 0.0f && !hit.slow ? STUCK_FAST : before & STUCK_FAST;
-	int stuck = rapid && hit.slow ? (before & ~STUCK_FAST) + 1 : 0, most = status[STATUS_BORNE] ? STUCK_BORNE : STUCK_MOST;
+	int stuck = rapid && hit.slow ? (before & ~STUCK_FAST) + 1 : 0, most = borne ? STUCK_BORNE : STUCK_MOST;
 	CHANNEL(k.place, LINEAR_VX) += (sign * CHANNEL(j, IMPULSE_X)) * CHANNEL(mass, MASS_INVERSE);
 	CHANNEL(k.place, LINEAR_VY) += (sign * CHANNEL(j, IMPULSE_Y)) * CHANNEL(mass, MASS_INVERSE);
 	k.velocity += torque * CHANNEL(mass, MASS_INVERSE_INERTIA);
@@ -77,6 +77,12 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 	return !(k.held > 0.0f) && !slot_is_static(slots, s);
 }
 
+/* Would forces bear what lies in the slot, and on the other body or a wall, -1? They do by the step contacts, but not where there are too many. */
+bool is_borne(LIST_IN(status), LIST_IN(touching), int s, int other)
+{
+	return status[STATUS_BORNE] && touching[TOUCH(s, TOUCHING_COUNT)] >= 0 && (other < 0 || touching[TOUCH(other, TOUCHING_COUNT)] >= 0);
+}
+
 rules_of_hit event_rules(float restitution, float friction, bool rapid, int events, bool borne, float weight)
 {
 	rules_of_hit rules;
@@ -100,10 +106,10 @@ rules_of_hit event_rules(float restitution, float friction, bool rapid, int even
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. If a body leaves its reach the step begins again, but
  * goes on as long as it tells what others need, too. */
 void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_OUT(work), LIST_OUT(need), float4 rules, int s, int id, int other_id, float4 next, float length)
+	RECORD_OUT(work), LIST_OUT(need), LIST_IN(touching), float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
-	bool borne = status[STATUS_BORNE];
+	bool borne = is_borne(status, touching, s, other);
 	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
 	float weight = norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
 	float u = CHANNEL(next, NEXT_TIME);
@@ -137,14 +143,14 @@ void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 		members[MEMBER(id, MEMBER_RULED)] += hit.ruled ? 1 : 0;
 	}
 	if (can_change(slots, s, was)) {
-		k = pushed(slots, status, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B),
-			rapid, hit);
+		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), rapid,
+			borne, hit);
 		work_store(work, id, k);
 		stays = way_grow(slots, reach, work, need, s, id, k, length);
 	}
 	if (!wall && can_change(slots, other, other_was)) {
-		o = pushed(slots, status, members, other, other_id, o, j, first ? -1.0f : 1.0f,
-			first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A), other_rapid, hit);
+		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A),
+			other_rapid, borne, hit);
 		work_store(work, other_id, o);
 		stays = way_grow(slots, reach, work, need, other, other_id, o, length) && stays;
 	}

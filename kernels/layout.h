@@ -368,7 +368,7 @@
  * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end;
  * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step.
  * Unless it was in a hit that was not slow, it is no faster then than when the step began: what holds it may not make it faster from step to step.
- * Where forces bear what rests, the next step's impulses stop what a crowd does: there it is one from CROWD_BORNE events on, and parts sooner and faster, slow is
+ * Where forces bear what rests, on bodies that have not too many contacts for them, the next step's impulses stop what a crowd does: there it is one from CROWD_BORNE events on, and parts sooner and faster, slow is
  * what they stop, and STUCK_BORNE events are enough. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8

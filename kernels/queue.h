@@ -194,7 +194,7 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 }
 
 void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), int leader, int round, float length)
+	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), int leader, int round, float length)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	int head = int_load(members, MEMBER(leader, MEMBER_HEAD));
@@ -223,7 +223,8 @@ void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECO
 		}
 		found_with = (float2)(0.0f, -1.0f);
 		if (is_known)
-			answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, rules, active[id], id, other_id, next, length);
+			answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, rules, active[id], id, other_id, next,
+				length);
 		/* both look again, or what was not known is looked for: at one place, for this is most of the program, and of the time of a GPU */
 		for (int m = id, partner = is_known ? other_id : -1; m >= 0; m = m == id ? partner : -1) {
 			look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length, m == id ? partner : id, &found_with);

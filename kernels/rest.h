@@ -2,7 +2,6 @@
 
 #define FOUR(s, four, record) (FOUR_WIDTH * (FOURS_MOST * (s) + (four)) + (record))
 #define GRIP(s, four, record) (GRIP_WIDTH * (FOURS_MOST * (s) + (four)) + (record))
-#define TOUCH(s, field) (TOUCHING_WIDTH * (s) + (field))
 #define WARM(body, k, rub) ((CONTACTS_MOST * (body) + (k)) * WARM_WIDTH(rub))
 #define CONTACTS_ALONE 512 /* bodies for which one group iterates alone */
 

@@ -4,6 +4,7 @@
 #define MEMBER(id, field) (MEMBER_WIDTH * (id) + (field))
 #define SPAN(s, field) (SPAN_WIDTH * (s) + (field))
 #define WAKE(s, field) (WAKE_WIDTH * (s) + (field))
+#define TOUCH(s, field) (TOUCHING_WIDTH * (s) + (field))
 
 /* How a body moves from `time` on. */
 typedef struct trajectory {

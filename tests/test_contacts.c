@@ -298,7 +298,7 @@ static void too_many_on_one_are_events(void **unused)
 		assert_true(runs_step(world, runs_affordable(SETTLED)).held == 0);
 		runs_enough(fabs((double)runs_state(world, 0).position.y - 0.25) < 0.001);
 		for (uint32_t i = 1; i <= BALLS; i++)
-			runs_enough(fabs((double)runs_state(world, i).position.y - 1.0) < 0.0055);
+			runs_enough(fabs((double)runs_state(world, i).position.y - 1.0) < 0.002);
 		runs_near(runs_measure(world).max_penetration, 0.0, 40.0 * (double)SLOP);
 		runs_same_hash(&first, runs_hash(world), device);
 		carom_world_destroy(world);

@@ -62,7 +62,7 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 }
 
 __kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
-	LIST_OUT(need), TEX_IN(friction), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+	LIST_OUT(need), TEX_IN(friction), LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), int4 domain)
 {
 	if (PEEK(status, STATUS_ROUND) < domain.z)
 		return;
@@ -70,7 +70,7 @@ __kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECOR
 	float length = step_length(TEX(uniforms), TEX(clock));
 	for (int id = get_global_id(0); id < seeds; id += get_global_size(0))
 		if (PEEK(members, MEMBER(id, MEMBER_HEAD)) >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
-			cluster_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, id, domain.z, length);
+			cluster_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, id, domain.z, length);
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */

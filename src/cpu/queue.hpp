@@ -26,11 +26,11 @@ struct Tally {
 template <typename T> class Queue
 {
 public:
-	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, int32_t number, int32_t in_round,
-		std::vector<int32_t> &room)
+	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, const int32_t *touching_counts,
+		int32_t number, int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), rubs(friction), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs),
 		  heap(all.members, work_of, room), leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)),
-		  borne(all.status[STATUS_BORNE] > 0)
+		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr)
 	{
 	}
 
@@ -236,6 +236,9 @@ private:
 
 	bool had_enough(int32_t id) const { return members[id].rapid >= RAPID_MOST; }
 
+	/* Not where there are too many contacts for forces. */
+	bool is_borne(int32_t s) const { return touching && touching[TOUCHING_WIDTH * s + TOUCHING_COUNT] >= 0; }
+
 	/* Answers the member's event. */
 	void answer(int32_t id, int32_t other_id)
 	{
@@ -245,7 +248,7 @@ private:
 		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
 		const bool rapid = !pause && is_rapid(id, way, u);
 		bool other_rapid = false;
-		Past<T> past{rapid && had_enough(id), members[id].events, borne};
+		Past<T> past{rapid && had_enough(id), members[id].events, is_borne(s) && (other < 0 || is_borne(other))};
 		clusters.move(slots[s], way, u);
 		Impact hit{};
 		if (other < 0) {
@@ -262,12 +265,12 @@ private:
 			if (!pause)
 				hit = is_row ? pair_impact(s, way, other, other_way, past) : pair_impact(other, other_way, s, way, past);
 			if (other_changes)
-				push(other, other_id, other_way, hit, !is_row, other_rapid);
+				push(other, other_id, other_way, hit, !is_row, other_rapid, past.borne);
 			if (changes)
-				push(s, id, way, hit, is_row, rapid);
+				push(s, id, way, hit, is_row, rapid, past.borne);
 		}
 		if (other < 0 && changes)
-			push(s, id, way, hit, true, rapid);
+			push(s, id, way, hit, true, rapid, past.borne);
 		members[id].hits += hit.total > 0;
 		members[id].ruled += hit.total > 0 && hit.ruled;
 	}
@@ -324,7 +327,7 @@ private:
 		return impact(collision);
 	}
 
-	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row, bool rapid)
+	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row, bool rapid, bool borne)
 	{
 		const T sign = is_row ? T(1) : T(-1);
 		way.place[LINEAR_VX] += (sign * hit.x) * slots[s].mass[MASS_INVERSE];
@@ -385,7 +388,7 @@ private:
 	int32_t *const need;
 	Heap<T> heap;
 	const int32_t leader, round, head;
-	const bool borne; /* by forces: the step contacts */
+	const int32_t *const touching; /* where forces bear what rests: the step contacts */
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };

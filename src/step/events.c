@@ -290,6 +290,7 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_MOVERS, false, movers_of(world->capacity), error));
 	TRY(carom_events_create_list(world, ROLE_WAKE, false, WAKE_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * CELL_ROWS(events->rows), error));
+	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, 1, error)); /* that of contacts is in its place */
 	return carom_events_create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }
 
