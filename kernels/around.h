@@ -42,7 +42,8 @@ typedef struct discs {
 	int4 plain;
 } discs;
 
-INLINE discs discs_of(disc a, disc b, disc c, disc d)
+/* Of the bodies in the slots `others`. */
+INLINE discs discs_of(RECORD_IN(slots), int s, int4 others, disc a, disc b, disc c, disc d)
 {
 	discs all;
 	all.x = (float4)(a.x.x, b.x.x, c.x.x, d.x.x);
@@ -53,24 +54,15 @@ INLINE discs discs_of(disc a, disc b, disc c, disc d)
 	all.ay = (float4)(a.a.y, b.a.y, c.a.y, d.a.y);
 	all.radius = (float4)(a.radius, b.radius, c.radius, d.radius);
 	all.time = (float4)(a.time, b.time, c.time, d.time);
+	all.plain = -(int4)(are_plain(slots, s, others.x), are_plain(slots, s, others.y), are_plain(slots, s, others.z), are_plain(slots, s, others.w));
 	return all;
-}
-
-INLINE int4 plain_with(RECORD_IN(slots), int s, int4 others)
-{
-	return -(int4)(are_plain(slots, s, others.x), are_plain(slots, s, others.y), are_plain(slots, s, others.z), are_plain(slots, s, others.w));
 }
 
 /* As the step begins. */
 INLINE discs discs_at_start(RECORD_IN(slots), int s, int4 others, float length)
 {
-	disc a = disc_of(slots, others.x, SLOT_LOAD(slots, others.x, SLOT_PLACE), 0.0f, false, length);
-	disc b = disc_of(slots, others.y, SLOT_LOAD(slots, others.y, SLOT_PLACE), 0.0f, false, length);
-	disc c = disc_of(slots, others.z, SLOT_LOAD(slots, others.z, SLOT_PLACE), 0.0f, false, length);
-	disc d = disc_of(slots, others.w, SLOT_LOAD(slots, others.w, SLOT_PLACE), 0.0f, false, length);
-	discs all = discs_of(a, b, c, d);
-	all.plain = plain_with(slots, s, others);
-	return all;
+	return discs_of(slots, s, others, disc_at_start(slots, others.x, length), disc_at_start(slots, others.y, length),
+		disc_at_start(slots, others.z, length), disc_at_start(slots, others.w, length));
 }
 
 INLINE float4 magnitudes(float4 x)

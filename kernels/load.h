@@ -307,7 +307,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		}
 	}
 	loads[LOADS_OF(s) + 1 - now] = sums_with(&next, loads[LOADS_OF(s) + LOADS_ALONE]);
-	return (wanted.x | wanted.y | wanted.z | wanted.w) != 0;
+	return is_any(wanted);
 }
 
 void velocities_set(RECORD_OUT(slots), int s, float x, float y, float turning)

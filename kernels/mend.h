@@ -58,7 +58,7 @@ void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spa
 					mend_meet(status, spans, neighbours, extra, wakes, s, other);
 		}
 	}
-	for (int i = lane; i < count; i += 4 * lanes) {
+	for (int i = lane; i < count; i += 4 * lanes) { /* four are read at once */
 		int others[4];
 		float4 boxes[4];
 		for (int k = 0; k < 4; k++)

@@ -33,11 +33,8 @@ INLINE disc disc_seen(RECORD_IN(slots), RECORD_OUT(work), int other, int id, flo
 
 INLINE discs discs_seen(RECORD_IN(slots), RECORD_OUT(work), int s, int4 others, int4 ids, float length)
 {
-	disc a = disc_seen(slots, work, others.x, ids.x, length), b = disc_seen(slots, work, others.y, ids.y, length);
-	disc c = disc_seen(slots, work, others.z, ids.z, length), d = disc_seen(slots, work, others.w, ids.w, length);
-	discs all = discs_of(a, b, c, d);
-	all.plain = plain_with(slots, s, others);
-	return all;
+	return discs_of(slots, s, others, disc_seen(slots, work, others.x, ids.x, length), disc_seen(slots, work, others.y, ids.y, length),
+		disc_seen(slots, work, others.z, ids.z, length), disc_seen(slots, work, others.w, ids.w, length));
 }
 
 /* The first event of a member, by what is known now. For later steps the pair is the member's, or if both were changed the one's for which it is: so

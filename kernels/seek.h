@@ -138,7 +138,7 @@ void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(ow
 	bool pause;
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	trajectory k = trajectory_start(slots, s);
-	disc disc_k = disc_of(slots, s, k.place, 0.0f, false, length);
+	disc disc_k = disc_at_start(slots, s, length);
 	float ahead = steps_ahead(TEX(uniforms), status, length);
 	bool clear = is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
 	float next = clear ? 1.0f + ahead : 1.0f, t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
@@ -156,7 +156,7 @@ void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(ow
 			continue;
 		for (int n = 0; n < 4; n++, close = close.yzwx, wanted = wanted.yzwx, others.slots = others.slots.yzwx) {
 			int other = others.slots.x;
-			if (!(close.x & wanted.x) || stay_apart(disc_k, disc_of(slots, other, SLOT_LOAD(slots, other, SLOT_PLACE), 0.0f, false, length)))
+			if (!(close.x & wanted.x) || stay_apart(disc_k, disc_at_start(slots, other, length)))
 				continue;
 			int pair = atomic_inc(pair_count);
 			if (pair < PAIRS_MOST) {

@@ -101,7 +101,6 @@ trajectory moved(RECORD_IN(slots), int s, trajectory k, float u, float length)
 typedef struct disc {
 	float2 x, v, a; /* step units */
 	float radius, time;
-	float far; /* how large coordinates are */
 } disc;
 
 disc disc_of(RECORD_IN(slots), int s, float4 place_record, float time, bool held, float length)
@@ -114,20 +113,12 @@ disc disc_of(RECORD_IN(slots), int s, float4 place_record, float time, bool held
 	d.a = (float2)((CHANNEL(push, PUSH_X) * unit) * unit, (CHANNEL(push, PUSH_Y) * unit) * unit);
 	d.radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 	d.time = time;
-	d.far = 2.0f * span(d.x);
 	return d;
 }
 
-/* Does the disc, at the step's start, surely stay apart from the body in a slot for so many steps, by the boxes of their ways? Cheap, and right for most. */
-INLINE bool boxes_apart(disc a, RECORD_IN(slots), int other, float length, float steps)
+disc disc_at_start(RECORD_IN(slots), int s, float length)
 {
-	float4 b = SLOT_LOAD(slots, other, SLOT_PLACE), push = SLOT_LOAD(slots, other, SLOT_PUSH);
-	float dx = magnitude(CHANNEL(b, LINEAR_X) - a.x.x), dy = magnitude(CHANNEL(b, LINEAR_Y) - a.x.y);
-	float vx = steps * magnitude(CHANNEL(b, LINEAR_VX) * length - a.v.x), vy = steps * magnitude(CHANNEL(b, LINEAR_VY) * length - a.v.y);
-	float differ = magnitude((CHANNEL(push, PUSH_X) * length) * length - a.a.x) + magnitude((CHANNEL(push, PUSH_Y) * length) * length - a.a.y);
-	float most = (a.radius + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS)) + (steps * steps) * differ;
-	most += (((a.far + most) + (dx + dy)) + ((vx + vy) + steps * span(a.v))) * (8.0f * SLOP);
-	return (dx > most + vx) | (dy > most + vy);
+	return disc_of(slots, s, SLOT_LOAD(slots, s, SLOT_PLACE), 0.0f, false, length);
 }
 
 /* Before which time, counted from the step's beginning, two discs surely have no hit, while nothing changes their ways: in this step and `ahead` steps more.

@@ -92,7 +92,9 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 			fours others = fours_at(neighbours, extra, end, k);
 			int4 ids = (int4)(owners[others.slots.x], owners[others.slots.y], owners[others.slots.z], owners[others.slots.w]);
 			ids = others.live ? ids : (int4)(-1);
-			for (int n = is_any(ids >= (int4)(0)) ? 0 : 4; n < 4; n++, others.slots = others.slots.yzwx, ids = ids.yzwx) {
+			if (!is_any(ids >= (int4)(0)))
+				continue;
+			for (int n = 0; n < 4; n++, others.slots = others.slots.yzwx, ids = ids.yzwx) {
 				int other = others.slots.x, other_id = ids.x;
 				if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
 					continue;

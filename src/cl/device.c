@@ -45,7 +45,7 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 	return CL_SUCCESS;
 }
 
-/* A group for a stage. What is done one after the other, by few work-items that have nothing in common, is done by small ones. */
+/* How large a stage's groups are to be: smaller ones where there are few work-items, or where each goes its own way, which a GPU runs one after the other. */
 static size_t wanted_size(const cl_device *d, carom_stage stage)
 {
 	if (stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES))

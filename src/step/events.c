@@ -20,9 +20,9 @@
 #define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
 #define GOOD_LISTS 4       /* made in a row that were good to the end: the next may be used a step longer */
 #define MOST_MOVERS 4096
-#define MENDED 1024 /* slots for one group of those that look for new neighbours */
-#define SHARE 16    /* slots for one work-item of those that share what is active, on a CPU, */
-#define SHARE_GPU 4 /* and on a GPU, which has work-items in plenty */
+#define MEND_SHARE 1024 /* slots for one group of those that look for new neighbours */
+#define SHARE 16        /* slots for one work-item of those that share what is active, on a CPU, */
+#define SHARE_GPU 4     /* and on a GPU, which has work-items in plenty */
 
 /* Slots that may get another reach while the lists last. Each is looked for among them all, so there are not too many. */
 static uint32_t movers_of(uint32_t capacity)
@@ -88,7 +88,7 @@ carom_status carom_events_resolve(carom_world *world, carom_error *error)
 	const int32_t count = (int32_t)world->body_count;
 	carom_status status;
 	world->events.since++;
-	TRY(carom_run(world, STAGE_MEND, GROUP_FEW * (count / MENDED + 4), 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
+	TRY(carom_run(world, STAGE_MEND, GROUP_FEW * (count / MEND_SHARE + 4), 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
 	TRY(run_rounds(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, count, error));
 	carom_swap(world, ROLE_CLOCK);
