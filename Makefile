@@ -105,7 +105,8 @@ INCLUDES := -Iinclude -Isrc -Ikernels
 C11 := -std=c11 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700
 ALL_CFLAGS = $(C11) $(COMMON) $(WARNINGS) -Wmissing-prototypes -Wstrict-prototypes \
 	$(INCLUDES) $(PACKAGES) $(CPPFLAGS) $(CFLAGS) $(EXACT)
-ALL_CXXFLAGS = -std=c++17 $(COMMON) -fvisibility-inlines-hidden $(WARNINGS) $(INCLUDES) $(PACKAGES) $(CPPFLAGS) $(CXXFLAGS) $(EXACT)
+# (How vectors of numbers are passed is a matter of the library alone.)
+ALL_CXXFLAGS = -std=c++17 $(COMMON) -fvisibility-inlines-hidden $(WARNINGS) -Wno-psabi $(INCLUDES) $(PACKAGES) $(CPPFLAGS) $(CXXFLAGS) $(EXACT)
 # C++ with no CFLAGS: a compiler that links with -Ofast makes the whole process flush denormals.
 LINK = $(CXX) -pthread $(SANITIZERS) $(LDFLAGS)
 

@@ -117,7 +117,7 @@ look_over() {
 define_twice() {
 	for file in src/cpu/*.cpp src/cpu/*/*.cpp; do
 		echo "$file -o $folder/$((number += 1)).o"
-	done | in_parallel "$command" $CXX_FLAGS -flto -O0 -fPIC -w -c
+	done | in_parallel "$command" $CXX_FLAGS -flto -O0 -fPIC -w -Wno-psabi -c
 	"$command" -flto -O0 -shared -Wodr -o "$folder/cpu.so" "$folder"/*.o 2>&1 | grep -E 'Wodr|error' | sort -u
 }
 

@@ -22,14 +22,14 @@ template <typename T> struct Instance;
 template <> struct Instance<float> {
 	static Run<float> run(const Kernel &kernel) { return kernel.run; }
 	static InsideTest<float> inside(const Stage &stage) { return stage.inside; }
-	static FindTransform<float> transform(const Stage &stage) { return stage.transform; }
+	static FindTransforms<float> find_transforms(const Stage &stage) { return stage.find_transforms; }
 	static const Functions<float> &functions(const Stage &stage) { return stage.functions; }
 };
 
 template <> struct Instance<double> {
 	static Run<double> run(const Kernel &kernel) { return kernel.run_double; }
 	static InsideTest<double> inside(const Stage &stage) { return stage.inside_double; }
-	static FindTransform<double> transform(const Stage &stage) { return stage.transform_double; }
+	static FindTransforms<double> find_transforms(const Stage &stage) { return stage.find_transforms_double; }
 	static const Functions<double> &functions(const Stage &stage) { return stage.functions_double; }
 };
 
@@ -41,7 +41,7 @@ template <typename T> struct Device : carom_device {
 	std::atomic<uint64_t> reads{0};
 	Run<T> kernels[STAGE_COUNT] = {};
 	InsideTest<T> inside = nullptr;
-	FindTransform<T> transform = nullptr;
+	FindTransforms<T> find_transforms = nullptr;
 	Functions<T> functions;
 };
 
@@ -204,7 +204,7 @@ template <typename T> static void run_kernel(Device<T> &device, carom_stage stag
 {
 	using Clock = std::chrono::steady_clock;
 	const Clock::time_point start = device.profiled ? Clock::now() : Clock::time_point();
-	device.kernels[stage]({textures, domain, device.pool, device.inside, device.transform, device.functions,
+	device.kernels[stage]({textures, domain, device.pool, device.inside, device.find_transforms, device.functions,
 		device.counted ? &device.reads : nullptr});
 	if (device.profiled) {
 		device.times[stage].seconds += std::chrono::duration<double>(Clock::now() - start).count();
@@ -279,8 +279,8 @@ template <typename T> static void choose(Device<T> &device, const carom_pipeline
 			device.inside = Instance<T>::inside(**stage);
 		if (is_chosen(pipeline, **stage, nullptr))
 			add_functions(device.functions, Instance<T>::functions(**stage));
-		if ((*stage)->transform && is_chosen(pipeline, **stage, nullptr))
-			device.transform = Instance<T>::transform(**stage);
+		if ((*stage)->find_transforms && is_chosen(pipeline, **stage, nullptr))
+			device.find_transforms = Instance<T>::find_transforms(**stage);
 	}
 }
 
@@ -304,7 +304,7 @@ template <typename T> static carom_status check(const Device<T> &device, const c
 	}
 	if (!device.kernels[STAGE_REDUCE] && !device.kernels[STAGE_REDUCE_TILES])
 		return unknown(error, pipeline, "reduce");
-	if (!device.transform)
+	if (!device.find_transforms)
 		return unknown(error, pipeline, "transforms");
 	return device.inside ? CAROM_OK : unknown(error, pipeline, "inside");
 }

@@ -18,6 +18,19 @@ template <> struct LaneType<double> {
 };
 template <typename T> using Lanes = typename LaneType<T>::Lanes;
 
+#if defined(__SSE2__)
+/* Compilers make four instructions of each of these, where the processor has one. */
+[[gnu::always_inline]] inline Lanes<float> larger(const Lanes<float> &a, const Lanes<float> &b)
+{
+	return __builtin_ia32_maxps(b, a);
+}
+
+[[gnu::always_inline]] inline Lanes<float> smaller(const Lanes<float> &a, const Lanes<float> &b)
+{
+	return __builtin_ia32_minps(b, a);
+}
+#endif
+
 /* Of two the lanes i, j, k, l, those of the second from lane_count on. GCC and Clang have no common way to say it. */
 template <int i, int j, int k, int l, typename T> [[gnu::always_inline]] inline void pick(const Lanes<T> &a, const Lanes<T> &b, Lanes<T> &to)
 {
@@ -49,6 +62,29 @@ template <typename T> [[gnu::always_inline]] inline void wrap(Lanes<T> &angle)
 	const auto whole = __builtin_convertvector(turns + (turns < 0 ? -half : half), decltype(turns < 0));
 	const Lanes<T> k = ((turns < most) & (turns > -most)) ? __builtin_convertvector(whole, Lanes<T>) : zero;
 	angle = ((angle - k * T(4 * HALF_PI_1)) - k * T(4 * HALF_PI_2)) - k * T(4 * HALF_PI_3);
+}
+
+/* rotation_of each: cosines and sines. */
+[[gnu::always_inline]] inline void rotations(const Lanes<float> &angle, Lanes<float> &cosine, Lanes<float> &sine)
+{
+	const Lanes<float> zero{}, half = zero + 0.5f, turns = angle * TWO_OVER_PI, most = zero + LARGEST_TURN;
+	const auto whole = __builtin_convertvector(turns + (turns < 0 ? -half : half), decltype(turns < 0));
+	const auto q = ((turns < most) & (turns > -most)) ? whole : decltype(turns < 0){};
+	const Lanes<float> k = __builtin_convertvector(q, Lanes<float>);
+	const Lanes<float> x = ((angle - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3, z = x * x;
+	const Lanes<float> s = x + (x * z) * (SINE_3 + z * (SINE_5 + z * SINE_7));
+	const Lanes<float> c = (1.0f - 0.5f * z) + (z * z) * (COSINE_4 + z * (COSINE_6 + z * COSINE_8));
+	const auto swapped = (q & 1) != 0;
+	cosine = (swapped ? s : c) * __builtin_convertvector(1 - ((q + 1) & 2), Lanes<float>);
+	sine = (swapped ? c : s) * __builtin_convertvector(1 - (q & 2), Lanes<float>);
+}
+
+inline void rotations(const Lanes<double> &angle, Lanes<double> &cosine, Lanes<double> &sine)
+{
+	for (int32_t i = 0; i < lane_count; i++) {
+		const Vec<double> rotation = rotation_of(angle[i]);
+		cosine[i] = rotation.x(), sine[i] = rotation.y();
+	}
 }
 
 /* Corners of a polygon from one on; where there are no more, the last one again. */

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
-#include "cpu/stages.hpp"
+#include <cstring>
+
+#include "cpu/lanes.hpp"
 
 namespace carom::cpu {
 
@@ -115,6 +117,38 @@ template <typename T> struct Stroke {
 	Light<T> fill, outline;
 	T cover[area], inside[area];
 };
+
+/* The four rows of a small stroke side by side. */
+template <typename T> struct BlockType;
+template <> struct BlockType<float> {
+	typedef float Block __attribute__((vector_size(small * small * sizeof(float))));
+};
+template <> struct BlockType<double> {
+	typedef double Block __attribute__((vector_size(small * small * sizeof(double))));
+};
+template <typename T> using Block = typename BlockType<T>::Block;
+
+template <typename T> [[gnu::always_inline]] inline void take_rows(const T *first, Block<T> &block)
+{
+	Lanes<T> rows[small];
+	for (int32_t row = 0; row < small; row++)
+		std::memcpy(&rows[row], first + row * side, sizeof rows[row]);
+#if !defined(__GNUC__) || defined(__clang__) || __GNUC__ >= 12
+	const auto upper = __builtin_shufflevector(rows[0], rows[1], 0, 1, 2, 3, 4, 5, 6, 7);
+	const auto lower = __builtin_shufflevector(rows[2], rows[3], 0, 1, 2, 3, 4, 5, 6, 7);
+	block = __builtin_shufflevector(upper, lower, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#else
+	std::memcpy(&block, rows, sizeof block); /* processors wait until it lies in the cache */
+#endif
+}
+
+template <typename T> [[gnu::always_inline]] inline void put_rows(const Block<T> &block, T *first)
+{
+	Lanes<T> rows[small];
+	std::memcpy(rows, &block, sizeof rows);
+	for (int32_t row = 0; row < small; row++)
+		std::memcpy(first + row * side, &rows[row], sizeof rows[row]);
+}
 
 /* Where in a word the byte lies that is number `c` in memory. */
 constexpr int32_t shift_of(int c)

@@ -2,7 +2,9 @@
 #ifndef CAROM_CPU_SHAPES_HPP
 #define CAROM_CPU_SHAPES_HPP
 
-#include "cpu/stages.hpp"
+#include <cstring>
+
+#include "cpu/lanes.hpp"
 
 namespace carom::cpu {
 
@@ -17,60 +19,85 @@ template <typename T> struct Ink {
 	T fill, outline, width, opacity;
 };
 
-template <typename T> T clamped(T v, T low, T high)
+/* What follows is of numbers, or of lanes of them: without branches. */
+
+template <typename V> V all_of(float number)
+{
+	return V{} + number;
+}
+
+template <typename V> V clamped(V v, V low, V high)
 {
 	return smaller(larger(low, v), high);
 }
 
-template <typename T> T floor_pixel(T v)
+template <typename T> T without_fraction(T v)
 {
-	const T c = clamped(v, T(-FARTHEST), T(FARTHEST)), whole = static_cast<T>(static_cast<int32_t>(c));
+	return static_cast<T>(static_cast<int32_t>(v));
+}
+
+inline Lanes<float> without_fraction(Lanes<float> v)
+{
+	return __builtin_convertvector(__builtin_convertvector(v, decltype(v < v)), Lanes<float>);
+}
+
+inline Lanes<double> without_fraction(Lanes<double> v)
+{
+	return __builtin_convertvector(__builtin_convertvector(v, decltype(v < v)), Lanes<double>);
+}
+
+template <typename V> V floor_pixel(V v)
+{
+	const V c = clamped(v, all_of<V>(-FARTHEST), all_of<V>(FARTHEST)), whole = without_fraction(c);
 	return whole > c ? whole - 1 : whole;
 }
 
-template <typename T> T growth(T breadth)
+template <typename V> V growth(V breadth)
 {
-	return clamped(T(0.5) * (1 - breadth), T(0), T(0.5));
+	return clamped(0.5f * (1 - breadth), V{}, all_of<V>(0.5f));
+}
+
+template <typename V> V size_of(V v)
+{
+	return v < 0 ? -v : v;
 }
 
 /* An interval of pixels; empty where the end is not above the beginning. */
-template <typename T> struct Pixels {
-	T begin, end;
+template <typename V> struct Pixels {
+	V begin, end;
 
-	/* Those that may be touched, within limits; not finite or too far out: none. (Without branches: compilers make vectors of it.) */
-	[[gnu::always_inline]] Pixels(T low, T high, T margin, T least, T most)
+	/* Those that may be touched, within limits; not finite or too far out: none. */
+	Pixels(V low, V high, V margin, V least, V most)
 		: begin(larger(floor_pixel(low - margin), least)), end(smaller(-floor_pixel(-(high + margin)), most))
 	{
-		const bool low_is_near = std::abs(low) < SEEN, high_is_near = std::abs(high) < SEEN, are_near = low_is_near & high_is_near;
+		const auto are_near = (size_of(low) < SEEN) & (size_of(high) < SEEN);
 		end = are_near ? end : begin;
 	}
-
-	bool any() const { return begin < end; }
 };
 
 /* The pixels that may be touched; an empty box for none. */
 template <typename T> PixelBox<T> touched(const Vec<T> &low, const Vec<T> &high, T margin, const PixelBox<T> &clip)
 {
 	const Pixels<T> x(low.x(), high.x(), margin, clip.x0, clip.x1), y(low.y(), high.y(), margin, clip.y0, clip.y1);
-	return x.any() && y.any() ? PixelBox<T>{x.begin, y.begin, x.end, y.end} : PixelBox<T>{};
+	return (x.begin < x.end && y.begin < y.end) ? PixelBox<T>{x.begin, y.begin, x.end, y.end} : PixelBox<T>{};
 }
 
 /* Of a shape of that mean breadth and length: its fill, which is the outline's where that hides it; how broad its outline is; and how opaque it is. */
-template <typename T> T fill_of(T fill, T outline, T breadth, T length)
+template <typename V> V fill_of(V fill, V outline, V breadth, V length)
 {
-	const bool is_line = (breadth < 1) & (T(LEAST_OPACITY) * length >= T(LINE_OPACITY)); /* two outlines and nothing between them */
+	const auto is_line = (breadth < 1) & (LEAST_OPACITY * length >= LINE_OPACITY); /* two outlines and nothing between them */
 	return is_line ? outline : fill;
 }
 
-template <typename T> T outline_of(T line, T breadth)
+template <typename V> V outline_of(V line, V breadth)
 {
-	return clamped(T(0.125) * breadth, T(0), line);
+	return clamped(0.125f * breadth, V{}, line);
 }
 
-template <typename T> T opacity_of(T opacity, T breadth, T length)
+template <typename V> V opacity_of(V opacity, V breadth, V length)
 {
-	const T least = clamped(T(LEAST_OPACITY) * length, T(LEAST_OPACITY), T(LINE_OPACITY));
-	return clamped(opacity, T(0), T(1)) * clamped(breadth, least, T(1));
+	const V least = clamped(LEAST_OPACITY * length, all_of<V>(LEAST_OPACITY), all_of<V>(LINE_OPACITY));
+	return clamped(opacity, V{}, all_of<V>(1)) * clamped(breadth, least, all_of<V>(1));
 }
 
 template <typename T> Ink<T> seen(const Ink<T> &ink, T breadth, T length)
@@ -98,6 +125,20 @@ public:
 		return true;
 	}
 
+	/* The same of records, with its first edge; there are no others. */
+	bool shape(int32_t shape, const T *box, const T *ink, int32_t rest, const T *edge) const
+	{
+		const T parts[] = {static_cast<T>(rest), 1, 0, 0};
+		copy(box, boxes, shape);
+		if (!(box[BOX_X0] < box[BOX_X1]))
+			return false;
+		copy(box, shapes, SHAPES_WIDTH * shape + SHAPE_BOX);
+		copy(ink, shapes, SHAPES_WIDTH * shape + SHAPE_INK);
+		copy(parts, shapes, SHAPES_WIDTH * shape + SHAPE_EDGES);
+		copy(edge, shapes, SHAPES_WIDTH * shape + SHAPE_EDGE);
+		return true;
+	}
+
 	/* Edge k of the shape. */
 	void edge(int32_t shape, int32_t rest, int32_t k, const Vec<T> &slope, T at, T bend) const
 	{
@@ -108,6 +149,8 @@ public:
 	}
 
 private:
+	static void copy(const T *record, const Records<T> &to, int32_t index) { std::memcpy(&to.of(index, 0), record, channel_count * sizeof(T)); }
+
 	const Records<T> boxes, shapes, edges;
 };
 

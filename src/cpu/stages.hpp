@@ -22,9 +22,11 @@ template <typename T> using InsideTest = bool (*)(const Convex<T> &polygon, cons
 
 template <typename T> struct Job;
 
-/* Where a body is. */
-template <typename T> struct Transform {
-	T x, y, angle;
+/* Where some bodies are. */
+template <typename T> struct Transforms {
+	static constexpr int32_t many = 64;
+	int32_t body[many];
+	T x[many], y[many], angle[many];
 };
 
 /* What the step events asks of alternatives, as functions; null where an alternative has none. */
@@ -42,7 +44,8 @@ template <typename T> struct Functions {
 	Impulses<T> (*impulses)(const Collision<T> &collision) = nullptr;
 };
 
-template <typename T> using FindTransform = Transform<T> (*)(const Job<T> &job, int32_t body);
+/* Sets all but the bodies. */
+template <typename T> using FindTransforms = void (*)(const Job<T> &job, Transforms<T> &transforms, int32_t count);
 
 /* One run of a kernel. */
 template <typename T> struct Job {
@@ -50,7 +53,7 @@ template <typename T> struct Job {
 	const int32_t *domain;
 	Pool &pool;
 	InsideTest<T> inside; /* of the chosen alternatives, these two */
-	FindTransform<T> transform;
+	FindTransforms<T> find_transforms;
 	const Functions<T> &functions;
 	std::atomic<uint64_t> *reads; /* of texels; null where they are not counted */
 
@@ -77,8 +80,8 @@ struct Stage {
 	Kernel kernels[8]; /* those without a function are none */
 	InsideTest<float> inside;
 	InsideTest<double> inside_double;
-	FindTransform<float> transform = nullptr;
-	FindTransform<double> transform_double = nullptr;
+	FindTransforms<float> find_transforms = nullptr;
+	FindTransforms<double> find_transforms_double = nullptr;
 	Functions<float> functions = {};
 	Functions<double> functions_double = {};
 };

@@ -2,6 +2,10 @@
 #ifndef CAROM_CPU_VERTICES_HPP
 #define CAROM_CPU_VERTICES_HPP
 
+#include <algorithm>
+#include <cstring>
+
+#include "cpu/lanes.hpp"
 #include "cpu/stages.hpp"
 
 namespace carom::cpu {
@@ -56,27 +60,44 @@ template <typename T> Vec<T> local_vertex(const Accessed<T> &vertices, int32_t f
 	return ordinal % 2 ? Vec<T>(two[VERTICES_X1], two[VERTICES_Y1]) : Vec<T>(two[VERTICES_X0], two[VERTICES_Y0]);
 }
 
+/* Vertices that are placed together, several side by side. */
+template <typename T> struct Batch {
+	static constexpr int32_t many = Transforms<T>::many;
+	Transforms<T> at;
+	T local_x[many], local_y[many]; /* in the body's frame */
+
+	void take(int32_t k, const Sent<T> &sent) { at.body[k] = sent.body, local_x[k] = sent.local.x(), local_y[k] = sent.local.y(); }
+
+	/* The first `count` of them, to the i-th vertex and those after it, which lie in one row. */
+	void place(const Projection<T> &to, const Texels<T> &placed, int32_t i, int32_t count) const
+	{
+		T *const columns[] = {&placed.of(i, PLACED_X), &placed.of(i, PLACED_Y), &placed.of(i, PLACED_CENTER_X), &placed.of(i, PLACED_CENTER_Y)};
+		for (int32_t k = 0; k < count; k += lane_count) {
+			Lanes<T> x, y, angle, lx, ly, cosine, sine;
+			std::memcpy(&x, at.x + k, sizeof x), std::memcpy(&y, at.y + k, sizeof y), std::memcpy(&angle, at.angle + k, sizeof angle);
+			std::memcpy(&lx, local_x + k, sizeof lx), std::memcpy(&ly, local_y + k, sizeof ly);
+			rotations(angle, cosine, sine);
+			const Lanes<T> channels[] = {(cosine * lx - sine * ly) * to.scale, -((sine * lx + cosine * ly) * to.scale),
+				((x - to.left) - to.left_low) * to.scale, ((to.top - y) + to.top_low) * to.scale};
+			for (int32_t c = 0; c < 4; c++)
+				std::memcpy(columns[c] + k, &channels[c], sizeof(T) * static_cast<size_t>(std::min(lane_count, count - k)));
+		}
+	}
+};
+
 /* `receive(i)` gives the i-th vertex as the option has it sent. */
 template <typename T, typename Receive> void place_vertices(const Job<T> &job, const Receive &receive)
 {
 	const Projection<T> to(job.texels(PLACE_VIEW));
 	const Texels<T> placed = job.texels(PLACE_OUTPUT);
 	job.pool.run(job.domain[0], 1024, [&](int32_t begin, int32_t end) {
-		int32_t body = -1;
-		Transform<T> at{};
-		Vec<T> rotation(1, 0);
-		for (int32_t i = begin; i < end; i++) {
-			const Sent<T> sent = receive(i);
-			if (sent.body != body || job.reads) { /* the vertices of a body follow one another */
-				body = sent.body;
-				at = job.transform(job, body);
-				rotation = rotation_of(at.angle);
-			}
-			const Vec<T> v = turn(rotation, sent.local);
-			placed.of(i, PLACED_X) = v.x() * to.scale;
-			placed.of(i, PLACED_Y) = -(v.y() * to.scale);
-			placed.of(i, PLACED_CENTER_X) = ((at.x - to.left) - to.left_low) * to.scale;
-			placed.of(i, PLACED_CENTER_Y) = ((to.top - at.y) + to.top_low) * to.scale;
+		Batch<T> batch{};
+		for (int32_t i = begin, count; i < end; i += count) {
+			count = std::min({Batch<T>::many, end - i, ROW_SIZE - (i & (ROW_SIZE - 1))});
+			for (int32_t k = 0; k < count; k++)
+				batch.take(k, receive(i + k));
+			job.find_transforms(job, batch.at, count);
+			batch.place(to, placed, i, count);
 		}
 	});
 }

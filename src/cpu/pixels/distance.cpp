@@ -55,7 +55,7 @@ public:
 			tile.spread();
 		for (int32_t k = 0; k < waiting; k++) {
 			if (strokes[k].columns == small)
-				blend<small>(tile, strokes[k], small);
+				blend(tile, strokes[k]);
 			else if (strokes[k].columns == half)
 				blend<half>(tile, strokes[k], strokes[k].rows);
 			else
@@ -119,6 +119,21 @@ private:
 			patch.beyond_disc(edge);
 		else
 			patch.beyond_line(edge);
+	}
+
+	/* Of a small stroke: all of its rows at once. */
+	static void blend(Tile<T> &tile, const Stroke<T> &stroke)
+	{
+		Block<T> cover, inside;
+		std::memcpy(&cover, stroke.cover, sizeof cover), std::memcpy(&inside, stroke.inside, sizeof inside);
+		const Block<T> outline = cover - inside;
+		for (int c = 0; c < 3; c++) {
+			T *first = tile.light[c] + stroke.first;
+			Block<T> ground;
+			take_rows(first, ground);
+			ground = ground + stroke.opacity * ((stroke.outline.channels[c] * outline + stroke.fill.channels[c] * inside) - cover * ground);
+			put_rows(ground, first);
+		}
 	}
 
 	template <int32_t columns> static void blend(Tile<T> &tile, const Stroke<T> &stroke, int32_t rows)

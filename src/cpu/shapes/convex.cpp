@@ -1,3 +1,4 @@
+#include "cpu/lanes.hpp"
 #include "cpu/shapes.hpp"
 
 #include <algorithm>
@@ -41,56 +42,100 @@ template <typename T> static void draw_mark(const Scene<T> &scene, int32_t i, in
 	line.write(scene.to, shape, rest, scene.picture);
 }
 
-/* What is seen of some circles. No circle waits for another, so compilers make vectors of them. */
-template <typename T> struct Circles {
-	static constexpr int32_t many = 8;
+/* What the host knows of a body. */
+template <typename T> struct Drawn {
+	int32_t vertex, count, shape, rest;
+	T fill, outline;
+};
 
-	/* To be set: the centres, and from there to the rim; pixels. */
-	T x[many], y[many], rim_x[many], rim_y[many];
-	T middle[many], outline[many]; /* of the ink */
-
-	T radius[many], x0[many], y0[many], x1[many], y1[many], fill[many], width[many], opacity[many];
-	T slope_x[many], slope_y[many], at[many], bend[many];
-
-	/* (Single numbers, for of vectors of two compilers don't make vectors of many.) */
-	void find(const PixelBox<T> &clip, T line)
+/* The same of some that lie in one row. */
+template <typename T> class DrawnRow
+{
+public:
+	DrawnRow(const Texels<T> &draws, int32_t first)
 	{
-#pragma omp simd
-		for (int32_t i = 0; i < many; i++) {
-			radius[i] = std::sqrt(rim_x[i] * rim_x[i] + rim_y[i] * rim_y[i]);
-			const T breadth = ((T(DISC_AREA) * radius[i]) * radius[i]) / larger(2 * radius[i], T(1)), r = radius[i] + growth(breadth);
-			const Pixels<T> columns(x[i] - r, x[i] + r, T(0), clip.x0, clip.x1), rows(y[i] - r, y[i] + r, T(0), clip.y0, clip.y1);
-			const bool any_column = columns.any(), any_row = rows.any(), any = any_column & any_row;
-			x0[i] = any ? columns.begin : 0, x1[i] = any ? columns.end : 0;
-			y0[i] = any ? rows.begin : 0, y1[i] = any ? rows.end : 0;
-			fill[i] = fill_of(middle[i], outline[i], breadth, 2 * radius[i]);
-			width[i] = outline_of(line, breadth);
-			opacity[i] = opacity_of(T(1), breadth, 2 * radius[i]);
-			const T fx = x0[i] + T(0.5), fy = y0[i] + T(0.5), dx = fx - x[i], dy = fy - y[i];
-			const bool is_beside = std::abs(dx) > std::abs(dy);
-			const T center = is_beside ? x[i] : y[i], first = is_beside ? fx : fy, other = is_beside ? dy : dx;
-			const T square = ((center - r) - first) * ((center + r) - first) + other * other;
-			slope_x[i] = dx / r, slope_y[i] = dy / r, at[i] = square / (2 * r), bend[i] = 1 / (2 * r);
-		}
+		for (int32_t c = 0; c < 4; c++)
+			parts[c] = &draws.of(DRAWS_WIDTH * first + DRAW_PARTS, c), ink[c] = &draws.of(DRAWS_WIDTH * first + DRAW_INK, c);
+	}
+
+	Drawn<T> of(int32_t i) const
+	{
+		const auto part = [&](int32_t channel) { return static_cast<int32_t>(parts[channel][DRAWS_WIDTH * i]); };
+		return {part(PARTS_VERTEX), part(PARTS_COUNT), part(PARTS_SHAPE), part(PARTS_EDGE), ink[INK_FILL][DRAWS_WIDTH * i],
+			ink[INK_OUTLINE][DRAWS_WIDTH * i]};
+	}
+
+	/* So many are left of the row. */
+	static int32_t left(int32_t first) { return (ROW_SIZE - (DRAWS_WIDTH * first & (ROW_SIZE - 1))) / DRAWS_WIDTH; }
+
+private:
+	const T *parts[4], *ink[4];
+};
+
+/* What is seen of four circles. No circle waits for another, so they are found side by side. */
+template <typename T> class Circles
+{
+public:
+	Circles(const Scene<T> &scene, const Drawn<T> (&bodies)[lane_count])
+	{
+		const auto placed = [&](int32_t channel) {
+			const auto of = [&](int32_t i) { return scene.placed.of(bodies[i].vertex, channel); };
+			return Lanes<T>{of(0), of(1), of(2), of(3)};
+		};
+		const Lanes<T> x = placed(PLACED_CENTER_X), y = placed(PLACED_CENTER_Y), rim_x = placed(PLACED_X), rim_y = placed(PLACED_Y);
+		const Lanes<T> middle{bodies[0].fill, bodies[1].fill, bodies[2].fill, bodies[3].fill};
+		const Lanes<T> outline{bodies[0].outline, bodies[1].outline, bodies[2].outline, bodies[3].outline};
+		const Lanes<T> zero{}, one = zero + 1, radius = roots(rim_x * rim_x + rim_y * rim_y);
+		const Lanes<T> breadth = ((DISC_AREA * radius) * radius) / larger(Lanes<T>(2 * radius), one), r = radius + growth(breadth);
+		const Pixels<Lanes<T>> columns(x - r, x + r, zero, zero + scene.clip.x0, zero + scene.clip.x1);
+		const Pixels<Lanes<T>> rows(y - r, y + r, zero, zero + scene.clip.y0, zero + scene.clip.y1);
+		const auto any = (columns.begin < columns.end) & (rows.begin < rows.end);
+		const Lanes<T> x0 = any ? columns.begin : zero, x1 = any ? columns.end : zero, y0 = any ? rows.begin : zero, y1 = any ? rows.end : zero;
+		const Lanes<T> fx = x0 + T(0.5), fy = y0 + T(0.5), dx = fx - x, dy = fy - y;
+		const auto is_beside = size_of(dx) > size_of(dy);
+		const Lanes<T> center = is_beside ? x : y, first = is_beside ? fx : fy, other = is_beside ? dy : dx;
+		const Lanes<T> square = ((center - r) - first) * ((center + r) - first) + other * other;
+		keep(x0, y0, x1, y1, box);
+		keep(fill_of<Lanes<T>>(middle, outline, breadth, 2 * radius), outline, outline_of<Lanes<T>>(zero + scene.line, breadth),
+			opacity_of<Lanes<T>>(one, breadth, 2 * radius), ink);
+		keep(dx / r, dy / r, square / (2 * r), 1 / (2 * r), edge);
+		keep(x, y, rim_x, rim_y, place);
 	}
 
 	/* Circle i as that shape, and its radius line, where circles have them, as the next. */
 	void write(int32_t i, const Scene<T> &scene, int32_t shape, int32_t rest) const
 	{
-		const PixelBox<T> box{x0[i], y0[i], x1[i], y1[i]};
-		const bool is_seen = scene.to.shape(shape, box, {fill[i], outline[i], width[i], opacity[i]}, rest, 1);
-		if (is_seen)
-			scene.to.edge(shape, rest, 0, {slope_x[i], slope_y[i]}, at[i], bend[i]);
+		const bool is_seen = scene.to.shape(shape, box[i], ink[i], rest, edge[i]);
 		if (!scene.has_lines)
 			return;
-		if (!is_seen || !(radius[i] >= SHOW_ANGLE)) {
+		const Vec<T> at(place[i][0], place[i][1]), rim(place[i][2], place[i][3]);
+		const T radius = norm(rim);
+		if (!is_seen || !(radius >= SHOW_ANGLE)) {
 			scene.to.hide(shape + 1);
 			return;
 		}
-		const Vec<T> along(rim_x[i] / radius[i], rim_y[i] / radius[i]);
-		const Line<T> line{{x[i], y[i]}, along, radius[i] - T(0.5) * scene.line, scene.line, outline[i], (radius[i] - SHOW_ANGLE) * (1 / SHOW_ANGLE)};
+		const Line<T> line{at, {rim.x() / radius, rim.y() / radius}, radius - T(0.5) * scene.line, scene.line, ink[i][INK_OUTLINE],
+			(radius - SHOW_ANGLE) * (1 / SHOW_ANGLE)};
 		line.write(scene.to, shape + 1, rest, scene.clip);
 	}
+
+private:
+	static Lanes<T> roots(Lanes<T> squares)
+	{
+		for (int32_t i = 0; i < lane_count; i++)
+			squares[i] = std::sqrt(squares[i]);
+		return squares;
+	}
+
+	static void keep(const Lanes<T> &first, const Lanes<T> &second, const Lanes<T> &third, const Lanes<T> &fourth,
+		T (&records)[lane_count][channel_count])
+	{
+		Lanes<T> rows[lane_count] = {first, second, third, fourth};
+		transpose<T>(rows);
+		std::memcpy(records, rows, sizeof rows);
+	}
+
+	T box[lane_count][channel_count], ink[lane_count][channel_count], edge[lane_count][channel_count], place[lane_count][channel_count];
 };
 
 /* (Single numbers: where compilers copy vectors as words that were written by halves, processors wait.) */
@@ -140,42 +185,22 @@ template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t ve
 	}
 }
 
-/* What the host knows of a body. */
-template <typename T> struct Drawn {
-	int32_t vertex, count, shape, rest;
-	Ink<T> ink;
-
-	Drawn(const Scene<T> &scene, int32_t k)
-		: vertex(part(scene, k, PARTS_VERTEX)), count(part(scene, k, PARTS_COUNT)), shape(part(scene, k, PARTS_SHAPE)),
-		  rest(part(scene, k, PARTS_EDGE)), ink{scene.draws.of(DRAWS_WIDTH * k + DRAW_INK, INK_FILL),
-												scene.draws.of(DRAWS_WIDTH * k + DRAW_INK, INK_OUTLINE), scene.line, 1}
-	{
-	}
-
-private:
-	static int32_t part(const Scene<T> &scene, int32_t k, int32_t channel)
-	{
-		return static_cast<int32_t>(scene.draws.of(DRAWS_WIDTH * k + DRAW_PARTS, channel));
-	}
-};
-
-/* Bodies from k on, as many as Circles has room for or fewer. */
+/* Bodies of one row, from k on. */
 template <typename T> static void draw_bodies(const Scene<T> &scene, int32_t k, int32_t count, int32_t shape, int32_t rest)
 {
-	Circles<T> circles;
-	for (int32_t i = 0; i < Circles<T>::many; i++) {
-		const Drawn<T> body(scene, k + std::min(i, count - 1));
-		const Vec<T> c = scene.center(body.vertex), to_rim = scene.offset(body.vertex);
-		circles.x[i] = c.x(), circles.y[i] = c.y(), circles.rim_x[i] = to_rim.x(), circles.rim_y[i] = to_rim.y();
-		circles.middle[i] = body.ink.fill, circles.outline[i] = body.ink.outline;
-	}
-	circles.find(scene.clip, scene.line);
-	for (int32_t i = 0; i < count; i++) {
-		const Drawn<T> body(scene, k + i);
-		if (body.count == 1)
-			circles.write(i, scene, shape + body.shape, rest + body.rest);
-		else
-			draw_polygon(scene, body.vertex, body.count, shape + body.shape, rest + body.rest, body.ink);
+	const DrawnRow<T> row(scene.draws, k);
+	for (int32_t first = 0; first < count; first += lane_count) {
+		Drawn<T> bodies[lane_count];
+		for (int32_t i = 0; i < lane_count; i++)
+			bodies[i] = row.of(std::min(first + i, count - 1));
+		const Circles<T> circles(scene, bodies);
+		for (int32_t i = 0; i < std::min(lane_count, count - first); i++) {
+			const Drawn<T> &body = bodies[i];
+			if (body.count == 1)
+				circles.write(i, scene, shape + body.shape, rest + body.rest);
+			else
+				draw_polygon(scene, body.vertex, body.count, shape + body.shape, rest + body.rest, {body.fill, body.outline, scene.line, 1});
+		}
 	}
 }
 
@@ -189,8 +214,10 @@ template <typename T> static void convex(const Job<T> &job)
 	job.pool.run(job.domain[0], 512, [&](int32_t begin, int32_t end) {
 		for (int32_t i = begin; i < std::min(end, marks); i++)
 			draw_mark(scene, i, shape + i, rest + LINE_REST * i);
-		for (int32_t i = std::max(begin, marks); i < end; i += Circles<T>::many)
-			draw_bodies(scene, i - marks, std::min(end - i, Circles<T>::many), shape + marks, rest + LINE_REST * marks);
+		for (int32_t i = std::max(begin, marks), count; i < end; i += count) {
+			count = std::min(end - i, DrawnRow<T>::left(i - marks));
+			draw_bodies(scene, i - marks, count, shape + marks, rest + LINE_REST * marks);
+		}
 	});
 }
 
