@@ -35,7 +35,8 @@ private:
 		if (slot.is_static())
 			return;
 		mover.move(slot, way, T(1));
-		std::memcpy(slot.place, way.place, sizeof way.place);
+		for (int32_t k = 0; k < 4; k++) /* one by one, as they were written: a copy of all would wait until they lie in the cache */
+			slot.place[k] = way.place[k];
 		slot.turn[TURN_ANGLE] = way.angle;
 		slot.turn[TURN_VELOCITY] = way.velocity;
 		keeper.keep(s);
