@@ -70,8 +70,8 @@ template <typename V> struct Pixels {
 	Pixels(V low, V high, V margin, V least, V most)
 		: begin(larger(floor_pixel(low - margin), least)), end(smaller(-floor_pixel(-(high + margin)), most))
 	{
-		const auto are_near = (size_of(low) < SEEN) & (size_of(high) < SEEN);
-		end = are_near ? end : begin;
+		const auto low_is_near = size_of(low) < SEEN, high_is_near = size_of(high) < SEEN;
+		end = (low_is_near & high_is_near) ? end : begin;
 	}
 };
 
@@ -85,8 +85,8 @@ template <typename T> PixelBox<T> touched(const Vec<T> &low, const Vec<T> &high,
 /* Of a shape of that mean breadth and length: its fill, which is the outline's where that hides it; how broad its outline is; and how opaque it is. */
 template <typename V> V fill_of(V fill, V outline, V breadth, V length)
 {
-	const auto is_line = (breadth < 1) & (LEAST_OPACITY * length >= LINE_OPACITY); /* two outlines and nothing between them */
-	return is_line ? outline : fill;
+	const auto is_thin = breadth < 1, is_long = LEAST_OPACITY * length >= LINE_OPACITY;
+	return (is_thin & is_long) ? outline : fill; /* a line: two outlines and nothing between them */
 }
 
 template <typename V> V outline_of(V line, V breadth)
