@@ -2,6 +2,9 @@
 #include "cpu/response.hpp"
 #include "cpu/rests.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace carom::cpu {
 
 constexpr int32_t chunk = 64; /* slots */
@@ -49,6 +52,18 @@ template <typename T> static void begin(const Job<T> &job)
 	status[STATUS_PASS]++;
 }
 
+/* The slots with contacts as they lie in space, so that most of a thread's neighbours are its own. */
+static void sort_touching(Touching *touching, int32_t count)
+{
+	static thread_local std::vector<int32_t> all;
+	all.clear();
+	for (int32_t k = 0; k < count; k++)
+		all.push_back(touching[k].slot);
+	std::sort(all.begin(), all.end());
+	for (int32_t k = 0; k < count; k++)
+		touching[k].slot = all[static_cast<size_t>(k)];
+}
+
 template <typename T> static void find(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 14);
@@ -70,6 +85,7 @@ template <typename T> static void find(const Job<T> &job)
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
 	});
+	sort_touching(touching, status[STATUS_TOUCHING]);
 }
 
 /* A bound of what all points do together, each as if it alone gave way by 1. */
