@@ -55,21 +55,31 @@ template <typename T> [[gnu::always_inline]] inline void transpose(Lanes<T> (&ro
 	pick<2, 3, 6, 7, T>(high[0], high[1], rows[3]);
 }
 
+/* Of a number, or of each. */
+template <typename V> [[gnu::always_inline]] inline V magnitude(const V &v)
+{
+	return v < 0 ? -v : v;
+}
+
+/* nearest of each. */
+template <typename T> [[gnu::always_inline]] inline auto nearest_of(const Lanes<T> &x)
+{
+	const Lanes<T> zero{}, half = zero + T(0.5), most = zero + T(LARGEST_TURN);
+	const auto whole = __builtin_convertvector(x + (x < 0 ? -half : half), decltype(x < 0));
+	return ((x < most) & (x > -most)) ? whole : decltype(x < 0){};
+}
+
 /* wrapped of each. */
 template <typename T> [[gnu::always_inline]] inline void wrap(Lanes<T> &angle)
 {
-	const Lanes<T> zero{}, half = zero + T(0.5), turns = angle * T(0.25f * TWO_OVER_PI), most = zero + T(LARGEST_TURN);
-	const auto whole = __builtin_convertvector(turns + (turns < 0 ? -half : half), decltype(turns < 0));
-	const Lanes<T> k = ((turns < most) & (turns > -most)) ? __builtin_convertvector(whole, Lanes<T>) : zero;
+	const Lanes<T> k = __builtin_convertvector(nearest_of<T>(angle * T(0.25f * TWO_OVER_PI)), Lanes<T>);
 	angle = ((angle - k * T(4 * HALF_PI_1)) - k * T(4 * HALF_PI_2)) - k * T(4 * HALF_PI_3);
 }
 
 /* rotation_of each: cosines and sines. */
 [[gnu::always_inline]] inline void rotations(const Lanes<float> &angle, Lanes<float> &cosine, Lanes<float> &sine)
 {
-	const Lanes<float> zero{}, half = zero + 0.5f, turns = angle * TWO_OVER_PI, most = zero + LARGEST_TURN;
-	const auto whole = __builtin_convertvector(turns + (turns < 0 ? -half : half), decltype(turns < 0));
-	const auto q = ((turns < most) & (turns > -most)) ? whole : decltype(turns < 0){};
+	const auto q = nearest_of<float>(angle * TWO_OVER_PI);
 	const Lanes<float> k = __builtin_convertvector(q, Lanes<float>);
 	const Lanes<float> x = ((angle - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3, z = x * x;
 	const Lanes<float> s = x + (x * z) * (SINE_3 + z * (SINE_5 + z * SINE_7));

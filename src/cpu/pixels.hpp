@@ -3,7 +3,6 @@
 #define CAROM_CPU_PIXELS_HPP
 
 #include <algorithm>
-
 #include <cstring>
 
 #include "cpu/lanes.hpp"

@@ -195,7 +195,7 @@ public:
 		Lanes<T> speed;
 		for (int32_t i = 0; i < lane_count; i++)
 			speed[i] = std::sqrt(squares[i]);
-		const Lanes<T> push_x = push[PUSH_X] < 0 ? -push[PUSH_X] : push[PUSH_X], push_y = push[PUSH_Y] < 0 ? -push[PUSH_Y] : push[PUSH_Y];
+		const Lanes<T> push_x = magnitude(push[PUSH_X]), push_y = magnitude(push[PUSH_Y]);
 		const Lanes<T> far = T(speed_margin) * ((speed + (push_x + push_y) * step) * step), way = (far < common ? zero + common : far) + radius;
 		which = (place[LINEAR_X] - way < box[0]) | (place[LINEAR_Y] - way < box[1]) | (place[LINEAR_X] + way > box[2])
 			| (place[LINEAR_Y] + way > box[3]);

@@ -57,11 +57,6 @@ template <typename V> V growth(V breadth)
 	return clamped(0.5f * (1 - breadth), V{}, all_of<V>(0.5f));
 }
 
-template <typename V> V size_of(V v)
-{
-	return v < 0 ? -v : v;
-}
-
 /* An interval of pixels; empty where the end is not above the beginning. */
 template <typename V> struct Pixels {
 	V begin, end;
@@ -70,7 +65,7 @@ template <typename V> struct Pixels {
 	Pixels(V low, V high, V margin, V least, V most)
 		: begin(larger(floor_pixel(low - margin), least)), end(smaller(-floor_pixel(-(high + margin)), most))
 	{
-		const auto low_is_near = size_of(low) < SEEN, high_is_near = size_of(high) < SEEN;
+		const auto low_is_near = magnitude(low) < SEEN, high_is_near = magnitude(high) < SEEN;
 		end = (low_is_near & high_is_near) ? end : begin;
 	}
 };

@@ -209,9 +209,9 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 	Lanes<T> rate;
 	find_rates<T>(-points.normal_y, points.normal_x, grips.arm, grips.other_arm, load, others, rate);
 	const Lanes<T> pushed = grips.start - rate * grips.step;
-	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = held < 0 ? -held : held;
+	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = magnitude(held);
 	const Lanes<T> left = size < most ? rate : allowed - most;
-	wanted |= (left < 0 ? -left : left) > (size < most ? T(GRIP_CREEP) * points.tolerance : (T(GRIP_SLIDE) * points.tolerance) * grips.step);
+	wanted |= magnitude(left) > (size < most ? T(GRIP_CREEP) * points.tolerance : (T(GRIP_SLIDE) * points.tolerance) * grips.step);
 	grips.bound = most;
 	grips.start = held + beta * (held - grips.force);
 	grips.force = held;
@@ -236,7 +236,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
 		rate += points.least;
 		const Lanes<T> pushed = points.start - rate * points.step, force = zero > pushed ? zero : pushed;
-		wanted |= (force > 0 ? (rate < 0 ? -rate : rate) : -rate) > points.tolerance;
+		wanted |= (force > 0 ? magnitude(rate) : -rate) > points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
 		next.add(slot, points, points.start);

@@ -92,7 +92,7 @@ public:
 		const auto any = (columns.begin < columns.end) & (rows.begin < rows.end);
 		const Lanes<T> x0 = any ? columns.begin : zero, x1 = any ? columns.end : zero, y0 = any ? rows.begin : zero, y1 = any ? rows.end : zero;
 		const Lanes<T> fx = x0 + T(0.5), fy = y0 + T(0.5), dx = fx - x, dy = fy - y;
-		const auto is_beside = size_of(dx) > size_of(dy);
+		const auto is_beside = magnitude(dx) > magnitude(dy);
 		const Lanes<T> center = is_beside ? x : y, first = is_beside ? fx : fy, other = is_beside ? dy : dx;
 		const Lanes<T> square = ((center - r) - first) * ((center + r) - first) + other * other;
 		keep(x0, y0, x1, y1, box);
