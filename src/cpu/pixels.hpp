@@ -11,18 +11,18 @@ namespace carom::cpu {
 
 constexpr int32_t side = PIXEL_TILE, half = side / 2, small = 4, area = side * side;
 
+typedef int32_t Whole __attribute__((vector_size(lane_count * sizeof(int32_t))));
+
 /* Colours as squares: light adds up nearly as the squares of sRGB values do. */
 template <typename T> struct Light {
-	T channels[3];
+	Lanes<T> channels;
 
 	Light() = default;
 	explicit Light(T color)
 	{
-		const int32_t rgb = static_cast<int32_t>(color);
-		for (int c = 0; c < 3; c++) {
-			const T level = static_cast<T>(rgb >> (16 - 8 * c) & 255);
-			channels[c] = level * level;
-		}
+		const Whole parts = (Whole{} + static_cast<int32_t>(color)) & Whole{0xff0000, 0xff00, 0xff, 0};
+		const Lanes<T> level = __builtin_convertvector(parts, Lanes<T>) * Lanes<T>{1 / T(0x10000), 1 / T(0x100), 1, 0};
+		channels = level * level;
 	}
 };
 
@@ -30,13 +30,13 @@ template <typename T> struct Light {
 template <typename T> struct Tile {
 	T x, y; /* of the first pixel */
 	bool plain;
-	T light[3][area];
+	alignas(64) T light[3][area];
 
 	void fill(const Light<T> &all)
 	{
 		plain = true;
 		for (int c = 0; c < 3; c++)
-			std::fill(light[c], light[c] + side, all.channels[c]);
+			spread(all.channels[c], light[c], side);
 	}
 
 	/* Before a part of it changes. */
@@ -46,7 +46,15 @@ template <typename T> struct Tile {
 			return;
 		plain = false;
 		for (T *channel : light)
-			std::fill(channel + side, channel + area, channel[0]);
+			spread(channel[0], channel + side, area - side);
+	}
+
+private:
+	static void spread(T level, T *to, int32_t count)
+	{
+#pragma omp simd
+		for (int32_t i = 0; i < count; i++)
+			to[i] = level;
 	}
 };
 
@@ -57,7 +65,7 @@ template <typename T> struct Edge {
 /* Some pixels of a tile, so many that compilers make vectors of them: counted from the first pixel of a shape's box. */
 template <typename T, int32_t columns, int32_t rows> struct Patch {
 	static constexpr int32_t count = columns * rows;
-	T x[count], y[count], far[count];
+	alignas(64) T x[count], y[count], far[count];
 
 	void begin(T from_x, T from_y)
 	{
@@ -114,40 +122,8 @@ template <typename T> struct Stroke {
 	int32_t columns, rows, first; /* the first pixel */
 	T opacity;
 	Light<T> fill, outline;
-	T cover[area], inside[area];
+	alignas(64) T cover[area], inside[area];
 };
-
-/* The four rows of a small stroke side by side. */
-template <typename T> struct BlockType;
-template <> struct BlockType<float> {
-	typedef float Block __attribute__((vector_size(small * small * sizeof(float))));
-};
-template <> struct BlockType<double> {
-	typedef double Block __attribute__((vector_size(small * small * sizeof(double))));
-};
-template <typename T> using Block = typename BlockType<T>::Block;
-
-template <typename T> [[gnu::always_inline]] inline void take_rows(const T *first, Block<T> &block)
-{
-	Lanes<T> rows[small];
-	for (int32_t row = 0; row < small; row++)
-		std::memcpy(&rows[row], first + row * side, sizeof rows[row]);
-#if !defined(__GNUC__) || defined(__clang__) || __GNUC__ >= 12
-	const auto upper = __builtin_shufflevector(rows[0], rows[1], 0, 1, 2, 3, 4, 5, 6, 7);
-	const auto lower = __builtin_shufflevector(rows[2], rows[3], 0, 1, 2, 3, 4, 5, 6, 7);
-	block = __builtin_shufflevector(upper, lower, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-#else
-	std::memcpy(&block, rows, sizeof block); /* processors wait until it lies in the cache */
-#endif
-}
-
-template <typename T> [[gnu::always_inline]] inline void put_rows(const Block<T> &block, T *first)
-{
-	Lanes<T> rows[small];
-	std::memcpy(rows, &block, sizeof rows);
-	for (int32_t row = 0; row < small; row++)
-		std::memcpy(first + row * side, &rows[row], sizeof rows[row]);
-}
 
 /* Where in a word the byte lies that is number `c` in memory. */
 constexpr int32_t shift_of(int c)

@@ -9,21 +9,20 @@ enum : int { FROM_SHAPES, FROM_EDGES, FROM_FRAME, FROM_ENDS, FROM_LIST, LIGHT, T
 
 /* A shape as a tile sees it. */
 template <typename T> struct Seen {
-	int32_t shape;
-	T x0, y0, x1, y1, width, opacity;
-	int32_t rest, count, top, bottom; /* edges; rows of the tile, from `top` to `bottom` - 1 */
-	T fill, outline;
+	const T *numbers; /* its records */
+	Lanes<T> box, from_tile;
+	Whole cut;     /* columns and rows of the tile, as the box has them */
+	int32_t count; /* edges */
 
-	Seen(const Records<T> &shapes, int32_t number, const Tile<T> &tile)
-		: shape(number), x0(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_X0)), y0(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_Y0)),
-		  x1(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_X1)), y1(shapes.of(SHAPES_WIDTH * shape + SHAPE_BOX, BOX_Y1)),
-		  width(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_WIDTH)), opacity(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_OPACITY)),
-		  rest(static_cast<int32_t>(shapes.of(SHAPES_WIDTH * shape + SHAPE_EDGES, EDGES_REST))),
-		  count(static_cast<int32_t>(shapes.of(SHAPES_WIDTH * shape + SHAPE_EDGES, EDGES_COUNT))),
-		  top(static_cast<int32_t>(larger(y0 - tile.y, T(0)))), bottom(static_cast<int32_t>(smaller(y1 - tile.y, T(side)))),
-		  fill(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_FILL)), outline(shapes.of(SHAPES_WIDTH * shape + SHAPE_INK, INK_OUTLINE))
+	Seen(const T *records, const Tile<T> &tile) : numbers(records), count(static_cast<int32_t>(of(SHAPE_EDGES, EDGES_COUNT)))
 	{
+		const Lanes<T> zero{};
+		std::memcpy(&box, numbers + channel_count * SHAPE_BOX, sizeof box);
+		from_tile = box - Lanes<T>{tile.x, tile.y, tile.x, tile.y};
+		cut = __builtin_convertvector(smaller(larger(from_tile, zero), zero + T(side)), Whole);
 	}
+
+	T of(int32_t part, int32_t channel) const { return numbers[channel_count * part + channel]; }
 };
 
 template <typename T> class Painter
@@ -34,19 +33,18 @@ public:
 	/* In the end of a tile `finish` must be called. */
 	void draw(Tile<T> &tile, int32_t shape)
 	{
-		const Seen<T> seen(shapes, shape, tile);
-		const int32_t left = static_cast<int32_t>(larger(seen.x0 - tile.x, T(0)));
-		const int32_t right = static_cast<int32_t>(smaller(seen.x1 - tile.x, T(side)));
+		const Seen<T> seen(&shapes.of(SHAPES_WIDTH * shape, 0), tile);
+		const int32_t left = seen.cut[BOX_X0], top = seen.cut[BOX_Y0], width = seen.cut[BOX_X1] - left, height = seen.cut[BOX_Y1] - top;
 		if (seen.count == 0 || waiting == batch)
 			finish(tile);
 		if (seen.count == 0)
-			cover(tile, seen, left, right);
-		else if (right - left <= small && seen.bottom - seen.top <= small)
-			begin<small, small>(tile, seen, std::min(left, side - small), std::min(seen.top, side - small), small);
-		else if (right - left <= half)
-			begin<half, 1>(tile, seen, std::min(left, half), seen.top, seen.bottom - seen.top);
+			cover(tile, seen);
+		else if (width <= small && height <= small)
+			begin<small, small>(seen, std::min(left, side - small), std::min(top, side - small), small);
+		else if (width <= half)
+			begin<half, 1>(seen, std::min(left, half), top, height);
 		else
-			begin<side, 1>(tile, seen, 0, seen.top, seen.bottom - seen.top);
+			begin<side, 1>(seen, 0, top, height);
 	}
 
 	void finish(Tile<T> &tile)
@@ -55,7 +53,7 @@ public:
 			tile.spread();
 		for (int32_t k = 0; k < waiting; k++) {
 			if (strokes[k].columns == small)
-				blend(tile, strokes[k]);
+				blend<small>(tile, strokes[k], small);
 			else if (strokes[k].columns == half)
 				blend<half>(tile, strokes[k], strokes[k].rows);
 			else
@@ -77,63 +75,52 @@ private:
 	static constexpr int32_t near_ahead = 10, far_ahead = 20;
 
 	/* A shape without edges is its box, opaque. */
-	static void cover(Tile<T> &tile, const Seen<T> &seen, int32_t left, int32_t right)
+	static void cover(Tile<T> &tile, const Seen<T> &seen)
 	{
-		if ((right - left) * (seen.bottom - seen.top) == area) {
-			tile.fill(Light<T>(seen.fill));
+		const Light<T> fill(seen.of(SHAPE_INK, INK_FILL));
+		const Whole cut = seen.cut;
+		if ((cut[BOX_X1] - cut[BOX_X0]) * (cut[BOX_Y1] - cut[BOX_Y0]) == area) {
+			tile.fill(fill);
 			return;
 		}
-		const Light<T> fill(seen.fill);
 		tile.spread();
 		for (int c = 0; c < 3; c++)
-			for (int32_t row = seen.top; row < seen.bottom; row++)
-				std::fill(tile.light[c] + row * side + left, tile.light[c] + row * side + right, fill.channels[c]);
+			for (int32_t row = cut[BOX_Y0]; row < cut[BOX_Y1]; row++)
+				std::fill(tile.light[c] + row * side + cut[BOX_X0], tile.light[c] + row * side + cut[BOX_X1], fill.channels[c]);
 	}
 
 	/* Measures pixels from column `left` and row `top` of the tile on, `height` rows of them. */
-	template <int32_t columns, int32_t rows> void begin(const Tile<T> &tile, const Seen<T> &seen, int32_t left, int32_t top, int32_t height)
+	template <int32_t columns, int32_t rows> void begin(const Seen<T> &seen, int32_t left, int32_t top, int32_t height)
 	{
 		Stroke<T> &stroke = strokes[waiting++];
 		Patch<T, columns, rows> patch;
 		stroke.columns = columns;
 		stroke.rows = height;
 		stroke.first = top * side + left;
-		stroke.opacity = seen.opacity;
-		stroke.fill = Light<T>(seen.fill);
-		stroke.outline = Light<T>(seen.outline);
+		stroke.opacity = seen.of(SHAPE_INK, INK_OPACITY);
+		stroke.fill = Light<T>(seen.of(SHAPE_INK, INK_FILL));
+		stroke.outline = Light<T>(seen.of(SHAPE_INK, INK_OUTLINE));
 		for (int32_t row = 0; row < height; row += rows) {
-			patch.begin((tile.x - seen.x0) + static_cast<T>(left), (tile.y - seen.y0) + static_cast<T>(top + row));
-			measure(patch, shapes, SHAPES_WIDTH * seen.shape + SHAPE_EDGE);
-			for (int32_t k = seen.rest; k < seen.rest + seen.count - 1; k++)
-				measure(patch, edges, k);
-			patch.mask(seen.x1 - seen.x0, seen.y1 - seen.y0);
+			patch.begin(static_cast<T>(left) - seen.from_tile[BOX_X0], static_cast<T>(top + row) - seen.from_tile[BOX_Y0]);
+			measure(patch, seen.numbers + channel_count * SHAPE_EDGE);
+			if (seen.count > 1) {
+				const T *rest = &edges.of(static_cast<int32_t>(seen.of(SHAPE_EDGES, EDGES_REST)), 0);
+				for (int32_t k = 0; k < seen.count - 1; k++)
+					measure(patch, rest + channel_count * k);
+			}
+			patch.mask(seen.box[BOX_X1] - seen.box[BOX_X0], seen.box[BOX_Y1] - seen.box[BOX_Y0]);
 			patch.share(stroke.cover + row * columns, 0);
-			patch.share(stroke.inside + row * columns, seen.width);
+			patch.share(stroke.inside + row * columns, seen.of(SHAPE_INK, INK_WIDTH));
 		}
 	}
 
-	template <typename Patch> static void measure(Patch &patch, const Records<T> &edges, int32_t k)
+	template <typename Patch> static void measure(Patch &patch, const T *record)
 	{
-		const Edge<T> edge{edges.of(k, EDGE_SLOPE_X), edges.of(k, EDGE_SLOPE_Y), edges.of(k, EDGE_AT), edges.of(k, EDGE_BEND)};
+		const Edge<T> edge{record[EDGE_SLOPE_X], record[EDGE_SLOPE_Y], record[EDGE_AT], record[EDGE_BEND]};
 		if (edge.bend > 0)
 			patch.beyond_disc(edge);
 		else
 			patch.beyond_line(edge);
-	}
-
-	/* Of a small stroke: all of its rows at once. */
-	static void blend(Tile<T> &tile, const Stroke<T> &stroke)
-	{
-		Block<T> cover, inside;
-		std::memcpy(&cover, stroke.cover, sizeof cover), std::memcpy(&inside, stroke.inside, sizeof inside);
-		const Block<T> outline = cover - inside;
-		for (int c = 0; c < 3; c++) {
-			T *first = tile.light[c] + stroke.first;
-			Block<T> ground;
-			take_rows(first, ground);
-			ground = ground + stroke.opacity * ((stroke.outline.channels[c] * outline + stroke.fill.channels[c] * inside) - cover * ground);
-			put_rows(ground, first);
-		}
 	}
 
 	template <int32_t columns> static void blend(Tile<T> &tile, const Stroke<T> &stroke, int32_t rows)
@@ -203,7 +190,7 @@ template <typename T> static void put_tile(const Tile<T> &tile, const Bytes &pic
 {
 	constexpr size_t whole_row = sizeof(uint32_t) * side;
 	const size_t row_size = std::min(sizeof(uint32_t) * static_cast<size_t>(frame.width - x), whole_row);
-	uint32_t pixels[area];
+	alignas(64) uint32_t pixels[area];
 	if (tile.plain)
 		round_light<side>(tile, pixels);
 	else
