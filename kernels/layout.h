@@ -281,14 +281,16 @@
 #define GRIP_FORCE 5
 #define GRIP_START 6
 
-/* Warm: the forces that the last step ended with. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies rub
- * two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations end,
- * within their tolerance, with forces that part what they ought to bear, and heaps slosh on. */
+/* Warm: the forces that the last steps ended with, as means that follow the last one by WARM_FOLLOW: what a step ends with makes up for what the one before
+ * left within its tolerance, and so differs from what bears. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies
+ * rub two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations
+ * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. */
 #define WARM_WIDTH(rub) ((rub) ? 2 : 1)
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */
 #define WARM_FRICTION 0 /* of the second record: two, N */
-#define WARM_PART 0.5f
+#define WARM_PART 0.75f
+#define WARM_FOLLOW 0.25f
 #define WARM_MOST 1e6f /* m/step^2, of either body: a larger force is not begun with */
 
 /* Touching: two ints a slot */
@@ -389,22 +391,25 @@
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,
  * at the points that approach more slowly than CONTACT_FAST |a|. Impulses stop what would come nearer in the step than to half a cushion: CUSHION slops, or
  * |a| / 2 if that is less. Then forces let them come nearer by EASE of the gap in a step, down to a cushion. Both are found within a CONTACT_PART of
- * EASE of a cushion, or by CONTACT_ITERATIONS iterations.
+ * EASE of a cushion, or by CONTACT_ITERATIONS iterations; forces that need more than one within a CONTACT_CLOSER of that, so that the next step needs none.
  *
  * Where bodies rub, the bound of a force of friction follows what the normal force allows at once in the first GRIP_FOLLOW iterations, and then by a
  * GRIP_BLEND of what is missing: in many iterations the two would drive each other on, and so would more momentum than GRIP_MOMENTUM. What does not slide may
  * creep by GRIP_CREEP of what normal forces are found within: little is left of that when coordinates are rounded; what slides is slowed within a
- * GRIP_SLIDE of it. Where bodies rub and slide impulses come to no end: GRIP_IMPULSES iterations do, for what those leave is a hit. */
+ * GRIP_SLIDE of it; each GRIP_PATIENCE iterations this may be twice as much: what moves on needs no more, and what lies still comes to it in a few steps.
+ * Where bodies rub and slide impulses come to no end: GRIP_IMPULSES iterations do, for what those leave is a hit. */
 #define GRIP_FOLLOW 16
 #define GRIP_BLEND 0.0625f
 #define GRIP_MOMENTUM 0.9375f
 #define GRIP_CREEP 0.0078125f
 #define GRIP_SLIDE 0.25f
+#define GRIP_PATIENCE 16
 #define GRIP_IMPULSES 64
 #define CONTACT_FAST 4.0f
 #define EASE 0.5f
 #define CUSHION 64.0f
 #define CONTACT_PART 0.75f
+#define CONTACT_CLOSER 0.75f
 #define CONTACT_ITERATIONS 256
 
 /* ---- Rendering [3] */

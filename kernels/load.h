@@ -172,19 +172,23 @@ int partner_key(RECORD_IN(slots), int partner)
 	return partner > PARTNER_STATIC(0) ? partner + 1 : PARTNER_STATIC(0) - partner;
 }
 
-/* Which of a body's contacts in the last step was that with a partner; if none was, how many there were. */
-int warm_of(RECORD_IN(warm), LIST_IN(warm_counts), int body, int key, bool rub)
+/* The records of a body's contact with a partner in the last step; zeros if there was none. */
+void warm_of(RECORD_IN(warm), LIST_IN(warm_counts), int body, int key, bool rub, float4 *forces, float4 *held)
 {
 	int k = 0;
 	while (k < warm_counts[body] && (int)CHANNEL(warm[WARM(body, k, rub)], WARM_PARTNER) != key)
 		k++;
-	return k;
+	bool found = k < warm_counts[body];
+	*forces = found ? warm[WARM(body, k, rub)] : (float4)(0.0f);
+	*held = found && rub ? warm[WARM(body, k, true) + 1] : (float4)(0.0f);
 }
 
-/* What is begun with, of a force of the last step: in units of this one, and none that is too large for either body. */
-float force_begun(float force, float part, float inverse_mass, float length)
+/* A force between a slot and a partner in a step's units; 0 if it is too large for either to begin with. */
+float force_begun(RECORD_IN(slots), int s, int partner, float force, float length)
 {
-	float start = part * ((force * length) * length);
+	float start = (force * length) * length, inverse_mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
+	if (partner >= 0)
+		inverse_mass = larger(inverse_mass, CHANNEL(SLOT_LOAD(slots, partner, SLOT_MASS), MASS_INVERSE));
 	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
 }
 
@@ -192,29 +196,25 @@ float force_begun(float force, float part, float inverse_mass, float length)
 void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
 	float length)
 {
-	int body = slot_body(slots, s), before = PARTNER_NONE, last = 0;
+	int body = slot_body(slots, s), before = PARTNER_NONE;
+	float4 forces, held;
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;
 		bool second = other == before;
-		last = second ? last : warm_of(warm, warm_counts, body, partner_key(slots, other), rub);
+		if (!second)
+			warm_of(warm, warm_counts, body, partner_key(slots, other), rub, &forces, &held);
 		before = other;
 		at[4 * FOUR_LEAST] = EASE * at[4 * FOUR_LEAST] - (0.5f / CONTACT_PART) * at[4 * FOUR_TOLERANCE];
-		bool lasts = last < warm_counts[body];
-		float4 none = (float4)(0.0f), forces = lasts ? warm[WARM(body, last, rub)] : none;
 		float friction = rub ? grip[4 * GRIP_FRICTION] : 0.0f, part = friction > 0.0f ? 1.0f : WARM_PART;
-		float mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
-		if (other >= 0)
-			mass = larger(mass, CHANNEL(SLOT_LOAD(slots, other, SLOT_MASS), MASS_INVERSE));
-		float force = force_begun(second ? forces.z : forces.y, part, mass, length);
+		float force = part * force_begun(slots, s, other, second ? forces.z : forces.y, length);
 		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force;
 		if (!rub)
 			continue;
-		float4 held = lasts ? warm[WARM(body, last, true) + 1] : none;
 		grip[4 * GRIP_BOUND] = friction * force;
-		grip[4 * GRIP_FORCE] = grip[4 * GRIP_START] = force_begun(second ? held.y : held.x, part, mass, length);
+		grip[4 * GRIP_FORCE] = grip[4 * GRIP_START] = part * force_begun(slots, s, other, second ? held.y : held.x, length);
 	}
 }
 
@@ -274,13 +274,15 @@ int4 grips_iterate(RECORD_OUT(grips), int s, int four, float4 force, const ways 
 	at[GRIP_BOUND] = most;
 	at[GRIP_START] = held + beta * (held - at[GRIP_FORCE]);
 	at[GRIP_FORCE] = held;
+	tolerance *= (float)(1 << done / GRIP_PATIENCE);
 	return fabs(held) < most ? fabs(slip) > GRIP_CREEP * tolerance : fabs(allowed - most) > (GRIP_SLIDE * tolerance) * step;
 }
 
 /* One iteration of a body's points, after so many, from the loads of one parity to the other. True if another is wanted. */
 bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), int s, int now, int done,
-	bool rub)
+	bool rub, bool impulses)
 {
+	float closer = impulses || done == 0 ? 1.0f : CONTACT_CLOSER;
 	float usual = (float)done / (float)(done + 2), beta = rub ? smaller(usual, GRIP_MOMENTUM) : usual;
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], none = (float4)(0.0f);
 	sums next = {none, none, none};
@@ -295,7 +297,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		moves_of(&others, loads, at[FOUR_PARTNER], now);
 		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
 		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = none > pushed ? none : pushed, start = force + beta * (force - at[FOUR_FORCE]);
-		wanted |= (force > 0.0f ? fabs(rate) : -rate) > tolerance;
+		wanted |= (force > 0.0f ? fabs(rate) : -rate) > closer * tolerance;
 		at[FOUR_START] = start;
 		at[FOUR_FORCE] = force;
 		sums_add(&next, start, &normals, mass);
@@ -346,26 +348,52 @@ void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocit
 		velocities_set(slots, s, velocities.x, velocities.y, velocities.z);
 }
 
-/* Keeps the forces on a body, in such a step, for the next one. */
-void forces_keep(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_counts), int s, bool rub,
+/* What the next step begins with, in N: the mean of a force and of what there was before, or that force alone. */
+float force_mean(float force, float before, bool lasts, float length)
+{
+	float now = (force / length) / length;
+	return lasts ? before + WARM_FOLLOW * (now - before) : now;
+}
+
+/* In the place of a body's forces, where such began this step. */
+void forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
 	float length)
 {
+	int body = slot_body(slots, s), before = PARTNER_NONE;
+	float4 forces, held;
+	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
+		int other = (int)at[4 * FOUR_PARTNER];
+		if (other == PARTNER_NONE)
+			continue;
+		bool second = other == before;
+		if (!second)
+			warm_of(warm, warm_counts, body, partner_key(slots, other), rub, &forces, &held);
+		float last = second ? forces.z : forces.y;
+		bool lasts = force_begun(slots, s, other, last, length) > 0.0f;
+		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last, lasts, length);
+		if (rub)
+			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], second ? held.y : held.x, lasts, length);
+		before = other;
+	}
+}
+
+/* Keeps the forces on a body, in such a step, for the next one. */
+void forces_keep(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_counts), int s,
+	bool rub, float length)
+{
 	int body = slot_body(slots, s), count = 0, before = PARTNER_NONE;
+	forces_mean(slots, contacts, grips, touching, warm, warm_counts, s, rub, length);
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;
 		int second = other == before, to = WARM(body, count - second, rub);
-		float force = (at[4 * FOUR_FORCE] / length) / length;
-		if (second)
-			warm[to].z = force;
-		else
-			warm[to] = (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
-		if (rub) {
-			float held = (grip[4 * GRIP_FORCE] / length) / length;
+		float force = at[4 * FOUR_FORCE], held = grip[4 * GRIP_FORCE];
+		warm[to] = second ? (float4)(warm[to].xy, force, 0.0f) : (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
+		if (rub)
 			warm[to + 1] = second ? (float4)(warm[to + 1].x, held, 0.0f, 0.0f) : (float4)(held, 0.0f, 0.0f, 0.0f);
-		}
 		before = other;
 		count += !second;
 	}

@@ -57,8 +57,8 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 {
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
-	bool alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms));
-	int most = rub && status[STATUS_PASS] == PASS_IMPULSES ? GRIP_IMPULSES : CONTACT_ITERATIONS;
+	bool alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
+	int most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
@@ -67,7 +67,7 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 		bool wanted = false;
 		int now = (status[STATUS_FIRST] + done) & 1;
 		for (int i = begin; i < touches; i += stride)
-			wanted |= rests_iterate(slots, contacts, grips, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, rub);
+			wanted |= rests_iterate(slots, contacts, grips, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, rub, impulses);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;
@@ -100,8 +100,8 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 }
 
 /* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
-__kernel void contacts_release(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
-	RECORD_IN(grips), RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm), LIST_OUT(warm_counts), int4 domain)
+__kernel void contacts_release(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_IN(touching),
+	RECORD_OUT(grips), RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm), LIST_OUT(warm_counts), int4 domain)
 {
 	bool again = domain.w;
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH); /* of the step that is done: the clock has gone on */

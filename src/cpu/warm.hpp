@@ -1,4 +1,4 @@
-/* The forces that the last step ended with, of the step contacts: CONTRACT.md, "contacts". */
+/* The forces that the last steps ended with, of the step contacts: CONTRACT.md, "contacts". */
 #ifndef CAROM_CPU_WARM_HPP
 #define CAROM_CPU_WARM_HPP
 

@@ -123,7 +123,15 @@ template <typename T> static void drop(const Rests<T> &rests, int32_t s)
 	});
 }
 
-/* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those of the last step. */
+/* A force in a step's units; 0 if it is too large for either body to begin with. */
+template <typename T> static T begun(const Rests<T> &rests, const Slot<T> &slot, Partner partner, T force, T length)
+{
+	const T own = slot.mass[MASS_INVERSE], start = (force * length) * length;
+	const T inverse_mass = partner.moves() ? larger(own, rests.slots[partner.slot()].mass[MASS_INVERSE]) : own;
+	return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
+}
+
+/* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those of the last steps. */
 template <typename T> static void warm_up(const Rests<T> &rests, const Warm<T> &warm, int32_t s)
 {
 	const Slot<T> &slot = rests.slots[s];
@@ -131,18 +139,12 @@ template <typename T> static void warm_up(const Rests<T> &rests, const Warm<T> &
 	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
 			last = warm.of(slot.body(), partner.key(rests.slots));
-		const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART), own = slot.mass[MASS_INVERSE];
-		const T inverse_mass = partner.moves() ? larger(own, rests.slots[partner.slot()].mass[MASS_INVERSE]) : own;
-		/* In this step's units, and none that is too large for either body. */
-		const auto begun = [&](T force) {
-			const T start = part * ((force * rests.length) * rests.length);
-			return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
-		};
+		const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART);
 		points.least[i] = T(EASE) * points.least[i] - T(0.5f / CONTACT_PART) * points.tolerance[i];
-		points.force[i] = points.start[i] = begun(last.normal[point]);
+		points.force[i] = points.start[i] = part * begun(rests, slot, partner, last.normal[point], rests.length);
 		if (rests.rubs) {
 			grips.bound[i] = friction * points.force[i];
-			grips.force[i] = grips.start[i] = begun(last.friction[point]);
+			grips.force[i] = grips.start[i] = part * begun(rests, slot, partner, last.friction[point], rests.length);
 		}
 	});
 }
@@ -211,7 +213,8 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 	const Lanes<T> pushed = grips.start - rate * grips.step;
 	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = magnitude(held);
 	const Lanes<T> left = size < most ? rate : allowed - most;
-	wanted |= magnitude(left) > (size < most ? T(GRIP_CREEP) * points.tolerance : (T(GRIP_SLIDE) * points.tolerance) * grips.step);
+	const Lanes<T> tolerance = static_cast<T>(1 << done / GRIP_PATIENCE) * points.tolerance;
+	wanted |= magnitude(left) > (size < most ? T(GRIP_CREEP) * tolerance : (T(GRIP_SLIDE) * tolerance) * grips.step);
 	grips.bound = most;
 	grips.start = held + beta * (held - grips.force);
 	grips.force = held;
@@ -223,6 +226,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
 	const T usual = static_cast<T>(done) / static_cast<T>(done + 2), beta = rubs ? smaller(usual, T(GRIP_MOMENTUM)) : usual;
+	const T closer = rests.impulses || done == 0 ? T(1) : T(CONTACT_CLOSER);
 	Sums<T> next;
 	decltype(load < zero) wanted{};
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
@@ -236,7 +240,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
 		rate += points.least;
 		const Lanes<T> pushed = points.start - rate * points.step, force = zero > pushed ? zero : pushed;
-		wanted |= (force > 0 ? magnitude(rate) : -rate) > points.tolerance;
+		wanted |= (force > 0 ? magnitude(rate) : -rate) > closer * points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
 		next.add(slot, points, points.start);
@@ -326,15 +330,35 @@ template <typename T> static void apply(const Job<T> &job)
 	});
 }
 
+/* In the place of a slot's forces what the next step begins with, in N: their means, where such began this one. */
+template <typename T> static void find_means(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
+{
+	const Slot<T> &slot = rests.slots[s];
+	WarmForces<T> last;
+	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
+		if (point == 0)
+			last = warm.of(slot.body(), partner.key(rests.slots));
+		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
+		const auto mean = [&](T force, T before) {
+			const T now = (force / length) / length;
+			return lasts ? before + T(WARM_FOLLOW) * (now - before) : now;
+		};
+		points.force[i] = mean(points.force[i], last.normal[point]);
+		if (rests.rubs)
+			grips.force[i] = mean(grips.force[i], last.friction[point]);
+	});
+}
+
 /* Keeps the forces on a slot for the next step. */
 template <typename T> static void keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
 {
 	const int32_t body = rests.slots[s].body();
 	int32_t count = 0;
+	find_means(rests, s, length, warm);
 	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
 			warm.begin(body, count++, partner.key(rests.slots));
-		warm.keep(body, count - 1, point, (points.force[i] / length) / length, rests.rubs ? (grips.force[i] / length) / length : T(0));
+		warm.keep(body, count - 1, point, points.force[i], rests.rubs ? grips.force[i] : T(0));
 	});
 	warm.keep_count(body, count);
 }
