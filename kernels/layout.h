@@ -289,7 +289,7 @@
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */
 #define WARM_FRICTION 0 /* of the second record: two, N */
-#define WARM_PART 0.75f
+#define WARM_PART 0.9f
 #define WARM_FOLLOW 0.25f
 #define WARM_MOST 1e6f /* m/step^2, of either body: a larger force is not begun with */
 

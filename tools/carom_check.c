@@ -16,7 +16,7 @@ static const struct reference {
 	uint64_t state, picture;
 } references[] = {
 	{"events", 60, false, 0x47802de09e4fda93, 0x64b4ba205c03b904},
-	{"contacts", 12, true, 0xb05661d2a2938c9f, 0x14e34c0aa86e3780},
+	{"contacts", 12, true, 0xbf31f86a3b096ddd, 0x14e34c0aa86e3780},
 	{"first_impact", 60, false, 0x9cfb8ce84ad197b6, 0xc000cfa6fcfd14ed},
 };
 
