@@ -9,20 +9,20 @@ enum : int { FROM_SHAPES, FROM_EDGES, FROM_FRAME, FROM_ENDS, FROM_LIST, LIGHT, T
 
 /* A shape as a tile sees it. */
 template <typename T> struct Seen {
-	const T *numbers; /* its records */
+	const Records<T> records; /* its own */
 	Lanes<T> box, from_tile;
 	Whole cut;     /* columns and rows of the tile, as the box has them */
 	int32_t count; /* edges */
 
-	Seen(const T *records, const Tile<T> &tile) : numbers(records), count(static_cast<int32_t>(of(SHAPE_EDGES, EDGES_COUNT)))
+	Seen(const Records<T> &own, const Tile<T> &tile) : records(own), count(static_cast<int32_t>(of(SHAPE_EDGES, EDGES_COUNT)))
 	{
 		const Lanes<T> zero{};
-		std::memcpy(&box, numbers + channel_count * SHAPE_BOX, sizeof box);
+		std::memcpy(&box, &records.of(SHAPE_BOX, 0), sizeof box);
 		from_tile = box - Lanes<T>{tile.x, tile.y, tile.x, tile.y};
 		cut = __builtin_convertvector(smaller(larger(from_tile, zero), zero + T(side)), Whole);
 	}
 
-	T of(int32_t part, int32_t channel) const { return numbers[channel_count * part + channel]; }
+	T of(int32_t part, int32_t channel) const { return records.of(part, channel); }
 };
 
 template <typename T> class Painter
@@ -33,7 +33,7 @@ public:
 	/* In the end of a tile `finish` must be called. */
 	void draw(Tile<T> &tile, int32_t shape)
 	{
-		const Seen<T> seen(&shapes.of(SHAPES_WIDTH * shape, 0), tile);
+		const Seen<T> seen(Records<T>(&shapes.of(SHAPES_WIDTH * shape, 0)), tile);
 		const int32_t left = seen.cut[BOX_X0], top = seen.cut[BOX_Y0], width = seen.cut[BOX_X1] - left, height = seen.cut[BOX_Y1] - top;
 		if (seen.count == 0 || waiting == batch)
 			finish(tile);
@@ -102,11 +102,11 @@ private:
 		stroke.outline = Light<T>(seen.of(SHAPE_INK, INK_OUTLINE));
 		for (int32_t row = 0; row < height; row += rows) {
 			patch.begin(static_cast<T>(left) - seen.from_tile[BOX_X0], static_cast<T>(top + row) - seen.from_tile[BOX_Y0]);
-			measure(patch, seen.numbers + channel_count * SHAPE_EDGE);
+			measure(patch, seen.records, SHAPE_EDGE);
 			if (seen.count > 1) {
-				const T *rest = &edges.of(static_cast<int32_t>(seen.of(SHAPE_EDGES, EDGES_REST)), 0);
+				const Records<T> rest(&edges.of(static_cast<int32_t>(seen.of(SHAPE_EDGES, EDGES_REST)), 0));
 				for (int32_t k = 0; k < seen.count - 1; k++)
-					measure(patch, rest + channel_count * k);
+					measure(patch, rest, k);
 			}
 			patch.mask(seen.box[BOX_X1] - seen.box[BOX_X0], seen.box[BOX_Y1] - seen.box[BOX_Y0]);
 			patch.share(stroke.cover + row * columns, 0);
@@ -114,9 +114,9 @@ private:
 		}
 	}
 
-	template <typename Patch> static void measure(Patch &patch, const T *record)
+	template <typename Patch> static void measure(Patch &patch, const Records<T> &edges, int32_t k)
 	{
-		const Edge<T> edge{record[EDGE_SLOPE_X], record[EDGE_SLOPE_Y], record[EDGE_AT], record[EDGE_BEND]};
+		const Edge<T> edge{edges.of(k, EDGE_SLOPE_X), edges.of(k, EDGE_SLOPE_Y), edges.of(k, EDGE_AT), edges.of(k, EDGE_BEND)};
 		if (edge.bend > 0)
 			patch.beyond_disc(edge);
 		else
