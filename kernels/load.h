@@ -172,15 +172,31 @@ int partner_key(RECORD_IN(slots), int partner)
 	return partner > PARTNER_STATIC(0) ? partner + 1 : PARTNER_STATIC(0) - partner;
 }
 
-/* The records of a body's contact with a partner in the last step; zeros if there was none. */
-void warm_of(RECORD_IN(warm), LIST_IN(warm_counts), int body, int key, bool rub, float4 *forces, float4 *held)
+/* What a point's forces were, in N, and the records of its contact. */
+typedef struct last_forces {
+	int partner;
+	float4 forces, held;
+	float force, friction;
+} last_forces;
+
+/* Of a slot's next point, with that partner: zeros if the last step had no such contact. False if it is none. */
+bool last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_counts), int s, int partner, bool rub, last_forces *last)
 {
-	int k = 0;
-	while (k < warm_counts[body] && (int)CHANNEL(warm[WARM(body, k, rub)], WARM_PARTNER) != key)
-		k++;
-	bool found = k < warm_counts[body];
-	*forces = found ? warm[WARM(body, k, rub)] : (float4)(0.0f);
-	*held = found && rub ? warm[WARM(body, k, true) + 1] : (float4)(0.0f);
+	if (partner == PARTNER_NONE)
+		return false;
+	bool second = partner == last->partner;
+	if (!second) {
+		int body = slot_body(slots, s), key = partner_key(slots, partner), k = 0;
+		while (k < warm_counts[body] && (int)CHANNEL(warm[WARM(body, k, rub)], WARM_PARTNER) != key)
+			k++;
+		bool found = k < warm_counts[body];
+		last->partner = partner;
+		last->forces = found ? warm[WARM(body, k, rub)] : (float4)(0.0f);
+		last->held = found && rub ? warm[WARM(body, k, true) + 1] : (float4)(0.0f);
+	}
+	last->force = second ? last->forces.z : last->forces.y;
+	last->friction = second ? last->held.y : last->held.x;
+	return true;
 }
 
 /* A force between a slot and a partner in a step's units; 0 if it is too large for either to begin with. */
@@ -192,29 +208,24 @@ float force_begun(RECORD_IN(slots), int s, int partner, float force, float lengt
 	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
 }
 
-/* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those that pushed there in the last step. */
+/* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those of the last steps. */
 void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
 	float length)
 {
-	int body = slot_body(slots, s), before = PARTNER_NONE;
-	float4 forces, held;
+	last_forces last = {.partner = PARTNER_NONE};
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (other == PARTNER_NONE)
+		if (!last_forces_of(slots, warm, warm_counts, s, other, rub, &last))
 			continue;
-		bool second = other == before;
-		if (!second)
-			warm_of(warm, warm_counts, body, partner_key(slots, other), rub, &forces, &held);
-		before = other;
 		at[4 * FOUR_LEAST] = EASE * at[4 * FOUR_LEAST] - (0.5f / CONTACT_PART) * at[4 * FOUR_TOLERANCE];
 		float friction = rub ? grip[4 * GRIP_FRICTION] : 0.0f, part = friction > 0.0f ? 1.0f : WARM_PART;
-		float force = part * force_begun(slots, s, other, second ? forces.z : forces.y, length);
+		float force = part * force_begun(slots, s, other, last.force, length);
 		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force;
 		if (!rub)
 			continue;
 		grip[4 * GRIP_BOUND] = friction * force;
-		grip[4 * GRIP_FORCE] = grip[4 * GRIP_START] = part * force_begun(slots, s, other, second ? held.y : held.x, length);
+		grip[4 * GRIP_FORCE] = grip[4 * GRIP_START] = part * force_begun(slots, s, other, last.friction, length);
 	}
 }
 
@@ -359,22 +370,16 @@ float force_mean(float force, float before, bool lasts, float length)
 void forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
 	float length)
 {
-	int body = slot_body(slots, s), before = PARTNER_NONE;
-	float4 forces, held;
+	last_forces last = {.partner = PARTNER_NONE};
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (other == PARTNER_NONE)
+		if (!last_forces_of(slots, warm, warm_counts, s, other, rub, &last))
 			continue;
-		bool second = other == before;
-		if (!second)
-			warm_of(warm, warm_counts, body, partner_key(slots, other), rub, &forces, &held);
-		float last = second ? forces.z : forces.y;
-		bool lasts = force_begun(slots, s, other, last, length) > 0.0f;
-		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last, lasts, length);
+		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f;
+		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, length);
 		if (rub)
-			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], second ? held.y : held.x, lasts, length);
-		before = other;
+			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, length);
 	}
 }
 

@@ -30,7 +30,7 @@ template <typename T> struct Light {
 template <typename T> struct Tile {
 	T x, y; /* of the first pixel */
 	bool plain;
-	alignas(64) T light[3][area];
+	alignas(64) T light[3][area]; /* whole lines of the cache, a row each */
 
 	void fill(const Light<T> &all)
 	{
@@ -65,7 +65,7 @@ template <typename T> struct Edge {
 /* Some pixels of a tile, so many that compilers make vectors of them: counted from the first pixel of a shape's box. */
 template <typename T, int32_t columns, int32_t rows> struct Patch {
 	static constexpr int32_t count = columns * rows;
-	alignas(64) T x[count], y[count], far[count];
+	T x[count], y[count], far[count];
 
 	void begin(T from_x, T from_y)
 	{
@@ -122,7 +122,7 @@ template <typename T> struct Stroke {
 	int32_t columns, rows, first; /* the first pixel */
 	T opacity;
 	Light<T> fill, outline;
-	alignas(64) T cover[area], inside[area];
+	T cover[area], inside[area];
 };
 
 /* Where in a word the byte lies that is number `c` in memory. */

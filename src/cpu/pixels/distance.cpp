@@ -190,7 +190,7 @@ template <typename T> static void put_tile(const Tile<T> &tile, const Bytes &pic
 {
 	constexpr size_t whole_row = sizeof(uint32_t) * side;
 	const size_t row_size = std::min(sizeof(uint32_t) * static_cast<size_t>(frame.width - x), whole_row);
-	alignas(64) uint32_t pixels[area];
+	uint32_t pixels[area];
 	if (tile.plain)
 		round_light<side>(tile, pixels);
 	else
