@@ -88,10 +88,10 @@ rules_of_hit event_rules(float restitution, float friction, bool rapid, int even
 	rules_of_hit rules;
 	rules.friction = friction;
 	rules.restitution = restitution;
-	rules.micro = restitution < 1.0f ? MICRO : 0.0f;
+	rules.micro = is_lossy(restitution, friction) ? MICRO : 0.0f;
 	rules.crowd = rules.shake = 0.0f;
 	int beyond = events - (borne ? CROWD_BORNE : CROWD);
-	if (restitution < 1.0f && beyond > 0) {
+	if (is_lossy(restitution, friction) && beyond > 0) {
 		rules.crowd = smaller((float)beyond * (borne ? CROWD_BORNE_PART : CROWD_PART), borne ? CROWD_BORNE_MOST : CROWD_MOST);
 		rules.shake = (float)(1 << min(beyond / CROWD_DOUBLING, CROWD_DOUBLINGS));
 	}

@@ -76,6 +76,12 @@ float friction_of(TEX_IN(uniforms), TEX_IN(friction), int body, int other)
 	return sqrt(two[0] * two[1]);
 }
 
+/* Whether the hits of two bodies take energy: these come to rest in the end. The larger restitution, and the coefficient of friction. */
+bool is_lossy(float restitution, float friction)
+{
+	return restitution < 1.0f || friction > 0.0f;
+}
+
 /* How long the step that begins may last; 0 when the time is over. */
 float step_length(TEX_IN(uniforms), TEX_IN(clock))
 {

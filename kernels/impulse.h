@@ -77,7 +77,7 @@ rules_of_hit first_impact_rules(float restitution, float friction)
 /* Answered by that restitution and that least speed, which its rules gave. */
 impact impact_of(rules_of_hit rules, contact c, float push, float restitution, float least, float2 j)
 {
-	impact hit = {j.x + j.y, rules.restitution < 1.0f && -rate_of(c) < rules.slow * larger(push, rules.weight),
+	impact hit = {j.x + j.y, is_lossy(rules.restitution, rules.friction) && -rate_of(c) < rules.slow * larger(push, rules.weight),
 		restitution != rules.restitution || -rate_of(c) < least};
 	return hit;
 }

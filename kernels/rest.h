@@ -89,9 +89,12 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	body own = body_of(slots, s, trajectory_start(slots, s), length), partner = body_of(slots, other, trajectory_start(slots, other), length);
 	float force = larger(norm(own.a), norm(partner.a));
 	float2 d = (float2)(partner.x.x - own.x.x, partner.x.y - own.x.y);
-	if (!(larger(own.restitution, partner.restitution) < 1.0f) || !(force > 0.0f) || norm(d) - (own.radius + partner.radius) > force)
+	if (!(force > 0.0f) || norm(d) - (own.radius + partner.radius) > force)
 		return;
 	int key = slot_body(slots, other);
+	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key);
+	if (!is_lossy(larger(own.restitution, partner.restitution), rub))
+		return;
 	bool is_row = slot_body(slots, s) > key;
 	body a = is_row ? own : partner, b = is_row ? partner : own;
 	pose p = pose_at(a, b, 0.0f);
@@ -104,7 +107,7 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
 	float2 back = (float2)(-n.x, -n.y);
 	rest r = rest_begin(key, slot_is_static(slots, other) ? PARTNER_STATIC(key) : other, n, force, slop,
-		friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key));
+		rub);
 	for (int j = 0; j < c.count; j++) {
 		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
@@ -191,8 +194,9 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 	if (slot_is_static(slots, s))
 		return 0;
 	body k = body_of(slots, s, trajectory_start(slots, s), length);
-	bool by_walls = CHANNEL(rules, RULES_HAS_ROOM) > 0.0f && larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)) < 1.0f && norm(k.a) > 0.0f;
+	bool by_walls = CHANNEL(rules, RULES_HAS_ROOM) > 0.0f && norm(k.a) > 0.0f;
 	float rub = by_walls ? friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1) : 0.0f;
+	by_walls = by_walls && is_lossy(larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub);
 	for (int wall = 0; by_walls && wall < 4; wall++)
 		rest_on_wall(VERTICES, room, k, wall, rub, &all);
 	int end = spans[SPAN(s, SPAN_END)];

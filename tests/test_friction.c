@@ -274,6 +274,40 @@ static void pyramids_stand(void **unused)
 	}
 }
 
+/* Restitution 1 is no reason never to rest: friction takes the energy, and what lies still then is neither hit without end nor held where it is. */
+static void what_rubs_rests_whatever_its_restitution(void **unused)
+{
+	enum { COUNT = 6 };
+	(void)unused;
+	for (int i = 1; i < 3; i++) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = runs_resting(steps[i], 5.0f, 8.0f);
+			carom_body_def boxes[COUNT];
+			def.restitution = 1.0f;
+			def.friction = 0.5f;
+			for (int k = 0; k < COUNT; k++) {
+				boxes[k] = box_at((float)(2 * (k % 3) - 2), 1.0f + 1.5f * (float)(k / 3), 0.4f * (float)k);
+				boxes[k].velocity.x = 1.5f - (float)k;
+			}
+			carom_world *world = runs_world(&def, device, boxes, COUNT);
+			if (!world)
+				continue;
+			const carom_measure begun = runs_measure(world);
+			const carom_report run = runs_step(world, runs_affordable(600));
+			const carom_measure now = runs_measure(world);
+			const carom_report last = runs_step(world, runs_affordable(60));
+			if (device == scenery_devices)
+				print_message("%s: %llu hits, at last %.2g J\n", steps[i], (unsigned long long)(run.hits + last.hits), now.kinetic_energy);
+			assert_true(run.held == 0 && last.held == 0 && last.hits < 60 * COUNT * 100);
+			assert_true(now.max_penetration < 1e-4);
+			runs_enough(now.kinetic_energy < 1e-3 * (begun.kinetic_energy + begun.potential_energy));
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* A body with friction may come into a world of contacts that had none: it is held as if it had been there from the beginning. */
 static void a_later_body_rubs(void **unused)
 {
@@ -304,6 +338,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(a_ball_slides_or_rolls), cmocka_unit_test(balls_turn_each_other),
 		cmocka_unit_test(a_pair_takes_the_mean), cmocka_unit_test(friction_adds_no_energy), cmocka_unit_test(what_slides_stops_or_rolls),
-		cmocka_unit_test(slopes_hold_what_grips), cmocka_unit_test(pyramids_stand), cmocka_unit_test(a_later_body_rubs)};
+		cmocka_unit_test(slopes_hold_what_grips), cmocka_unit_test(pyramids_stand), cmocka_unit_test(what_rubs_rests_whatever_its_restitution),
+		cmocka_unit_test(a_later_body_rubs)};
 	return cmocka_run_group_tests_name("friction", tests, NULL, NULL);
 }

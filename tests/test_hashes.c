@@ -69,7 +69,7 @@ static const struct {
 		0xba5b0801015663fa},
 	{11, SCENERY_POLYGONS, 25, 0.75f, -3.0f, 1000.0f, RESTING_STEPS, {0x0adc6a3a146a038a, 0x420d9e63c030fdeb},
 		{0x8a8c19f9f1b360f1, 0x3050c20de6e2b720}, 0x738bd60bde7c72a8},
-	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xb0af4e0886036521}, {0xdb0ea15d092cc348}, 0xb39405e2eb4162bf},
+	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xb0af4e0886036521}, {0xdb0ea15d092cc348}, 0x18db110f8cf79b12},
 };
 
 static carom_world *random_world(size_t i, const char *step, const scenery_device *device)

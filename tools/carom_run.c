@@ -174,6 +174,9 @@ static void say_done(const struct run *run)
 	const carom_report *total = &run->total;
 	say(&run->options->common, "%llu steps, %llu hits, %.6g s simulated in %.3g s (%.4g steps/s)", (unsigned long long)total->steps,
 		(unsigned long long)total->hits, total->advanced, run->seconds, run->seconds > 0 ? (double)total->steps / run->seconds : 0.0);
+	if (total->held > 0)
+		say(&run->options->common, "%llu times a body was hit too often in a step, and held where it was until the end of it; --stats says when",
+			(unsigned long long)total->held);
 }
 
 /* ---- The run ---- */

@@ -154,6 +154,12 @@ private:
 	const Texels<T> coefficients;
 };
 
+/* Does a hit of this restitution, of bodies with this coefficient of friction, take energy? What does comes to rest in the end. */
+template <typename T> bool loses_energy(T restitution, T friction)
+{
+	return restitution < 1 || friction > 0;
+}
+
 /* How long the step that begins may last, by the clock as the step before left it. */
 template <typename T> T step_length(const Texels<T> &clock, const Texels<T> &uniforms)
 {

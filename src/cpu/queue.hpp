@@ -303,9 +303,9 @@ private:
 		const T slop = wall_slop(body), stillness = wall_stillness(body);
 		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, stillness, found_loose}, 1, 0,
 			body.inverse_mass, 0, body.inverse_inertia};
+		collision.slide = wall_slide<T>(body, rubs.at_wall(slots[s].body()), T(0));
 		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a),
 			larger(norm(body.a), clusters.weight()), stillness, past);
-		collision.slide = wall_slide<T>(body, rubs.at_wall(slots[s].body()), T(0));
 		return impact(collision);
 	}
 
@@ -321,9 +321,9 @@ private:
 		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, stillness, found_loose}, 1, ref.inverse_mass, inc.inverse_mass,
 			ref.inverse_inertia, inc.inverse_inertia};
 		const Vec<T> between = inc.a - ref.a;
+		collision.slide = pair_slide<T>(a, b, at, axis.from_b, rubs.between(slots[row].body(), slots[column].body()));
 		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
 			inner(collision.contact.n, between), larger(larger(norm(a.a), norm(b.a)), clusters.weight()), stillness, past);
-		collision.slide = pair_slide<T>(a, b, at, axis.from_b, rubs.between(slots[row].body(), slots[column].body()));
 		return impact(collision);
 	}
 

@@ -191,7 +191,8 @@ private:
 	void pair(int32_t s, int32_t other)
 	{
 		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
-		if (!(larger(slot.turn[TURN_RESTITUTION], other_slot.turn[TURN_RESTITUTION]) < 1))
+		const T friction = rubs.between(slot.body(), other_slot.body());
+		if (!loses_energy(larger(slot.turn[TURN_RESTITUTION], other_slot.turn[TURN_RESTITUTION]), friction))
 			return;
 		const bool is_row = slot.body() > other_slot.body();
 		const int32_t row = is_row ? s : other, column = is_row ? other : s;
@@ -209,8 +210,7 @@ private:
 		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
-		Resting rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), n, rules,
-			rubs.between(slot.body(), other_slot.body()));
+		Resting rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), n, rules, friction);
 		const auto slip = [&](const Vec<T> &lever, const Vec<T> &other_lever) {
 			const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
 			return rubs.any ? Slip<T>(n, touched_at<T>(body, lever, -n), touched_at<T>(partner, other_lever, n)) : Slip<T>();
@@ -228,20 +228,21 @@ private:
 	{
 		const Slot<T> &slot = clusters.slots[s];
 		const Trajectory<T> way(slot);
-		if (!(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)) < 1) || clusters.stays_inside(s, way, T(1)))
+		const T friction = rubs.at_wall(slot.body());
+		if (!loses_energy(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), friction) || clusters.stays_inside(s, way, T(1)))
 			return;
 		Convex<T> body;
 		clusters.fill(body, slot, way);
 		const Rules rules{norm(body.a), wall_slop(body)};
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
-			wall(body, slot.body(), rules, k);
+			wall(body, friction, rules, k);
 	}
 
-	void wall(const Convex<T> &body, int32_t body_index, const Rules &rules, int32_t k)
+	void wall(const Convex<T> &body, T friction, const Rules &rules, int32_t k)
 	{
 		const Wall<T> wall = clusters.wall(k);
 		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
-		Resting rest = begin(-1 - k, Partner::that_stays(-1 - k), wall.n, rules, rubs.at_wall(body_index));
+		Resting rest = begin(-1 - k, Partner::that_stays(-1 - k), wall.n, rules, friction);
 		const auto slip = [&](const Vec<T> &lever) { return Slip<T>(wall.n, lever, {0, 0}); };
 		if (body.is_circle()) {
 			if (height - body.radius <= rules.force)

@@ -26,12 +26,12 @@ template <typename T> struct Past {
 };
 
 /* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step. `pull` is how they
- * are pushed along the normal, `push` how the one that is pushed most is, in whatever direction. */
+ * are pushed along the normal, `push` how the one that is pushed most is, in whatever direction. How they slide is known already. */
 template <typename T> void set_event_rules(Collision<T> &collision, T restitution, T pull, T push, T stillness, const Past<T> &past)
 {
 	const Contact<T> &c = collision.contact;
 	const T rate = c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
-	const bool lossy = restitution < 1;
+	const bool lossy = loses_energy(restitution, collision.slide.friction);
 	const T micro = lossy ? larger(-(T(MICRO) * pull), T(0)) : T(0);
 	const bool fast = micro > 0 && -rate > micro * (1 / T(MICRO));
 	collision.micro = lossy ? larger(micro, past.crowd_speed(push, stillness)) : T(0);
