@@ -277,7 +277,8 @@ CAROM_API carom_status carom_world_get_body(const carom_world *world, uint32_t i
 /** Reads the states of `count` bodies from index `first` on. Waits for the device. After a step that failed, the last good
  * state is read: that after the steps that its report tells. */
 CAROM_API carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error);
-/** Writes the same, all or none. CAROM_INVALID_ARGUMENT: a number is not finite, a position outside the room, a static body moves. */
+/** Writes the same, all or none. CAROM_INVALID_ARGUMENT: a number is not finite, a position outside the room by more
+ * than a thousandth of it and what rounding makes of a step's way, a static body moves. */
 CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error);
 /** A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
@@ -325,7 +326,7 @@ typedef struct carom_report {
  * that their pushes make in a step they are stopped, without a bounce; where they rub they are held against each other, too; one of first_impact lasts until the first hit and at most
  * `time_step` [2.2].
  * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED (first_impact alone): time can't get on, and the
- * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are above 1e9 (m, m/s, rad/s), where floats overflow, or
+ * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are, or in the next step come, above 1e9 (m, m/s, rad/s), where floats overflow, or
  * there are more bodies than the step can hold. */
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
 /** Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. Where less than

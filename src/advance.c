@@ -7,6 +7,7 @@
 #include "world.h"
 
 #define MOST_BATCH 256        /* steps handed over without waiting */
+#define MOST_LEG (1u << 22)   /* steps that the clock counts at once: its floats stay exact */
 #define BATCH_SECONDS 0.1     /* and no more than about this long: a caller wants to hear of progress */
 #define FOR_EVER 1.2676506e30 /* s: 2^100, more than any number of steps takes */
 
@@ -136,7 +137,6 @@ static carom_status count_batch(carom_world *world, uint64_t steps, double start
 	return status;
 }
 
-/* The clock counts in floats, so a leg is short enough for whole numbers to stay exact. */
 static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *report, bool *go_on, carom_error *error)
 {
 	const double start = world->time;
@@ -159,25 +159,36 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 	return status;
 }
 
-/* What the device has made itself is good to go on from. */
+/* What the device has made itself is good to go on from, for a while. */
 static carom_status get_ready(carom_world *world, carom_error *error)
 {
-	carom_status status = world->bodies_current && world->device_current ? CAROM_OK : carom_textures_fetch(world, error);
-	if (!status && !(world->bodies_current && world->device_current))
+	const bool is_good = world->bodies_current && world->device_current && world->good_for >= (double)world->def.time_step;
+	carom_status status = is_good ? CAROM_OK : carom_textures_fetch(world, error);
+	if (!status && !is_good)
 		status = carom_check_range(world, error);
 	return status ? status : carom_textures_update(world, error);
 }
 
+/* Of so many that are left; one at least, for the next is good. */
+static uint64_t leg_size(const carom_world *world, uint64_t steps_left)
+{
+	const double good = fmax(world->good_for / (double)world->def.time_step, 1.0);
+	const uint64_t size = good < (double)MOST_LEG ? (uint64_t)good : MOST_LEG;
+	return size < steps_left ? size : steps_left;
+}
+
 static carom_status run_all(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
-	const uint64_t leg = 1u << 22;
 	carom_report done = {0};
 	bool go_on = true;
 	carom_status status = CAROM_OK;
-	if (world->body_count > 0 && steps > 0 && !is_over(world))
+	while (!status && go_on && world->body_count > 0 && done.steps < steps && !is_over(world)) {
+		const double before = done.advanced;
 		status = get_ready(world, error);
-	while (!status && go_on && world->body_count > 0 && done.steps < steps && !is_over(world))
-		status = run_leg(world, steps - done.steps < leg ? steps - done.steps : leg, &done, &go_on, error);
+		if (!status)
+			status = run_leg(world, leg_size(world, steps - done.steps), &done, &go_on, error);
+		world->good_for -= done.advanced - before;
+	}
 	if (report)
 		*report = done;
 	return status;

@@ -1,5 +1,6 @@
 /* Numbers that a step can compute with. Any finite state can be held, drawn and written; but the kernels multiply and square
- * what they are given, and where that leaves the floats a state is lost. So it is looked at before the first step from it. */
+ * what they are given, and where that leaves the floats a state is lost. So it is looked at before the first step from it, and again
+ * before gravity, forces and speeds could have brought a body there. */
 #include <math.h>
 
 #include "layout.h"
@@ -49,10 +50,23 @@ static const char *excess(const carom_world *world, const reached *most)
 	return NULL;
 }
 
+/* s: until what pushes add makes the speed too large; and the place, where no room keeps a body. What hits do is not foreseen. */
+static double good_for(const carom_world *world, size_t index, const reached *most)
+{
+	const carom_body *body = &carom_world_bodies(world)[index];
+	const double twist = fabs((double)body->torque) / (double)body->inertia,
+				 push = larger_of(world->def.gravity) + larger_of(body->force) / (double)body->mass + twist * fmax((double)body->bound, 1.0),
+				 speed = fmax(most->speed, most->spin), left = MOST - most->place;
+	const double by_speed = (MOST - speed) / push; /* infinite where nothing pushes */
+	const double by_place = 2.0 * left / (speed + sqrt(speed * speed + 2.0 * push * left));
+	return world->def.has_room ? by_speed : fmin(by_speed, by_place);
+}
+
 /* Bodies hit each other, so the heaviest may become the fastest. */
-carom_status carom_check_range(const carom_world *world, carom_error *error)
+carom_status carom_check_range(carom_world *world, carom_error *error)
 {
 	double heaviest = 0.0, fastest = 0.0;
+	world->good_for = INFINITY;
 	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
 		const reached most = reach_of(world, i);
@@ -60,6 +74,8 @@ carom_status carom_check_range(const carom_world *world, carom_error *error)
 		if (what)
 			return carom_fail(error, CAROM_LIMIT, "body %zu: %s is too large for a step in 32-bit floats; allowed: up to 1e9 m, m/s and rad/s", i,
 				what);
+		if (!body->is_static)
+			world->good_for = fmin(world->good_for, good_for(world, i, &most));
 		heaviest = body->is_static ? heaviest : fmax(heaviest, fmax((double)body->mass, (double)body->inertia));
 		fastest = fmax(fastest, fmax(most.speed, most.spin));
 	}
@@ -67,4 +83,18 @@ carom_status carom_check_range(const carom_world *world, carom_error *error)
 		return carom_fail(error, CAROM_LIMIT,
 			"a body of %g kg or kg m^2 and a speed of %g m/s or rad/s make a momentum too large for a step in 32-bit floats", heaviest, fastest);
 	return CAROM_OK;
+}
+
+static bool is_between(float x, float least, float most, double slack)
+{
+	return (double)x >= (double)least - slack && (double)x <= (double)most + slack;
+}
+
+/* By more than a thousandth of it, and what rounding makes of the way in a step: a run may end a little outside, and goes on from there. */
+bool carom_outside_room(const carom_world_def *def, carom_vec2 p, carom_vec2 v)
+{
+	const double way = hypot((double)v.x, (double)v.y) * (double)def->time_step,
+				 size = fmax((double)def->room_max.x - (double)def->room_min.x, (double)def->room_max.y - (double)def->room_min.y),
+				 slack = size / 1024 + way / (1 << 20);
+	return def->has_room && !(is_between(p.x, def->room_min.x, def->room_max.x, slack) && is_between(p.y, def->room_min.y, def->room_max.y, slack));
 }

@@ -130,11 +130,6 @@ void carom_world_destroy(carom_world *world)
 	free(world);
 }
 
-static bool outside_room(const carom_world_def *def, carom_vec2 p)
-{
-	return def->has_room && !(p.x >= def->room_min.x && p.x <= def->room_max.x && p.y >= def->room_min.y && p.y <= def->room_max.y);
-}
-
 /* Into [-pi, pi]; what the kernels' rounding left a little outside stays, or a state that is read and set would change. */
 static float wrapped(float angle)
 {
@@ -186,7 +181,7 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	carom_status status = carom_body_make(def, world, index, &body, vertices, error);
 	if (status)
 		return status;
-	if (outside_room(&world->def, def->position))
+	if (carom_outside_room(&world->def, def->position, def->velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].position: (%g, %g) is outside the room", index, (double)def->position.x,
 			(double)def->position.y);
 	if (body.vertex_count > 1 && !carom_outlines_have_room(world, body.vertex_count))
@@ -315,7 +310,7 @@ static carom_status check_state(const carom_world *world, uint32_t index, const 
 {
 	if (!finite2(s->position) || !finite2(s->velocity) || !isfinite(s->angle) || !isfinite(s->angular_velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the state of body %u has a number that is not finite", index);
-	if (outside_room(&world->def, s->position))
+	if (carom_outside_room(&world->def, s->position, s->velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the position of body %u, (%g, %g), is outside the room", index, (double)s->position.x,
 			(double)s->position.y);
 	if (carom_world_bodies(world)[index].is_static && (s->velocity.x != 0.0f || s->velocity.y != 0.0f || s->angular_velocity != 0.0f))

@@ -102,6 +102,7 @@ struct carom_world {
 	carom_canvas canvas;
 	float stalled;      /* steps in a row that did not get on */
 	double time;        /* s */
+	double good_for;    /* s: the time in which no body leaves what the floats can hold */
 	double target;      /* s: where the clock was set to end; negative for nowhere */
 	float remaining[2]; /* s, until then, as the clock has it: a sum of two */
 	uint64_t batch;     /* steps handed over at once */
@@ -123,8 +124,10 @@ uint32_t carom_polygon_texels(const carom_world *world);
 bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices);
 /* Fills in Outlines. */
 carom_status carom_outlines_send(carom_world *world, carom_error *error);
-/* range.c: CAROM_LIMIT where a step from here would leave the floats */
-carom_status carom_check_range(const carom_world *world, carom_error *error);
+/* range.c: CAROM_LIMIT where a step from here would leave the floats; else says how long none will, in good_for */
+carom_status carom_check_range(carom_world *world, carom_error *error);
+/* Can a body not be here, at this speed? */
+bool carom_outside_room(const carom_world_def *def, carom_vec2 p, carom_vec2 v);
 
 /* textures.c: texels of a texture of one texel an item, folded into rows */
 uint32_t carom_row_width(uint32_t items);

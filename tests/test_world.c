@@ -84,6 +84,54 @@ static void states_out_of_range(void **unused)
 	carom_world_destroy(world);
 }
 
+/* What rounding leaves of a fast body's way may be outside, and then a run goes on from there. */
+static void a_room_has_some_slack(void **unused)
+{
+	(void)unused;
+	carom_world *world = scenery_crowd(&scenery_devices[0], 1, 0);
+	carom_body_state state = {{0.0f, -5.009f}, 0.0f, {0.0f, 0.0f}, 0.0f};
+	set_states(world, 1, &state);
+	state.position.y = -5.02f;
+	assert_state_refused(world, &state, "the position of body 1, (0, -5.02), is outside the room");
+	state.velocity.x = -1e6f;
+	set_states(world, 1, &state);
+	carom_world_destroy(world);
+}
+
+/* However long a run is: where it would leave the floats it ends with the last good state, in whatever pieces it is done. */
+static void a_run_ends_where_floats_do(void **unused)
+{
+	(void)unused;
+	static const struct {
+		float gravity;
+		const char *said;
+	} falls[] = {{-1e8f, "body 0: its place or its size is too large"}, {-1e10f, "body 0: its speed, or what a step of so much push adds to it, is"}};
+	for (int i = 0; i < 2; i++) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			for (uint64_t piece = 7; piece < 10000; piece *= 1000) {
+				carom_world_def def = runs_def();
+				const carom_body_def body = scenery_circle(1.0f, 0.0f, 0.0f, 0.0f, 0.5f);
+				carom_error error = {0};
+				carom_report report = {0};
+				carom_status status = CAROM_OK;
+				uint64_t steps = 0;
+				def.gravity.y = falls[i].gravity;
+				carom_world *world = runs_world(&def, device, &body, 1);
+				if (!world)
+					continue;
+				for (; !status && steps < 7000; steps += report.steps)
+					status = carom_world_step(world, piece, &report, &error);
+				assert_int_equal(status, CAROM_LIMIT);
+				assert_true(strstr(error.text, falls[i].said));
+				assert_true(steps == (i == 0 ? 269 : 5) && runs_state(world, 0).position.y > -1.1e9f);
+				runs_same_hash(&first, runs_hash(world), device);
+				carom_world_destroy(world);
+			}
+		}
+	}
+}
+
 static void static_bodies_keep_still(void **unused)
 {
 	(void)unused;
@@ -316,8 +364,9 @@ static void growing_keeps_the_bits(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_out_of_range), cmocka_unit_test(states_out_of_range),
-		cmocka_unit_test(static_bodies_keep_still), cmocka_unit_test(states_come_back), cmocka_unit_test(angles_near_pi_come_back),
-		cmocka_unit_test(a_force_acts_from_now_on), cmocka_unit_test(an_empty_world_steps), cmocka_unit_test(times_out_of_range),
-		cmocka_unit_test(the_shortest_times_pass), cmocka_unit_test(a_body_may_reach_through_a_wall), cmocka_unit_test(growing_keeps_the_bits)};
+		cmocka_unit_test(a_room_has_some_slack), cmocka_unit_test(a_run_ends_where_floats_do), cmocka_unit_test(static_bodies_keep_still),
+		cmocka_unit_test(states_come_back), cmocka_unit_test(angles_near_pi_come_back), cmocka_unit_test(a_force_acts_from_now_on),
+		cmocka_unit_test(an_empty_world_steps), cmocka_unit_test(times_out_of_range), cmocka_unit_test(the_shortest_times_pass),
+		cmocka_unit_test(a_body_may_reach_through_a_wall), cmocka_unit_test(growing_keeps_the_bits)};
 	return cmocka_run_group_tests_name("world", tests, NULL, NULL);
 }
