@@ -1,14 +1,62 @@
-/* The bodies around one, four side by side: what is read of them is read at once, and most are seen to stay apart without a look at each. */
+/* The bodies around one, in bunches: on a CPU four side by side, so that what is read of them is read at once, and most are seen to stay apart without a
+ * look at each; on a GPU one, for its lanes are side by side already. */
 
-/* Slots, and which of the four there are. */
-typedef struct fours {
-	int4 slots, live;
-} fours;
+/* Whether one of four is the case: any() is not the same on every device. */
+INLINE bool is_any(int4 flags)
+{
+	return flags.x | flags.y | flags.z | flags.w;
+}
+
+#ifdef CAROM_GPU
+#define BUNCH 1
+#define EACH(what) what()
+#define FIRST(bunch) (bunch)
+#define TURNED(bunch) (bunch)
+#define IS_ANY(flags) ((flags) != 0)
+typedef int ints;
+typedef float floats;
+#else
+#define BUNCH 4
+#define EACH(what) what(.x), what(.y), what(.z), what(.w)
+#define FIRST(bunch) (bunch).x
+#define TURNED(bunch) (bunch).yzwx
+#define IS_ANY(flags) is_any(flags)
+typedef int4 ints;
+typedef float4 floats;
+#endif
+
+INLINE float least_of(floats all)
+{
+#ifdef CAROM_GPU
+	return all;
+#else
+	return smaller(smaller(all.x, all.y), smaller(all.z, all.w));
+#endif
+}
+
+/* Indices of Neighbours that a cursor shows. */
+INLINE ints bunch_places(int cursor)
+{
+#ifdef CAROM_GPU
+	return cursor;
+#else
+	return (int4)(cursor, cursor + 1, cursor + 2, cursor + 3);
+#endif
+}
+
+/* Slots, and which of them there are. */
+typedef struct bunch {
+	ints slots, live;
+} bunch;
 
 /* Those that a cursor of first_neighbour shows; those beyond the last are the last again, and not live. */
-INLINE fours fours_at(LIST_IN(neighbours), LIST_IN(extra), int end, int cursor)
+INLINE bunch bunch_at(LIST_IN(neighbours), LIST_IN(extra), int end, int cursor)
 {
-	fours all;
+	bunch all;
+#ifdef CAROM_GPU
+	all.slots = neighbour_of(neighbours, extra, cursor);
+	all.live = 1;
+#else
 	if (cursor < 0) {
 		all.slots = (int4)(extra[(-2 - cursor) + NODE_SLOT]);
 		all.live = (int4)(-1, 0, 0, 0);
@@ -18,24 +66,51 @@ INLINE fours fours_at(LIST_IN(neighbours), LIST_IN(extra), int end, int cursor)
 	all.slots.y = neighbours[min(cursor + 1, end - 1)];
 	all.slots.z = neighbours[min(cursor + 2, end - 1)];
 	all.slots.w = neighbours[min(cursor + 3, end - 1)];
-	all.live = (int4)(cursor, cursor + 1, cursor + 2, cursor + 3) < (int4)(end);
+	all.live = bunch_places(cursor) < (int4)(end);
+#endif
 	return all;
 }
 
-/* The cursor behind them. */
-INLINE int fours_next(LIST_IN(extra), int s, int end, int cursor)
+/* The node so many after this one; -1 if there are not so many. */
+INLINE int node_after(LIST_IN(extra), int node, int count)
+{
+	for (; count > 0 && node >= 0; count--)
+		node = extra[node + NODE_LINK];
+	return node;
+}
+
+/* A lane's part of the neighbours: its first cursor, */
+INLINE int bunch_first(LIST_IN(spans), LIST_IN(extra), int s, int end, int lane)
+{
+	int k = spans[SPAN(s, SPAN_START)] + BUNCH * lane;
+	return k < end ? k : node_cursor(node_after(extra, extra[s], lane));
+}
+
+/* and the one behind those that a cursor shows. */
+INLINE int bunch_next(LIST_IN(extra), int s, int end, int cursor, int lane, int lanes)
 {
 	if (cursor < 0)
-		return node_cursor(extra[(-2 - cursor) + NODE_LINK]);
-	return cursor + 4 < end ? cursor + 4 : node_cursor(extra[s]);
+		return node_cursor(node_after(extra, extra[(-2 - cursor) + NODE_LINK], lanes - 1));
+	return cursor + BUNCH * lanes < end ? cursor + BUNCH * lanes : node_cursor(node_after(extra, extra[s], lane));
 }
 
-/* Whether one of the four is the case: any() is not the same on every device. */
-INLINE bool is_any(int4 flags)
+#ifdef CAROM_GPU
+typedef struct discs {
+	disc one;
+	bool plain;
+} discs;
+
+INLINE discs discs_of(RECORD_IN(slots), int s, ints others, const disc *of)
 {
-	return flags.x | flags.y | flags.z | flags.w;
+	discs all = {*of, are_plain(slots, s, others)};
+	return all;
 }
 
+INLINE float first_meetings(disc a, const discs *b, float ahead)
+{
+	return first_meeting(a, b->one, ahead, b->plain);
+}
+#else
 /* Discs, as `disc` has them, and which are of circles that fall as that other one does. */
 typedef struct discs {
 	float4 x, y, vx, vy, ax, ay, radius, time;
@@ -43,26 +118,19 @@ typedef struct discs {
 } discs;
 
 /* Of the bodies in the slots `others`. */
-INLINE discs discs_of(RECORD_IN(slots), int s, int4 others, disc a, disc b, disc c, disc d)
+INLINE discs discs_of(RECORD_IN(slots), int s, ints others, const disc *of)
 {
 	discs all;
-	all.x = (float4)(a.x.x, b.x.x, c.x.x, d.x.x);
-	all.y = (float4)(a.x.y, b.x.y, c.x.y, d.x.y);
-	all.vx = (float4)(a.v.x, b.v.x, c.v.x, d.v.x);
-	all.vy = (float4)(a.v.y, b.v.y, c.v.y, d.v.y);
-	all.ax = (float4)(a.a.x, b.a.x, c.a.x, d.a.x);
-	all.ay = (float4)(a.a.y, b.a.y, c.a.y, d.a.y);
-	all.radius = (float4)(a.radius, b.radius, c.radius, d.radius);
-	all.time = (float4)(a.time, b.time, c.time, d.time);
+	all.x = (float4)(of[0].x.x, of[1].x.x, of[2].x.x, of[3].x.x);
+	all.y = (float4)(of[0].x.y, of[1].x.y, of[2].x.y, of[3].x.y);
+	all.vx = (float4)(of[0].v.x, of[1].v.x, of[2].v.x, of[3].v.x);
+	all.vy = (float4)(of[0].v.y, of[1].v.y, of[2].v.y, of[3].v.y);
+	all.ax = (float4)(of[0].a.x, of[1].a.x, of[2].a.x, of[3].a.x);
+	all.ay = (float4)(of[0].a.y, of[1].a.y, of[2].a.y, of[3].a.y);
+	all.radius = (float4)(of[0].radius, of[1].radius, of[2].radius, of[3].radius);
+	all.time = (float4)(of[0].time, of[1].time, of[2].time, of[3].time);
 	all.plain = -(int4)(are_plain(slots, s, others.x), are_plain(slots, s, others.y), are_plain(slots, s, others.z), are_plain(slots, s, others.w));
 	return all;
-}
-
-/* As the step begins. */
-INLINE discs discs_at_start(RECORD_IN(slots), int s, int4 others, float length)
-{
-	return discs_of(slots, s, others, disc_at_start(slots, others.x, length), disc_at_start(slots, others.y, length),
-		disc_at_start(slots, others.z, length), disc_at_start(slots, others.w, length));
 }
 
 INLINE float4 magnitudes(float4 x)
@@ -91,4 +159,13 @@ INLINE float4 first_meetings(disc a, const discs *b, float ahead)
 	int4 misses = parts | (apart & (under < none));
 	float4 until = t0 + (((length - most) * (length + most)) / (sqrt(under < none ? none : under) - approach)) * 0.9999f;
 	return misses ? never : apart ? until : t0;
+}
+#endif
+
+/* As the step begins. */
+INLINE discs discs_at_start(RECORD_IN(slots), int s, ints others, float length)
+{
+#define AT_START(one) disc_at_start(slots, (others)one, length)
+	disc all[BUNCH] = {EACH(AT_START)};
+	return discs_of(slots, s, others, all);
 }

@@ -164,5 +164,5 @@ INLINE int step_of(LIST_IN(status), float time)
 
 INLINE void wake_before(LIST_IN(status), LIST_OUT(wakes), int s, float time)
 {
-	wakes[WAKE(s, WAKE_NEXT)] = min(wakes[WAKE(s, WAKE_NEXT)], step_of(status, time));
+	atomic_min(&wakes[WAKE(s, WAKE_NEXT)], step_of(status, time));
 }

@@ -3,7 +3,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 /* For what inner loops call: compilers for CPUs do not inline it all by themselves. */
-#ifdef __clang__
+#if defined(__clang__) && !defined(CAROM_GPU)
 #define INLINE __attribute__((always_inline))
 #else
 #define INLINE

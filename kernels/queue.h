@@ -1,4 +1,4 @@
-/* The queue of events of one cluster, run by one work-item. */
+/* The queue of events of one cluster, run by a team. */
 
 disc disc_of_trajectory(RECORD_IN(slots), int s, trajectory k, float length)
 {
@@ -12,14 +12,19 @@ float4 event_of(RECORD_IN(slots), int s, int partner, float time, bool pause)
 	return (float4)(time, (float)max(k, other), (float)min(k, other), (float)partner + (pause ? (partner < 0 ? -0.5f : 0.5f) : 0.0f));
 }
 
-/* Numbers of those of the four that are members of the cluster, -1 of the others. */
-INLINE int4 members_of(LIST_OUT(members), LIST_IN(owners), int4 others, int leader)
+/* Numbers of the bodies in the slots, if they have some. */
+INLINE ints numbers_of(LIST_IN(owners), ints others)
 {
-	int4 none = (int4)(-1), ids = (int4)(PEEK(owners, others.x), PEEK(owners, others.y), PEEK(owners, others.z), PEEK(owners, others.w));
-	int4 known = ids < (int4)(0) ? (int4)(0) : ids;
-	int4 theirs = (int4)(PEEK(members, MEMBER(known.x, MEMBER_OWNER)), PEEK(members, MEMBER(known.y, MEMBER_OWNER)),
-		PEEK(members, MEMBER(known.z, MEMBER_OWNER)), PEEK(members, MEMBER(known.w, MEMBER_OWNER)));
-	return ((ids >= (int4)(0)) & (theirs == (int4)(leader))) ? ids : none; /* nobody else writes or takes away those that are */
+#define NUMBER_OF(one) PEEK(owners, (others)one)
+	return (ints)(EACH(NUMBER_OF));
+}
+
+/* Of those that are members of the cluster, -1 of the others. */
+INLINE ints members_of(LIST_OUT(members), LIST_IN(owners), ints others, int leader)
+{
+#define OWNER_OF(one) PEEK(members, MEMBER((known)one, MEMBER_OWNER))
+	ints none = (ints)(-1), ids = numbers_of(owners, others), known = ids < (ints)(0) ? (ints)(0) : ids, theirs = (ints)(EACH(OWNER_OF));
+	return ((ids >= (ints)(0)) & (theirs == (ints)(leader))) ? ids : none; /* nobody else writes or takes away those that are */
 }
 
 /* Of a member as it is now, of all others as the step began. */
@@ -31,44 +36,47 @@ INLINE disc disc_seen(RECORD_IN(slots), RECORD_OUT(work), int other, int id, flo
 	return disc_of(slots, other, from[WORK_PLACE], time, id >= 0 && CHANNEL(turn_record, WORK_HELD) > 0.0f, length);
 }
 
-INLINE discs discs_seen(RECORD_IN(slots), RECORD_OUT(work), int s, int4 others, int4 ids, float length)
+INLINE discs discs_seen(RECORD_IN(slots), RECORD_OUT(work), int s, ints others, ints ids, float length)
 {
-	return discs_of(slots, s, others, disc_seen(slots, work, others.x, ids.x, length), disc_seen(slots, work, others.y, ids.y, length),
-		disc_seen(slots, work, others.z, ids.z, length), disc_seen(slots, work, others.w, ids.w, length));
+#define AS_SEEN(one) disc_seen(slots, work, (others)one, (ids)one, length)
+	disc all[BUNCH] = {EACH(AS_SEEN)};
+	return discs_of(slots, s, others, all);
 }
 
-/* The first event of a member, by what is known now. For later steps the pair is the member's, or if both were changed the one's for which it is: so
- * both keep when to look again. With the partner in its last event, -1 for none, the next one is found once for both: *found_with is (its time, 1 for a
- * pause), and (0, -1) before. */
-void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
-	float length, int partner, float2 *found_with)
+/* The first event of a member, by what is known now, as far as a lane's part of the neighbours goes, the first lane's with the walls. For later steps
+ * the pair is the member's, or if both were changed the one's for which it is: so both keep when to look again. With the partner in its last event, -1 for
+ * none, one work-item finds the next one once for both: *found_with is (its time, 1 for a pause), and (0, -1) before. */
+finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
+	float length, int partner, int lane, int lanes, float2 *found_with)
 {
 	int s = active[id], wall, seen = 0, end = spans[SPAN(s, SPAN_END)];
 	trajectory k = work_load(work, id);
 	disc disc_k = disc_of_trajectory(slots, s, k, length);
 	bool pause;
 	float ahead = steps_ahead(TEX(uniforms), status, length);
-	bool clear = !(k.held > 0.0f) && is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
+	bool clear = lane > 0 || (!(k.held > 0.0f) && is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead));
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	float again = clear ? 1.0f + ahead : 1.0f, t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		first = event_of(slots, s, -1 - wall, t, pause);
-	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = fours_next(extra, s, end, i)) {
-		fours others = fours_at(neighbours, extra, end, i);
-		discs all = discs_at_start(slots, s, others.slots, length); /* nearly always; it need not wait for who they are */
-		int4 ids = members_of(members, owners, others.slots, leader);
-		if (is_any(ids >= (int4)(0)))
-			all = discs_seen(slots, work, s, others.slots, ids, length);
-		float4 meetings = others.live ? first_meetings(disc_k, &all, ahead) : (float4)(again);
-		again = smaller(again, smaller(smaller(meetings.x, meetings.y), smaller(meetings.z, meetings.w)));
-		if (!is_any(others.live & ((meetings <= (float4)(1.0f)) | (ids >= (int4)(0)))))
+	for (int i = bunch_first(spans, extra, s, end, lane); i != -1; i = bunch_next(extra, s, end, i, lane, lanes)) {
+		bunch others = bunch_at(neighbours, extra, end, i);
+		discs discs_now = discs_at_start(slots, s, others.slots, length); /* nearly always; it need not wait for who they are */
+		ints ids = members_of(members, owners, others.slots, leader);
+		if (IS_ANY(ids >= (ints)(0)))
+			discs_now = discs_seen(slots, work, s, others.slots, ids, length);
+		floats meetings = others.live ? first_meetings(disc_k, &discs_now, ahead) : (floats)(again);
+		again = smaller(again, least_of(meetings));
+		if (!IS_ANY(others.live & ((meetings <= (floats)(1.0f)) | (ids >= (ints)(0)))))
 			continue;
-		for (int n = 0; n < 4; n++, others.slots = others.slots.yzwx, others.live = others.live.yzwx, ids = ids.yzwx, meetings = meetings.yzwx) {
-			int other = others.slots.x, other_id = ids.x, events = others.live.x && other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
+		for (int n = 0; n < BUNCH; n++, others.slots = TURNED(others.slots), others.live = TURNED(others.live), ids = TURNED(ids), meetings = TURNED(meetings)) {
+			int other = FIRST(others.slots), other_id = FIRST(ids), events = FIRST(others.live) && other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
 			if (events > 0)
-				wake_before(status, wakes, other, meetings.x);
+				wake_before(status, wakes, other, FIRST(meetings));
 			float until = smaller(CHANNEL(first, NEXT_TIME), 1.0f);
-			if (!others.live.x || meetings.x > until || stay_apart(disc_k, disc_seen(slots, work, other, other_id, length)))
+			if (!FIRST(others.live) || FIRST(meetings) > until)
+				continue;
+			if ((BUNCH > 1 || ahead > 0.0f) && stay_apart(disc_k, disc_seen(slots, work, other, other_id, length)))
 				continue;
 			bool is_partner = other_id >= 0 && other_id == partner, is_known = is_partner && found_with->y >= 0.0f;
 			trajectory o = other_id < 0 ? trajectory_start(slots, other) : work_load(work, other_id);
@@ -85,9 +93,8 @@ void look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(
 			}
 		}
 	}
-	wakes[WAKE(s, WAKE_NEXT)] = step_of(status, again);
-	work[WORK_WIDTH * id + WORK_NEXT] = first;
-	members[MEMBER(id, MEMBER_SEEN)] = seen;
+	finding all = {first, again, seen};
+	return all;
 }
 
 /* The same while no event has changed anything: it was found before, or is to be looked for before all. */
@@ -190,45 +197,121 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 		atomic_add(&status[STATUS_HELD], held);
 }
 
-void cluster_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), int leader, int round, float length)
+/* How many members the cluster has that this number leads in the round, none if it leads none; 3 for more, too. */
+int cluster_size(LIST_OUT(members), int leader, int round)
+{
+	int m = PEEK(members, MEMBER(leader, MEMBER_HEAD)), size = 0;
+	if (m >= 0 && int_load(members, MEMBER(leader, MEMBER_ROUND)) != round)
+		return 0;
+	for (; m >= 0 && size < 3; m = members[MEMBER(m, MEMBER_LINK)])
+		size++;
+	return size;
+}
+
+/* The leaders that a group's lanes find among the numbers from `begin` on, of all groups in turn: those of large clusters first, for these take longest. */
+void leaders_gather(LIST_OUT(members), int begin, int end, int round, SHARED crew *all)
+{
+	int ids[LEADERS_EACH], sizes[LEADERS_EACH];
+	for (int k = 0; k < LEADERS_EACH; k++) {
+		ids[k] = begin + (k * GROUP_LANES + GROUP_LANE) * GROUP_COUNT;
+		sizes[k] = ids[k] < end ? cluster_size(members, ids[k], round) : 0;
+	}
+	if (GROUP_LANE == 0)
+		all->count = all->next = 0;
+	for (int large = 1; large >= 0; large--) {
+		MEET();
+		for (int k = 0; k < LEADERS_EACH; k++)
+			if (sizes[k] > 0 && (sizes[k] > 2) == large)
+				all->leaders[TAKE(all->count)] = ids[k];
+	}
+	MEET();
+}
+
+/* Has a cluster, by its heap, another event in the step? */
+bool goes_on(RECORD_OUT(work), int first)
+{
+	return first >= 0 && CHANNEL(work[WORK_WIDTH * first + WORK_NEXT], NEXT_TIME) <= 1.0f;
+}
+
+/* Answers the first event of a cluster. Who is to look then: both parties, whom it changed, or the one whose event was not known; nobody where
+ * the cluster is given up. */
+int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
+	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), float4 rules, int leader, int head, int round, float length, int *first)
+{
+	int id = *first, other_id = -1;
+	float4 next = work[WORK_WIDTH * id + WORK_NEXT];
+	int other = (int)CHANNEL(next, NEXT_PARTNER);
+	bool is_known = CHANNEL(next, NEXT_TIME) != NEXT_UNKNOWN;
+	if (is_known && other >= 0 && !slot_is_static(slots, other)) {
+		other_id = join(slots, LISTS, work, owners, parents, other, id, leader, head, round, first);
+		if (other_id < 0)
+			return (int2)(LOOKS_LATER, LOOKS_NOT);
+		is_known = members[MEMBER(other_id, MEMBER_EVENTS)] == members[MEMBER(id, MEMBER_SEEN)];
+	}
+	if (!is_known)
+		return (int2)(id, LOOKS_NOT);
+	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, rules, active[id], id, other_id, next, length);
+	return (int2)(id, other_id);
+}
+
+/* Runs the clusters of `all`. A team's first lane does what is done one after the other; all look. */
+void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
+	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), int round, int lanes, float length, SHARED crew *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
-	int head = int_load(members, MEMBER(leader, MEMBER_HEAD));
-	int first = -1;
-	bool finished = false;
-	float2 found_with;
-	if (head < 0)
-		return; /* another cluster got into the way just now */
-	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
-		recall(slots, spans, members, active, found, work, m);
-		first = heap_insert(members, work, first, m);
-	}
+	int lane = GROUP_LANE % lanes, teams = GROUP_LANES / lanes;
+	SHARED int *looks = all->looks[GROUP_LANE / lanes];
+	SHARED finding *findings = &all->findings[GROUP_LANE - lane];
+	int leader = -1, head = -1, first = -1; /* of the first lane's cluster */
 	for (;;) {
-		int id = first, other_id = -1;
-		float4 next = work[WORK_WIDTH * id + WORK_NEXT];
-		int other = (int)CHANNEL(next, NEXT_PARTNER);
-		bool is_known = CHANNEL(next, NEXT_TIME) != NEXT_UNKNOWN;
-		finished = !(CHANNEL(next, NEXT_TIME) <= 1.0f);
-		if (finished)
-			break;
-		if (is_known && other >= 0 && !slot_is_static(slots, other)) {
-			other_id = join(slots, LISTS, work, owners, parents, other, id, leader, head, round, &first);
-			if (other_id < 0)
+		float2 found_with = (float2)(0.0f, -1.0f);
+		while (lane == 0 && !goes_on(work, first)) {
+			int k = TAKE(all->next);
+			if (head >= 0)
+				cluster_count(status, members, work, head, first >= 0);
+			head = first = -1;
+			if (k >= all->count)
 				break;
-			is_known = members[MEMBER(other_id, MEMBER_EVENTS)] == members[MEMBER(id, MEMBER_SEEN)];
+			leader = all->leaders[k];
+			head = int_load(members, MEMBER(leader, MEMBER_HEAD)); /* -1: another cluster got into the way just now */
+			for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
+				recall(slots, spans, members, active, found, work, m);
+				first = heap_insert(members, work, first, m);
+			}
 		}
-		found_with = (float2)(0.0f, -1.0f);
-		if (is_known)
-			answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, rules, active[id], id, other_id, next,
-				length);
-		/* both look again, or what was not known is looked for: at one place, for this is most of the program, and of the time of a GPU */
-		for (int m = id, partner = is_known ? other_id : -1; m >= 0; m = m == id ? partner : -1) {
-			look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, m, leader, length, m == id ? partner : id, &found_with);
-			first = heap_update(members, work, first, m);
+		if (lane == 0) {
+			int2 who = (int2)(LOOKS_NO_MORE, LOOKS_NOT);
+			if (first >= 0)
+				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, rules, leader,
+					head, round, length, &first);
+			if (who.x == LOOKS_LATER)
+				first = -1;
+			looks[0] = who.x;
+			looks[1] = who.y;
+		}
+		MEET();
+		bool over = true;
+		for (int k = 0; k < teams; k++)
+			over = over && all->looks[k][0] == LOOKS_NO_MORE;
+		if (over)
+			break;
+		/* at one place, for this is most of the program, and of the time of a GPU */
+		for (int k = lane & 1; k < 2; k += lanes > 1 ? 2 : 1)
+			if (looks[k] >= 0)
+				findings[lanes > 1 ? lane : k] = look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, looks[k],
+					PEEK(members, MEMBER(looks[k], MEMBER_OWNER)), length, looks[1 - k], lane / 2, lanes > 1 ? lanes / 2 : 1, &found_with);
+		team_reduce(all, lane, lanes);
+		for (int k = 0; k < 2 && lane == 0; k++) {
+			int id = looks[k];
+			if (id < 0)
+				break;
+			wakes[WAKE(active[id], WAKE_NEXT)] = step_of(status, findings[k].again);
+			work[WORK_WIDTH * id + WORK_NEXT] = findings[k].first;
+			members[MEMBER(id, MEMBER_SEEN)] = findings[k].seen;
+			first = heap_update(members, work, first, id);
 		}
 	}
-	cluster_count(status, members, work, head, finished);
+	MEET(); /* all have seen that it is over */
 }
 
 /* Do two changed bodies of different clusters get in each other's way? */

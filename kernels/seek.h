@@ -111,13 +111,13 @@ void seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_O
 }
 
 /* Of the four those that this slot watches. */
-INLINE int4 watched(LIST_IN(status), LIST_IN(wakes), int s, fours others, int changed, int cursor, int half_end)
+INLINE ints watched(LIST_IN(status), LIST_IN(wakes), int s, bunch others, int changed, int cursor, int half_end)
 {
-	int4 theirs = (int4)(0), at = (int4)(cursor, cursor + 1, cursor + 2, cursor + 3), own = (int4)(changed);
+#define CHANGED(one) wakes[WAKE((others.slots)one, WAKE_CHANGED)]
+	ints theirs = (ints)(0), own = (ints)(changed);
 	if (status[STATUS_AGE] > 0)
-		theirs = (int4)(wakes[WAKE(others.slots.x, WAKE_CHANGED)], wakes[WAKE(others.slots.y, WAKE_CHANGED)],
-			wakes[WAKE(others.slots.z, WAKE_CHANGED)], wakes[WAKE(others.slots.w, WAKE_CHANGED)]);
-	int4 first = cursor < 0 ? (int4)(s) < others.slots : at < (int4)(half_end);
+		theirs = (ints)(EACH(CHANGED));
+	ints first = cursor < 0 ? (ints)(s) < others.slots : bunch_places(cursor) < (ints)(half_end);
 	return others.live & ((own > theirs) | ((own == theirs) & first));
 }
 
@@ -145,18 +145,18 @@ void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(ow
 	if (t <= 1.0f)
 		seeds_add(LISTS, owners, all, s, -1 - wall, t, pause, round);
 	int half_end = spans[SPAN(s, SPAN_HALF)], end = changed > 0 ? spans[SPAN(s, SPAN_END)] : half_end;
-	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = fours_next(extra, s, end, i)) {
-		fours others = fours_at(neighbours, extra, end, i);
-		int4 wanted = watched(status, wakes, s, others, changed, i, half_end);
+	for (int i = bunch_first(spans, extra, s, end, 0); i != -1; i = bunch_next(extra, s, end, i, 0, 1)) {
+		bunch others = bunch_at(neighbours, extra, end, i);
+		ints wanted = watched(status, wakes, s, others, changed, i, half_end);
 		discs all_discs = discs_at_start(slots, s, others.slots, length);
-		float4 meetings = wanted ? first_meetings(disc_k, &all_discs, ahead) : (float4)(next);
-		int4 close = meetings <= (float4)(1.0f);
-		next = smaller(next, smaller(smaller(meetings.x, meetings.y), smaller(meetings.z, meetings.w)));
-		if (!is_any(wanted & close))
+		floats meetings = wanted ? first_meetings(disc_k, &all_discs, ahead) : (floats)(next);
+		ints close = meetings <= (floats)(1.0f);
+		next = smaller(next, least_of(meetings));
+		if (!IS_ANY(wanted & close))
 			continue;
-		for (int n = 0; n < 4; n++, close = close.yzwx, wanted = wanted.yzwx, others.slots = others.slots.yzwx) {
-			int other = others.slots.x;
-			if (!(close.x & wanted.x) || stay_apart(disc_k, disc_at_start(slots, other, length)))
+		for (int n = 0; n < BUNCH; n++, close = TURNED(close), wanted = TURNED(wanted), others.slots = TURNED(others.slots)) {
+			int other = FIRST(others.slots);
+			if (!(FIRST(close) & FIRST(wanted)) || stay_apart(disc_k, disc_at_start(slots, other, length)))
 				continue;
 			int pair = atomic_inc(pair_count);
 			if (pair < PAIRS_MOST) {

@@ -99,7 +99,7 @@ typedef enum carom_stage {
 	STAGE_MEND,    /* (groups, 1, cells a row, rows) */
 	STAGE_SEEK,    /* (slots, or one for SEEK_EACH of them, 1, round, slots) */
 	STAGE_MUSTER,  /* (share, 1, round) */
-	STAGE_RESOLVE, /* (share, 1, round) */
+	STAGE_RESOLVE, /* (share, or GROUP_FEW for each group of a GPU, 1, round, lanes of a team) */
 	STAGE_CHECK,   /* (share, 1, round) */
 	STAGE_SETTLE,  /* (1, 1, round, slots) */
 	STAGE_DRIFT,   /* (slots, 1, room in Movers) */
@@ -114,7 +114,7 @@ typedef enum carom_stage {
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
 	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */
-	STAGE_BIN_COUNT, /* (chunks, 1, shapes) */
+	STAGE_BIN_COUNT, /* (chunks, 1, shapes); of a GPU GROUP_MOST for each, here and below */
 	STAGE_BIN_SUM,   /* (rows of tiles, 1, chunks) */
 	STAGE_BIN_ROWS,  /* (chunks, 1, shapes, room in the list) */
 	STAGE_BIN_TILES, /* (rows of tiles, 1, room in the rows' list, room in the tiles') */

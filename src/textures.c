@@ -150,6 +150,11 @@ void carom_swap(carom_world *world, carom_role role)
 	pair->back = front;
 }
 
+bool carom_is_gpu(const carom_world *world)
+{
+	return world->device->info.is_opencl && !world->device->info.is_cpu;
+}
+
 carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w, carom_error *error)
 {
 	const carom_stage_def *def = &carom_stages[stage];

@@ -152,6 +152,8 @@ carom_status carom_contacts_send(carom_world *world, carom_error *error);
 carom_status carom_contacts_fetch(carom_world *world, carom_error *error);
 /* textures_send.c: what bodies are, as the device has it */
 carom_status carom_textures_send(carom_world *world, carom_error *error);
+/* Is the world's device one that runs many work-items at once, and slowly each? */
+bool carom_is_gpu(const carom_world *world);
 /* Runs a stage over the world's textures: fronts to read, backs to write. */
 carom_status carom_run(carom_world *world, carom_stage stage, int32_t x, int32_t y, int32_t z, int32_t w, carom_error *error);
 void carom_swap(carom_world *world, carom_role role);

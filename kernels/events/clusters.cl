@@ -19,7 +19,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 	for (int s = begin + local_id; s < end; s += lanes)
 		if (is_awake(status, wakes, s))
 			awake[atomic_inc(&awake_count)] = s;
-	barrier(CLK_LOCAL_MEM_FENCE);
+	barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 	for (int k = local_id; k < awake_count; k += lanes)
 		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, awake[k], length, domain.z, &all, pairs, &pair_count);
 	barrier(CLK_LOCAL_MEM_FENCE);
@@ -66,11 +66,14 @@ __kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECOR
 {
 	if (PEEK(status, STATUS_ROUND) < domain.z)
 		return;
+	SHARED crew all;
 	int seeds = status[STATUS_SEEDS];
 	float length = step_length(TEX(uniforms), TEX(clock));
-	for (int id = get_global_id(0); id < seeds; id += get_global_size(0))
-		if (PEEK(members, MEMBER(id, MEMBER_HEAD)) >= 0 && int_load(members, MEMBER(id, MEMBER_ROUND)) == domain.z)
-			cluster_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, id, domain.z, length);
+	for (int begin = GROUP_INDEX; begin < seeds; begin += LEADERS_EACH * GROUP_LANES * GROUP_COUNT) {
+		leaders_gather(members, begin, seeds, domain.z, &all);
+		clusters_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, domain.z,
+			TEAM_SIZE(domain.w), length, &all);
+	}
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
@@ -88,14 +91,13 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
 			continue;
 		int end = spans[SPAN(s, status[STATUS_BEGUN] == domain.z ? SPAN_HALF : SPAN_END)];
-		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = fours_next(extra, s, end, k)) {
-			fours others = fours_at(neighbours, extra, end, k);
-			int4 ids = (int4)(owners[others.slots.x], owners[others.slots.y], owners[others.slots.z], owners[others.slots.w]);
-			ids = others.live ? ids : (int4)(-1);
-			if (!is_any(ids >= (int4)(0)))
+		for (int k = bunch_first(spans, extra, s, end, 0); k != -1; k = bunch_next(extra, s, end, k, 0, 1)) {
+			bunch others = bunch_at(neighbours, extra, end, k);
+			ints ids = others.live ? numbers_of(owners, others.slots) : (ints)(-1);
+			if (!IS_ANY(ids >= (ints)(0)))
 				continue;
-			for (int n = 0; n < 4; n++, others.slots = others.slots.yzwx, ids = ids.yzwx) {
-				int other = others.slots.x, other_id = ids.x;
+			for (int n = 0; n < BUNCH; n++, others.slots = TURNED(others.slots), ids = TURNED(ids)) {
+				int other = FIRST(others.slots), other_id = FIRST(ids);
 				if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
 					continue;
 				int theirs = members[MEMBER(other_id, MEMBER_OWNER)];

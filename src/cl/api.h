@@ -41,7 +41,7 @@ cl_int carom_cl_has_formats(const carom_cl_api *cl, cl_context context, bool *ha
 /* Builds the program of the chosen alternatives, of the step's slots or of those that draw; the head of the
  * log goes into the error. */
 carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws, bool images,
-	bool exact, cl_program *program, carom_error *error);
+	const carom_device_info *info, cl_program *program, carom_error *error);
 
 /* A place for a program among those kept in the folder that CAROM_CACHE names. NULL, which all take, where nothing is kept. */
 typedef struct carom_cl_entry carom_cl_entry;

@@ -48,9 +48,11 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 /* How large a stage's groups are to be: smaller ones where there are few work-items, or where each goes its own way, which a GPU runs one after the other. */
 static size_t wanted_size(const cl_device *d, carom_stage stage)
 {
-	if (stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES))
+	if (stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES && d->is_cpu))
 		return 1;
-	if (stage == STAGE_MEND || (stage == STAGE_RESOLVE && !d->is_cpu))
+	if (stage == STAGE_MEND)
+		return d->is_cpu ? GROUP_FEW : GROUP_WIDE;
+	if (stage == STAGE_RESOLVE && !d->is_cpu)
 		return GROUP_FEW;
 	return GROUP_MOST;
 }
@@ -165,7 +167,7 @@ static void drop_program(cl_device *d, bool draws)
 /* PoCL builds for a while: a world that draws no picture is spared rendering's program. */
 static carom_status build_program(cl_device *d, bool draws, carom_error *error)
 {
-	carom_status status = carom_cl_build(&d->cl, d->context, d->device, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE, d->base.info.exact,
+	carom_status status = carom_cl_build(&d->cl, d->context, d->device, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE, &d->base.info,
 		&d->programs[draws], error);
 	if (!status)
 		status = create_kernels(d, d->programs[draws], error);

@@ -70,7 +70,7 @@ static void describe(const carom_cl_api *cl, carom_cl_found *f)
 		snprintf(info->name, sizeof info->name, UNNAMED);
 	get_text(cl, f, CL_DEVICE_VERSION, info->version, sizeof info->version);
 	info->is_opencl = true;
-	info->is_cpu = (carom_cl_get_number(cl, f, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0;
+	info->is_cpu = (carom_cl_get_number(cl, f, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) && !getenv("CAROM_AS_GPU");
 	info->exact = (carom_cl_get_number(cl, f, CL_DEVICE_SINGLE_FP_CONFIG) & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
 	info->has_images = carom_cl_get_number(cl, f, CL_DEVICE_IMAGE_SUPPORT) != 0;
 	info->compute_units = (uint32_t)carom_cl_get_number(cl, f, CL_DEVICE_MAX_COMPUTE_UNITS);

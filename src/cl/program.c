@@ -11,10 +11,10 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][24] = {
+static const char *const headers[2][28] = {
 	{"layout", "texture", "numbers", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster",
-		"around", "mend", "answer", "heap", "queue", "seek", "rest", "load"},
-	{"layout", "texture", "numbers", "vertices", "shapes", "light"},
+		"around", "mend", "answer", "heap", "team", "queue", "seek", "rest", "load"},
+	{"layout", "texture", "numbers", "vertices", "shapes", "tiles", "light"},
 };
 
 #define MAX_PARTS 64
@@ -22,6 +22,7 @@ static const char *const headers[2][24] = {
 typedef struct sources {
 	char *text[MAX_PARTS];
 	size_t count;
+	bool is_gpu;
 } sources;
 
 static const carom_kernel_source *source_named(const char *slot, const char *name)
@@ -34,13 +35,13 @@ static const carom_kernel_source *source_named(const char *slot, const char *nam
 
 bool carom_cl_has_alternative(const char *slot, const char *alternative)
 {
-	return source_named(slot, alternative) != NULL;
+	return source_named(slot, alternative) && !strchr(alternative, '.');
 }
 
 const char *carom_cl_alternative(const char *slot, size_t index)
 {
 	for (size_t i = 0; i < carom_kernel_source_count; i++)
-		if (!strcmp(carom_kernel_sources[i].slot, slot) && index-- == 0)
+		if (!strcmp(carom_kernel_sources[i].slot, slot) && !strchr(carom_kernel_sources[i].name, '.') && index-- == 0)
 			return carom_kernel_sources[i].name;
 	return NULL;
 }
@@ -72,9 +73,12 @@ static char *read_override(const char *path)
 	return carom_cl_read_file(name, &size);
 }
 
+/* For a GPU an alternative's kernels may be written in another way, in NAME.gpu.cl. */
 static carom_status append(sources *all, const char *slot, const char *name, carom_error *error)
 {
-	const carom_kernel_source *source = source_named(slot, name);
+	char other[64];
+	snprintf(other, sizeof other, "%s.gpu", name);
+	const carom_kernel_source *for_gpu = all->is_gpu ? source_named(slot, other) : NULL, *source = for_gpu ? for_gpu : source_named(slot, name);
 	char *changed, *text;
 	size_t size;
 	if (!source)
@@ -174,15 +178,15 @@ static carom_status make_program(const carom_cl_api *cl, cl_context context, cl_
 }
 
 carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws, bool images,
-	bool exact, cl_program *program, carom_error *error)
+	const carom_device_info *info, cl_program *program, carom_error *error)
 {
 	/* the macro brings back the image functions that PoCL 7.1 hides from OpenCL C 1.2 */
 	char options[256];
-	sources all = {.count = 0};
+	sources all = {.is_gpu = !info->is_cpu};
 	carom_status status = collect(&all, &def->pipeline, draws, error);
-	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s%s", images ? " -DCAROM_IMAGES" : "",
+	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s%s%s", images ? " -DCAROM_IMAGES" : "",
 		strcmp(carom_pipeline_get(&def->pipeline, "step"), "first_impact") ? " -DCAROM_OUTLINES" : "", def->count_reads ? " -DCAROM_COUNT_READS" : "",
-		exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
+		all.is_gpu ? " -DCAROM_GPU" : "", info->exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
 	if (!status)
 		status = make_program(cl, context, device, options, &all, program, error);
 	for (size_t i = 0; i < all.count; i++)

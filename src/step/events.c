@@ -3,7 +3,7 @@
  * Bodies live in slots, sorted by place, with lists of the neighbours that they could reach for a while; one that gets
  * farther gets new neighbours alone. A step looks at the pairs of these lists for hits, but not at those of which it is
  * known that they have none yet; bodies that hit form clusters, and each cluster is a queue of events that one
- * work-item runs to the end of the step. Clusters that get into each other's way are united and run again, in rounds.
+ * work-item, or a few lanes of a GPU, run to the end of the step. Clusters that get into each other's way are united and run again, in rounds.
  * A step that can't be done as it was handed over (lists too old or too small, more rounds needed) changes nothing, and
  * those behind it in the batch go on with it: nobody waits. */
 #include "step/events.h"
@@ -20,9 +20,13 @@
 #define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
 #define GOOD_LISTS 4       /* made in a row that were good to the end: the next may be used a step longer */
 #define MOST_MOVERS 4096
-#define MEND_SHARE 1024 /* slots for one group of those that look for new neighbours */
-#define SHARE 16        /* slots for one work-item of those that share what is active, on a CPU, */
-#define SHARE_GPU 4     /* and on a GPU, which has work-items in plenty */
+#define MEND_SHARE 1024  /* slots for one group of those that look for new neighbours */
+#define SHARE 16         /* slots for one work-item of those that share what is active, on a CPU, */
+#define SHARE_GPU 4      /* and on a GPU, which has work-items in plenty */
+#define MOST_GROUPS 1024 /* of those that run clusters, on a GPU: about as many as run at once, so that the largest clusters of all begin first */
+#define TEAM_LANES 8     /* of a group, look at one cluster's bodies, */
+#define TEAM_LANES_OF_MANY 4
+#define MANY (1 << 19) /* bodies: then there are clusters enough to keep all lanes busy */
 
 /* Slots that may get another reach while the lists last. Each is looked for among them all, so there are not too many. */
 static uint32_t movers_of(uint32_t capacity)
@@ -38,8 +42,16 @@ static uint64_t extra_of(uint64_t capacity)
 
 int32_t carom_events_share(const carom_world *world)
 {
-	const bool is_gpu = world->device->info.is_opencl && !world->device->info.is_cpu;
-	return (int32_t)world->body_count / (is_gpu ? SHARE_GPU : SHARE) + 64;
+	return (int32_t)world->body_count / (carom_is_gpu(world) ? SHARE_GPU : SHARE) + 64;
+}
+
+static carom_status resolve(carom_world *world, int32_t round, carom_error *error)
+{
+	const int32_t count = (int32_t)world->body_count, groups = count / 8 + 64;
+	if (!carom_is_gpu(world))
+		return carom_run(world, STAGE_RESOLVE, carom_events_share(world), 1, round, 1, error);
+	return carom_run(world, STAGE_RESOLVE, GROUP_FEW * (groups < MOST_GROUPS ? groups : MOST_GROUPS), 1, round,
+		count < MANY ? TEAM_LANES : TEAM_LANES_OF_MANY, error);
 }
 
 int32_t carom_events_movers(const carom_world *world)
@@ -77,7 +89,7 @@ static carom_status run_rounds(carom_world *world, int32_t count, carom_error *e
 	for (uint32_t i = 0; i < world->events.rounds; i++) {
 		const int32_t round = ++world->events.round;
 		TRY(carom_run(world, STAGE_MUSTER, share, 1, round, 0, error));
-		TRY(carom_run(world, STAGE_RESOLVE, share, 1, round, 0, error));
+		TRY(resolve(world, round, error));
 		TRY(carom_run(world, STAGE_CHECK, share, 1, round, 0, error));
 	}
 	return CAROM_OK;
@@ -88,7 +100,8 @@ carom_status carom_events_resolve(carom_world *world, carom_error *error)
 	const int32_t count = (int32_t)world->body_count;
 	carom_status status;
 	world->events.since++;
-	TRY(carom_run(world, STAGE_MEND, GROUP_FEW * (count / MEND_SHARE + 4), 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
+	TRY(carom_run(world, STAGE_MEND, (carom_is_gpu(world) ? GROUP_WIDE : GROUP_FEW) * (count / MEND_SHARE + 4), 1, (int32_t)world->events.columns,
+		(int32_t)world->events.rows, error));
 	TRY(run_rounds(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, count, error));
 	carom_swap(world, ROLE_CLOCK);
