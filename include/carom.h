@@ -8,6 +8,8 @@
  *   divides and takes square roots correctly rounded.
  * Errors: a function that can fail returns a carom_status, leaves its outputs alone when it fails, and fills in the
  *   caller's carom_error if one is given (NULL is fine everywhere). The library never prints, exits or aborts.
+ * NULL: is CAROM_INVALID_ARGUMENT where nothing says that it may be given; an array of no items may always be NULL. A function that
+ *   returns no status does nothing then, and answers 0, false or NULL.
  * Threads: a world belongs to one thread at a time; different worlds are independent. There is no global state.
  * Lifetime: what a function named ..._create or ..._read hands out is released by the ..._destroy of the same noun;
  *   destroying NULL does nothing. Strings and arrays passed in are copied.

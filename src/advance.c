@@ -196,6 +196,7 @@ static carom_status run_all(carom_world *world, uint64_t steps, carom_report *re
 
 carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
+	GIVEN(world, error);
 	world->target = -1.0;
 	world->remaining[0] = (float)FOR_EVER;
 	world->remaining[1] = 0.0f;
@@ -204,6 +205,7 @@ carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *
 
 carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error)
 {
+	GIVEN(world, error);
 	const double rest = time - world->time;
 	if (!(time < FOR_EVER) || !(time == world->target || rest >= 0.0))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time: found %g s, must be from the world's %g s to %g s", time, world->time, FOR_EVER);
@@ -217,6 +219,7 @@ carom_status carom_world_advance_to(carom_world *world, double time, uint64_t mo
 
 carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error)
 {
+	GIVEN(world, error);
 	if (!(seconds >= 0.0 && seconds < FOR_EVER))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "seconds: found %g, must be from 0 to %g", seconds, FOR_EVER);
 	world->target = -1.0;

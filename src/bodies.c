@@ -88,18 +88,13 @@ static carom_status fail_number(carom_error *error, size_t index, const char *fi
 	return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].%s: found %g, must be %s", index, field, found, allowed);
 }
 
-static bool finite2(carom_vec2 v)
-{
-	return isfinite(v.x) && isfinite(v.y);
-}
-
 static carom_status check_numbers(const carom_body_def *def, size_t index, carom_error *error)
 {
-	if (!finite2(def->position))
+	if (!carom_is_finite(def->position))
 		return fail(error, index, "position", "must be two finite numbers (m)");
-	if (!finite2(def->velocity))
+	if (!carom_is_finite(def->velocity))
 		return fail(error, index, "velocity", "must be two finite numbers (m/s)");
-	if (!finite2(def->force))
+	if (!carom_is_finite(def->force))
 		return fail(error, index, "force", "must be two finite numbers (N)");
 	if (!isfinite(def->angle))
 		return fail(error, index, "angle", "must be a finite number (rad)");
@@ -138,7 +133,7 @@ static carom_status check_shape(const carom_body_def *def, size_t index, carom_e
 	if (def->shape == CAROM_POLYGON && !def->vertices)
 		return fail(error, index, "vertices", "are missing");
 	for (uint32_t i = 0; def->shape == CAROM_POLYGON && i < count; i++)
-		if (!finite2(def->vertices[i]))
+		if (!carom_is_finite(def->vertices[i]))
 			return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].vertices[%u]: must be two finite numbers (m)", index, (unsigned)i);
 	return CAROM_OK;
 }

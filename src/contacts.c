@@ -155,17 +155,19 @@ carom_status carom_contacts_fetch(carom_world *world, carom_error *error)
 
 carom_status carom_world_contact_count(carom_world *world, size_t *count, carom_error *error)
 {
-	carom_status status = carom_contacts_fetch(world, error);
-	if (!status)
-		*count = contact_count(world);
-	return status;
+	GIVEN(world, error);
+	GIVEN(count, error);
+	TRY(carom_contacts_fetch(world, error));
+	*count = contact_count(world);
+	return CAROM_OK;
 }
 
 carom_status carom_world_get_contacts(carom_world *world, size_t first, size_t count, carom_contact *contacts, carom_error *error)
 {
-	carom_status status = carom_contacts_fetch(world, error);
-	if (status)
-		return status;
+	GIVEN(world, error);
+	if (count > 0)
+		GIVEN(contacts, error);
+	TRY(carom_contacts_fetch(world, error));
 	if (first > contact_count(world) || count > contact_count(world) - first)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts %zu to %zu: the world has %zu", first, first + count, contact_count(world));
 	if (count > 0)
@@ -221,10 +223,11 @@ carom_status carom_world_set_contacts(carom_world *world, size_t count, const ca
 	carom_array sorted = {0};
 	uint8_t *counts = NULL;
 	carom_status status = CAROM_OK;
-	for (size_t k = 0; !status && k < count; k++)
-		status = check_contact(world, k, &contacts[k], error);
-	if (status)
-		return status;
+	GIVEN(world, error);
+	if (count > 0)
+		GIVEN(contacts, error);
+	for (size_t k = 0; k < count; k++)
+		TRY(check_contact(world, k, &contacts[k], error));
 	if (count > 0) {
 		counts = calloc(world->body_count, sizeof *counts);
 		if (!counts || !carom_array_grow(&sorted, count * sizeof *contacts)) {

@@ -68,15 +68,17 @@ carom_status carom_device_list_create(carom_device_info **devices, size_t *count
 {
 	carom_device_info *list = NULL, *grown;
 	size_t found = 0;
-	carom_status status = carom_cl_list(&list, &found, error);
-	if (status)
-		return status;
+	carom_status status;
+	GIVEN(devices, error);
+	GIVEN(count, error);
+	TRY(carom_cl_list(&list, &found, error));
 	grown = realloc(list, (found + 1) * sizeof *list);
 	if (!grown) {
 		free(list);
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to list the devices");
 	}
 	insert_fallback(grown, found);
+	status = CAROM_OK;
 	for (size_t i = 0; !status && i <= found; i++)
 		status = heed_limits(&grown[i], error);
 	if (status) {

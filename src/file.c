@@ -92,8 +92,11 @@ carom_status carom_file_create(const char *path, carom_file **file, FILE **strea
 	carom_file *made = NULL;
 	const char *advice;
 	int descriptor;
-	if (!path || !*path || !file || !stream)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_create: no path or no output");
+	GIVEN(path, error);
+	GIVEN(file, error);
+	GIVEN(stream, error);
+	if (!*path)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "path: found \"\", must be the name of a file");
 	made = calloc(1, sizeof *made);
 	if (!made)
 		goto no_memory;
@@ -125,8 +128,7 @@ carom_status carom_file_commit(carom_file *file, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	int number = 0;
-	if (!file)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_file_commit: no file");
+	GIVEN(file, error);
 	errno = 0;
 	/* An earlier write may have failed and set the flag only: its errno is lost, a full disk the likeliest cause. */
 	if (fflush(file->stream) != 0 || ferror(file->stream))

@@ -67,8 +67,8 @@ static carom_status read_bodies(carom_world *world, bodies *b, carom_measure *su
 
 carom_status carom_world_measure(carom_world *world, carom_measure *measure, carom_error *error)
 {
-	if (!world || !measure)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "%s is NULL", world ? "measure" : "world");
+	GIVEN(world, error);
+	GIVEN(measure, error);
 	carom_measure sum = {0};
 	bodies b = {0};
 	carom_status status = count_bodies(world, &b, error);

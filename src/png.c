@@ -154,8 +154,8 @@ carom_status carom_png_write(const char *path, const uint8_t *pixels, uint32_t w
 	carom_status status;
 	carom_file *file = NULL;
 	FILE *stream = NULL;
-	if (!path || !pixels)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_png_write: no path or no pixels");
+	GIVEN(path, error);
+	GIVEN(pixels, error);
 	if (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE) {
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_png_write: %u x %u pixels; a side has 1 to %u", width, height, MAX_SIDE);
 	}

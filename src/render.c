@@ -57,8 +57,9 @@ static carom_status check_inset(const carom_inset *inset, carom_error *error)
 
 static carom_status check_arguments(const carom_world *world, const carom_render_def *def, const uint8_t *pixels, carom_error *error)
 {
-	if (!world || !def || !pixels)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "%s is NULL", !world ? "world" : !def ? "def" : "pixels");
+	GIVEN(world, error);
+	GIVEN(def, error);
+	GIVEN(pixels, error);
 	if (def->width < 1 || def->width > MAX_SIDE || def->height < 1 || def->height > MAX_SIDE)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the picture is %u x %u pixels: both must be 1 to %d", (unsigned)def->width,
 			(unsigned)def->height, MAX_SIDE);

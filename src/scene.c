@@ -135,8 +135,8 @@ carom_status carom_scene_create_world(const carom_scene *scene, carom_world **wo
 {
 	carom_status status;
 	carom_world *made = NULL;
-	if (!scene || !world)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_create_world: no scene or no world");
+	GIVEN(scene, error);
+	GIVEN(world, error);
 	status = carom_world_create(&scene->world, &made, error);
 	if (status == CAROM_OK && scene->body_count > 0)
 		status = carom_world_add(made, scene->bodies, scene->body_count, NULL, error);

@@ -134,8 +134,8 @@ carom_status carom_scene_parse(const char *text, size_t length, const char *name
 {
 	static const char byte_order_mark[] = "\xEF\xBB\xBF";
 	carom_status status;
-	if (!text || !scene)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_parse: no text or no scene");
+	GIVEN(text, error);
+	GIVEN(scene, error);
 	if (length > MOST_BYTES)
 		return carom_fail(error, CAROM_INVALID_SCENE, "%s: found more than 2 GiB of text; allowed: up to %d bytes", name ? name : "scene",
 			MOST_BYTES);
@@ -192,8 +192,8 @@ carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error
 	char reason[128];
 	size_t length = 0;
 	FILE *file;
-	if (!path || !scene)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_scene_read: no path or no scene");
+	GIVEN(path, error);
+	GIVEN(scene, error);
 	errno = 0;
 	file = open_scene(path);
 	if (file && read_all(file, &text, &length)) {

@@ -297,8 +297,8 @@ carom_status carom_world_write_scene(carom_world *world, const carom_camera *cam
 {
 	const carom_world_def defaults = carom_default_world_def();
 	carom_file *file = NULL;
-	if (!world || !path)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "carom_world_write_scene: no world or no path");
+	GIVEN(world, error);
+	GIVEN(path, error);
 	struct writer writer = {NULL, carom_world_get_def(world), &defaults, carom_default_body_def()};
 	carom_status status = camera ? check_camera(camera, error) : CAROM_OK;
 	if (status == CAROM_OK)

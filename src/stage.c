@@ -169,26 +169,30 @@ static carom_status unknown_alternative(const carom_slot *slot, const char *want
 	return carom_fail(error, CAROM_UNKNOWN_NAME, "the slot '%s' has no alternative '%.64s'; it has %s", slot->name, wanted, list);
 }
 
-carom_status carom_pipeline_set(carom_pipeline *pipeline, const char *name, const char *alternative, carom_error *error)
+carom_status carom_pipeline_set(carom_pipeline *pipeline, const char *slot, const char *alternative, carom_error *error)
 {
-	const carom_slot *slot = slot_named(name);
-	const char *known;
-	if (!slot || slot->field == SIZE_MAX)
-		return unknown_slot(name, error);
-	known = alternative_named(slot, alternative);
+	GIVEN(pipeline, error);
+	GIVEN(slot, error);
+	GIVEN(alternative, error);
+	const carom_slot *found = slot_named(slot);
+	if (!found || found->field == SIZE_MAX)
+		return unknown_slot(slot, error);
+	const char *known = alternative_named(found, alternative);
 	if (!known)
-		return unknown_alternative(slot, alternative, error);
-	*choice(pipeline, slot) = known;
+		return unknown_alternative(found, alternative, error);
+	*choice(pipeline, found) = known;
 	return CAROM_OK;
 }
 
 const char *carom_pipeline_get(const carom_pipeline *pipeline, const char *name)
 {
-	const carom_slot *slot = slot_named(name);
-	carom_pipeline copy = *pipeline;
-	const char **chosen = slot ? choice(&copy, slot) : NULL;
-	if (!slot)
+	const carom_slot *slot = name ? slot_named(name) : NULL;
+	carom_pipeline copy;
+	const char **chosen;
+	if (!pipeline || !slot)
 		return NULL;
+	copy = *pipeline;
+	chosen = choice(&copy, slot);
 	return chosen && *chosen ? *chosen : slot->standard;
 }
 
@@ -209,7 +213,7 @@ carom_status carom_pipeline_resolve(const carom_pipeline *pipeline, carom_pipeli
 
 bool carom_stage_list(size_t index, carom_stage_info *info)
 {
-	for (size_t i = 0; i < carom_slot_count; i++) {
+	for (size_t i = 0; info && i < carom_slot_count; i++) {
 		const carom_slot *slot = &carom_slots[i];
 		bool is_step = !strcmp(slot->name, "step");
 		const char *name;

@@ -20,6 +20,13 @@ carom_status carom_fail(carom_error *error, carom_status status, const char *for
 /* What an errno means, in `text`: strerror's own text may change under another thread. */
 const char *carom_errno_text(int number, char *text, size_t size);
 
+/* Refuses NULL for a pointer that the caller has to give. */
+#define GIVEN(pointer, error)                                                                            \
+	do {                                                                                                 \
+		if (!(pointer))                                                                                  \
+			return carom_fail(error, CAROM_INVALID_ARGUMENT, "%s: found NULL, must be given", #pointer); \
+	} while (0)
+
 /* Returns what the call does, if that is an error. */
 #define TRY(call)                      \
 	do {                               \

@@ -28,43 +28,6 @@ void *carom_array_grow(carom_array *array, size_t size)
 	return (char *)array->items + array->used - size;
 }
 
-carom_world_def carom_default_world_def(void)
-{
-	carom_world_def def = {.time_step = 1.0f / 60.0f, .restitution = 1.0f, .epsilon = 3.814697265625e-6f /* 2^-18 */};
-	return def;
-}
-
-static bool finite2(carom_vec2 v)
-{
-	return isfinite(v.x) && isfinite(v.y);
-}
-
-static carom_status check_def(const carom_world_def *def, carom_error *error)
-{
-	if (!(def->time_step >= LEAST_STEP) || !isfinite(def->time_step))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time_step: found %.9g, must be finite and at least 1.17549435e-38 (s)",
-			(double)def->time_step);
-	if (!finite2(def->gravity))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "gravity: must be two finite numbers (m/s^2)");
-	if (!(def->restitution >= 0.0f && def->restitution <= 1.0f))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "restitution: found %g, must be from 0 to 1", (double)def->restitution);
-	if (!(def->friction >= 0.0f && def->friction <= CAROM_MAX_FRICTION))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "friction: found %g, must be from 0 to 1000", (double)def->friction);
-	if (!(def->epsilon >= 2.384185791015625e-7f && def->epsilon <= 0.5f))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "epsilon: found %g, must be from 2^-22 to 0.5 (of a step)", (double)def->epsilon);
-	if (def->storage != CAROM_STORAGE_AUTO && def->storage != CAROM_STORAGE_IMAGE && def->storage != CAROM_STORAGE_BUFFER)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "storage: found %d, must be CAROM_STORAGE_AUTO, _IMAGE or _BUFFER", (int)def->storage);
-	if (def->threads > CAROM_MOST_THREADS)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "threads: found %u, must be from 1 to %d, or 0 for one a core", (unsigned)def->threads,
-			CAROM_MOST_THREADS);
-	if (def->has_room && (!finite2(def->room_min) || !finite2(def->room_max)))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "room: min and max must be two finite numbers each (m)");
-	if (def->has_room && !(def->room_min.x < def->room_max.x && def->room_min.y < def->room_max.y))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "room: min (%g, %g) must be below max (%g, %g)", (double)def->room_min.x,
-			(double)def->room_min.y, (double)def->room_max.x, (double)def->room_max.y);
-	return CAROM_OK;
-}
-
 static const carom_step *step_named(const char *name)
 {
 	for (size_t i = 0; i < carom_step_count; i++)
@@ -83,15 +46,12 @@ static void keep_names(carom_pipeline *given, const carom_pipeline *resolved)
 
 carom_status carom_world_create(const carom_world_def *def, carom_world **world, carom_error *error)
 {
+	GIVEN(def, error);
+	GIVEN(world, error);
+	TRY(carom_check_world_def(def, error));
 	carom_device_def device_def = {.name = def->device, .storage = def->storage, .threads = def->threads, .profile = def->profile};
-	carom_world *w;
-	carom_status status = check_def(def, error);
-	if (status)
-		return status;
-	status = carom_pipeline_resolve(&def->pipeline, &device_def.pipeline, error);
-	if (status)
-		return status;
-	w = calloc(1, sizeof *w);
+	TRY(carom_pipeline_resolve(&def->pipeline, &device_def.pipeline, error));
+	carom_world *w = calloc(1, sizeof *w);
 	if (!w)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a world");
 	w->def = *def;
@@ -105,7 +65,7 @@ carom_status carom_world_create(const carom_world_def *def, carom_world **world,
 		snprintf(w->device_name, sizeof w->device_name, "%s", def->device);
 		w->def.device = w->device_name;
 	}
-	status = carom_device_open(&device_def, &w->device, error);
+	const carom_status status = carom_device_open(&device_def, &w->device, error);
 	if (status) {
 		carom_world_destroy(w);
 		return status;
@@ -193,12 +153,14 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 
 carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error)
 {
+	GIVEN(world, error);
 	const size_t used[5] = {world->bodies.used, world->vertices.used, world->names.used, world->linear.used, world->rotational.used};
-	size_t before = world->body_count;
-	carom_status status = CAROM_OK;
+	const size_t before = world->body_count;
 	if (count > MAX_BODIES - before)
 		return carom_fail(error, CAROM_LIMIT, "a world holds at most %u bodies", MAX_BODIES);
-	status = carom_textures_fetch(world, error);
+	if (count > 0)
+		GIVEN(defs, error);
+	carom_status status = carom_textures_fetch(world, error);
 	if (!status)
 		status = carom_contacts_fetch(world, error);
 	for (size_t i = 0; !status && i < count; i++)
@@ -221,22 +183,23 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 
 size_t carom_world_body_count(const carom_world *world)
 {
-	return world->body_count;
+	return world ? world->body_count : 0;
 }
 
 const carom_world_def *carom_world_get_def(const carom_world *world)
 {
-	return &world->def;
+	return world ? &world->def : NULL;
 }
 
 double carom_world_time(const carom_world *world)
 {
-	return world->time;
+	return world ? world->time : 0.0;
 }
 
 carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error)
 {
-	(void)error;
+	GIVEN(world, error);
+	GIVEN(info, error);
 	*info = world->device->info;
 	info->uses_images = world->device->storage == CAROM_STORAGE_IMAGE;
 	return CAROM_OK;
@@ -244,13 +207,15 @@ carom_status carom_world_get_device(const carom_world *world, carom_device_info 
 
 void carom_world_set_progress(carom_world *world, carom_progress progress, void *context)
 {
+	if (!world)
+		return;
 	world->progress = progress;
 	world->progress_context = context;
 }
 
 bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *time)
 {
-	if (!world->def.profile || index >= STAGE_COUNT)
+	if (!world || !time || !world->def.profile || index >= STAGE_COUNT)
 		return false;
 	world->device->kind->profile(world->device);
 	*time = world->device->times[index];
@@ -267,10 +232,10 @@ static carom_status check_range(const carom_world *world, uint32_t first, size_t
 
 carom_status carom_world_get_body(const carom_world *world, uint32_t index, carom_body_info *info, carom_error *error)
 {
-	carom_status status = check_range(world, index, 1, error);
 	const carom_body *body;
-	if (status)
-		return status;
+	GIVEN(world, error);
+	GIVEN(info, error);
+	TRY(check_range(world, index, 1, error));
 	body = &carom_world_bodies(world)[index];
 	*info = (carom_body_info){
 		.shape = body->shape,
@@ -294,11 +259,11 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 
 carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error)
 {
-	carom_status status = check_range(world, first, count, error);
-	if (!status)
-		status = carom_textures_fetch(world, error);
-	if (status)
-		return status;
+	GIVEN(world, error);
+	if (count > 0)
+		GIVEN(states, error);
+	TRY(check_range(world, first, count, error));
+	TRY(carom_textures_fetch(world, error));
 	for (size_t i = 0; i < count; i++) {
 		const float *l = (const float *)world->linear.items + 4 * (first + i), *r = (const float *)world->rotational.items + 4 * (first + i);
 		states[i] = (carom_body_state){{l[LINEAR_X], l[LINEAR_Y]}, r[ROTATIONAL_ANGLE], {l[LINEAR_VX], l[LINEAR_VY]}, r[ROTATIONAL_VELOCITY]};
@@ -308,7 +273,7 @@ carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t c
 
 static carom_status check_state(const carom_world *world, uint32_t index, const carom_body_state *s, carom_error *error)
 {
-	if (!finite2(s->position) || !finite2(s->velocity) || !isfinite(s->angle) || !isfinite(s->angular_velocity))
+	if (!carom_is_finite(s->position) || !carom_is_finite(s->velocity) || !isfinite(s->angle) || !isfinite(s->angular_velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the state of body %u has a number that is not finite", index);
 	if (carom_outside_room(&world->def, s->position, s->velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the position of body %u, (%g, %g), is outside the room", index, (double)s->position.x,
@@ -320,13 +285,13 @@ static carom_status check_state(const carom_world *world, uint32_t index, const 
 
 carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
 {
-	carom_status status = check_range(world, first, count, error);
-	for (size_t i = 0; !status && i < count; i++)
-		status = check_state(world, first + (uint32_t)i, &states[i], error);
-	if (!status)
-		status = carom_textures_fetch(world, error);
-	if (status)
-		return status;
+	GIVEN(world, error);
+	if (count > 0)
+		GIVEN(states, error);
+	TRY(check_range(world, first, count, error));
+	for (size_t i = 0; i < count; i++)
+		TRY(check_state(world, first + (uint32_t)i, &states[i], error));
+	TRY(carom_textures_fetch(world, error));
 	for (size_t i = 0; i < count; i++) {
 		float *l = (float *)world->linear.items + 4 * (first + i), *r = (float *)world->rotational.items + 4 * (first + i);
 		l[LINEAR_X] = states[i].position.x;
@@ -342,12 +307,11 @@ carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t c
 
 carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error)
 {
-	carom_status status = check_range(world, index, 1, error);
 	carom_body *body;
-	if (status)
-		return status;
+	GIVEN(world, error);
+	TRY(check_range(world, index, 1, error));
 	body = &carom_world_bodies(world)[index];
-	if (!finite2(force) || !isfinite(torque))
+	if (!carom_is_finite(force) || !isfinite(torque))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
 	if (body->is_static)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and feels no force", index);
@@ -361,9 +325,9 @@ uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_
 {
 	carom_pipeline pipeline;
 	const carom_step *step;
-	if (body_count > MAX_BODIES || vertex_count > CAROM_MAX_VERTICES * body_count)
+	if (!def || body_count > MAX_BODIES || vertex_count > CAROM_MAX_VERTICES * body_count)
 		return 0;
-	if (check_def(def, NULL) || carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
+	if (carom_check_world_def(def, NULL) || carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
 		return 0;
 	step = step_named(pipeline.step);
 	return carom_textures_memory(body_count, vertex_count, step->pairs) + step->memory(&pipeline, def, body_count, vertex_count);
@@ -381,9 +345,9 @@ static uint64_t hash_float(uint64_t hash, float x)
 carom_status carom_world_hash(carom_world *world, uint64_t *hash, carom_error *error)
 {
 	uint64_t h = 14695981039346656037u;
-	carom_status status = carom_textures_fetch(world, error);
-	if (status)
-		return status;
+	GIVEN(world, error);
+	GIVEN(hash, error);
+	TRY(carom_textures_fetch(world, error));
 	for (size_t i = 0; i < world->body_count; i++) {
 		const float *l = (const float *)world->linear.items + 4 * i, *r = (const float *)world->rotational.items + 4 * i;
 		for (int k = 0; k < 4; k++)

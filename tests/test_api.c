@@ -15,7 +15,7 @@ static void assert_fails(carom_status status, const carom_error *error, carom_st
 		fail_msg("expected %s: \"%s ...\", got %s: \"%s\"", carom_status_name(expected), said, carom_status_name(status), error->text);
 }
 
-/* ---- Statuses, versions, NULL */
+/* ---- Statuses, versions */
 
 static void statuses_have_names(void **unused)
 {
@@ -36,49 +36,6 @@ static void version_is_the_headers(void **unused)
 	char version[32];
 	snprintf(version, sizeof version, "%d.%d.%d", CAROM_VERSION_MAJOR, CAROM_VERSION_MINOR, CAROM_VERSION_PATCH);
 	assert_string_equal(carom_version(), version);
-}
-
-static void null_is_released(void **unused)
-{
-	(void)unused;
-	carom_world_destroy(NULL);
-	carom_scene_destroy(NULL);
-	carom_device_list_destroy(NULL);
-	carom_file_destroy(NULL);
-}
-
-/* Every error may be NULL, and success leaves the error alone. */
-static void errors_are_optional(void **unused)
-{
-	(void)unused;
-	carom_world_def def = carom_default_world_def();
-	carom_world *world = NULL;
-	carom_body_def body = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
-	carom_error error, untouched;
-	carom_device_info device;
-	uint64_t hash;
-	memset(&error, 0x5A, sizeof error);
-	untouched = error;
-	def.device = "cpu";
-	assert_int_equal(carom_world_create(&def, &world, &error), CAROM_OK);
-	assert_int_equal(carom_world_add(world, &body, 1, NULL, &error), CAROM_OK);
-	assert_int_equal(carom_world_step(world, 1, NULL, &error), CAROM_OK);
-	assert_int_equal(carom_world_advance(world, 0.01, NULL, &error), CAROM_OK);
-	assert_int_equal(carom_world_hash(world, &hash, &error), CAROM_OK);
-	assert_int_equal(carom_world_get_device(world, &device, &error), CAROM_OK);
-	assert_memory_equal(&error, &untouched, sizeof error);
-	assert_int_equal(carom_world_advance(world, -1.0, NULL, NULL), CAROM_INVALID_ARGUMENT);
-	assert_int_equal(carom_world_get_states(world, 0, 2, NULL, NULL), CAROM_INVALID_ARGUMENT);
-	assert_int_equal(carom_world_set_states(world, 0, 2, NULL, NULL), CAROM_INVALID_ARGUMENT);
-	assert_int_equal(carom_world_get_body(world, 1, NULL, NULL), CAROM_INVALID_ARGUMENT);
-	assert_int_equal(carom_world_set_force(world, 1, body.position, 0.0f, NULL), CAROM_INVALID_ARGUMENT);
-	carom_world_destroy(world);
-	world = NULL;
-	def.device = "abacus";
-	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_UNKNOWN_NAME);
-	def.time_step = 0.0f;
-	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_INVALID_ARGUMENT);
-	assert_null(world);
 }
 
 /* ---- The definition of a world */
@@ -364,9 +321,8 @@ static void devices_by_name(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(statuses_have_names), cmocka_unit_test(version_is_the_headers),
-		cmocka_unit_test(null_is_released), cmocka_unit_test(errors_are_optional), cmocka_unit_test(definitions_out_of_range),
-		cmocka_unit_test(definitions_in_range), cmocka_unit_test(any_number_of_iterations), cmocka_unit_test(steps_start_within_floats),
-		cmocka_unit_test(unknown_names_list_the_known), cmocka_unit_test(stages_are_listed), cmocka_unit_test(devices_are_listed),
-		cmocka_unit_test(devices_by_name)};
+		cmocka_unit_test(definitions_out_of_range), cmocka_unit_test(definitions_in_range), cmocka_unit_test(any_number_of_iterations),
+		cmocka_unit_test(steps_start_within_floats), cmocka_unit_test(unknown_names_list_the_known), cmocka_unit_test(stages_are_listed),
+		cmocka_unit_test(devices_are_listed), cmocka_unit_test(devices_by_name)};
 	return cmocka_run_group_tests_name("api", tests, NULL, NULL);
 }

@@ -101,7 +101,7 @@ static void null_is_an_error(void **state)
 	carom_error error = {0};
 	carom_world *world = world_of(carom_default_world_def(), NULL, 0);
 	assert_int_equal(carom_world_measure(NULL, &measure, &error), CAROM_INVALID_ARGUMENT);
-	assert_string_equal(error.text, "world is NULL");
+	assert_string_equal(error.text, "world: found NULL, must be given");
 	assert_true(measure.kinetic_energy == 42);
 	assert_int_equal(carom_world_measure(world, NULL, NULL), CAROM_INVALID_ARGUMENT);
 	carom_world_destroy(world);

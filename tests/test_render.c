@@ -218,7 +218,7 @@ static void wrong_arguments_are_refused(void **state)
 	refused(world, def, "inset.size is (0, 0): both must be above 0 and finite");
 	def.inset = (carom_inset){{-INFINITY, 0}, {1, 1}};
 	refused(world, def, "inset.min is (-inf, 0): both must be finite");
-	refused(NULL, sized(1, 1), "world is NULL");
+	refused(NULL, sized(1, 1), "world: found NULL, must be given");
 	carom_world_destroy(world);
 }
 

@@ -1,0 +1,192 @@
+/* NULL for every pointer that the public functions take: what has to be given is refused by name, the rest may be left out.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenery.h"
+
+static void null_is_released(void **unused)
+{
+	(void)unused;
+	carom_world_destroy(NULL);
+	carom_scene_destroy(NULL);
+	carom_device_list_destroy(NULL);
+	carom_file_destroy(NULL);
+}
+
+/* Every error may be NULL, and success leaves the error alone. */
+static void errors_are_optional(void **unused)
+{
+	(void)unused;
+	carom_world_def def = carom_default_world_def();
+	carom_world *world = NULL;
+	carom_body_def body = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
+	carom_error error, untouched;
+	carom_device_info device;
+	uint64_t hash;
+	memset(&error, 0x5A, sizeof error);
+	untouched = error;
+	def.device = "cpu";
+	assert_int_equal(carom_world_create(&def, &world, &error), CAROM_OK);
+	assert_int_equal(carom_world_add(world, &body, 1, NULL, &error), CAROM_OK);
+	assert_int_equal(carom_world_step(world, 1, NULL, &error), CAROM_OK);
+	assert_int_equal(carom_world_advance(world, 0.01, NULL, &error), CAROM_OK);
+	assert_int_equal(carom_world_hash(world, &hash, &error), CAROM_OK);
+	assert_int_equal(carom_world_get_device(world, &device, &error), CAROM_OK);
+	assert_memory_equal(&error, &untouched, sizeof error);
+	assert_int_equal(carom_world_advance(world, -1.0, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_get_states(world, 0, 2, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_set_states(world, 0, 2, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_get_body(world, 1, NULL, NULL), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_set_force(world, 1, body.position, 0.0f, NULL), CAROM_INVALID_ARGUMENT);
+	carom_world_destroy(world);
+	world = NULL;
+	def.device = "abacus";
+	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_UNKNOWN_NAME);
+	def.time_step = 0.0f;
+	assert_int_equal(carom_world_create(&def, &world, NULL), CAROM_INVALID_ARGUMENT);
+	assert_null(world);
+}
+
+/* The argument's name begins what is said. */
+#define REFUSE(name, call)                                                   \
+	do {                                                                     \
+		carom_error error = {0};                                             \
+		assert_int_equal(call, CAROM_INVALID_ARGUMENT);                      \
+		assert_int_equal(error.status, CAROM_INVALID_ARGUMENT);              \
+		assert_string_equal(error.text, name ": found NULL, must be given"); \
+	} while (0)
+
+static carom_world *world_of_one(void)
+{
+	const carom_body_def body = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
+	carom_world_def def = carom_default_world_def();
+	carom_world *world = NULL;
+	carom_error error;
+	def.device = "cpu";
+	def.profile = true;
+	scenery_check(carom_world_create(&def, &world, &error), &error);
+	scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
+	return world;
+}
+
+static void what_has_to_be_given_of_worlds(void **unused)
+{
+	(void)unused;
+	const carom_vec2 none = {0.0f, 0.0f};
+	carom_world *world = world_of_one(), *other = NULL;
+	carom_world_def def = carom_default_world_def();
+	carom_body_def body = scenery_circle(3.0f, 0.0f, 0.0f, 0.0f, 1.0f);
+	carom_body_info info;
+	carom_body_state state;
+	carom_contact contact;
+	carom_device_info device;
+	carom_measure measure;
+	size_t count = 9;
+	uint64_t hash;
+	REFUSE("def", carom_world_create(NULL, &other, &error));
+	REFUSE("world", carom_world_create(&def, NULL, &error));
+	REFUSE("world", carom_world_add(NULL, &body, 1, NULL, &error));
+	REFUSE("defs", carom_world_add(world, NULL, 1, NULL, &error));
+	REFUSE("world", carom_world_get_body(NULL, 0, &info, &error));
+	REFUSE("info", carom_world_get_body(world, 0, NULL, &error));
+	REFUSE("world", carom_world_get_states(NULL, 0, 1, &state, &error));
+	REFUSE("states", carom_world_get_states(world, 0, 1, NULL, &error));
+	REFUSE("world", carom_world_set_states(NULL, 0, 1, &state, &error));
+	REFUSE("states", carom_world_set_states(world, 0, 1, NULL, &error));
+	REFUSE("world", carom_world_set_force(NULL, 0, none, 0.0f, &error));
+	REFUSE("world", carom_world_contact_count(NULL, &count, &error));
+	REFUSE("count", carom_world_contact_count(world, NULL, &error));
+	REFUSE("world", carom_world_get_contacts(NULL, 0, 0, &contact, &error));
+	REFUSE("contacts", carom_world_get_contacts(world, 0, 1, NULL, &error));
+	REFUSE("world", carom_world_set_contacts(NULL, 0, NULL, &error));
+	REFUSE("contacts", carom_world_set_contacts(world, 1, NULL, &error));
+	REFUSE("world", carom_world_step(NULL, 1, NULL, &error));
+	REFUSE("world", carom_world_advance(NULL, 1.0, NULL, &error));
+	REFUSE("world", carom_world_advance_to(NULL, 1.0, 1, NULL, &error));
+	REFUSE("world", carom_world_get_device(NULL, &device, &error));
+	REFUSE("info", carom_world_get_device(world, NULL, &error));
+	REFUSE("world", carom_world_measure(NULL, &measure, &error));
+	REFUSE("measure", carom_world_measure(world, NULL, &error));
+	REFUSE("world", carom_world_hash(NULL, &hash, &error));
+	REFUSE("hash", carom_world_hash(world, NULL, &error));
+	assert_null(other);
+	assert_int_equal(count, 9);
+	assert_int_equal(carom_world_body_count(world), 1);
+	carom_world_destroy(world);
+}
+
+static void what_has_to_be_given_of_the_rest(void **unused)
+{
+	(void)unused;
+	static uint8_t pixels[4];
+	const carom_render_def render = {.width = 1, .height = 1};
+	carom_world *world = world_of_one();
+	carom_pipeline pipeline = {0};
+	carom_device_info *devices = NULL;
+	carom_scene *scene = NULL;
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	size_t count;
+	REFUSE("pipeline", carom_pipeline_set(NULL, "toi", "separating", &error));
+	REFUSE("slot", carom_pipeline_set(&pipeline, NULL, "separating", &error));
+	REFUSE("alternative", carom_pipeline_set(&pipeline, "toi", NULL, &error));
+	REFUSE("devices", carom_device_list_create(NULL, &count, &error));
+	REFUSE("count", carom_device_list_create(&devices, NULL, &error));
+	REFUSE("path", carom_scene_read(NULL, &scene, &error));
+	REFUSE("scene", carom_scene_read("scenes/mixed.json", NULL, &error));
+	REFUSE("text", carom_scene_parse(NULL, 0, "scene", &scene, &error));
+	REFUSE("scene", carom_scene_parse("{}", 2, "scene", NULL, &error));
+	REFUSE("scene", carom_scene_create_world(NULL, &world, &error));
+	scenery_check(carom_scene_read("scenes/mixed.json", &scene, NULL), NULL);
+	REFUSE("world", carom_scene_create_world(scene, NULL, &error));
+	carom_scene_destroy(scene);
+	REFUSE("world", carom_world_write_scene(NULL, NULL, "nowhere/scene.json", &error));
+	REFUSE("path", carom_world_write_scene(world, NULL, NULL, &error));
+	REFUSE("world", carom_world_render(NULL, &render, pixels, &error));
+	REFUSE("def", carom_world_render(world, NULL, pixels, &error));
+	REFUSE("pixels", carom_world_render(world, &render, NULL, &error));
+	REFUSE("path", carom_png_write(NULL, pixels, 1, 1, &error));
+	REFUSE("pixels", carom_png_write("nowhere/picture.png", NULL, 1, 1, &error));
+	REFUSE("path", carom_file_create(NULL, &file, &stream, &error));
+	REFUSE("file", carom_file_create("nowhere/file", NULL, &stream, &error));
+	REFUSE("stream", carom_file_create("nowhere/file", &file, NULL, &error));
+	REFUSE("file", carom_file_commit(NULL, &error));
+	carom_world_destroy(world);
+}
+
+/* Arrays of no items, and what functions without a status do. */
+static void what_need_not_be_given(void **unused)
+{
+	(void)unused;
+	carom_world *world = world_of_one();
+	const carom_pipeline pipeline = {0};
+	carom_stage_info stage;
+	carom_kernel_time time;
+	assert_int_equal(carom_world_add(world, NULL, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_get_states(world, 1, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_set_states(world, 1, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_get_contacts(world, 0, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_set_contacts(world, 0, NULL, NULL), CAROM_OK);
+	carom_world_set_progress(NULL, NULL, NULL);
+	assert_int_equal(carom_world_body_count(NULL), 0);
+	assert_true(carom_world_time(NULL) == 0.0);
+	assert_null(carom_world_get_def(NULL));
+	assert_int_equal(carom_world_memory(NULL, 1, 1), 0);
+	assert_true(carom_world_profile(world, 0, &time));
+	assert_false(carom_world_profile(world, 0, NULL));
+	assert_false(carom_world_profile(NULL, 0, &time));
+	assert_true(carom_stage_list(0, &stage));
+	assert_false(carom_stage_list(0, NULL));
+	assert_null(carom_pipeline_get(NULL, "toi"));
+	assert_null(carom_pipeline_get(&pipeline, NULL));
+	carom_world_destroy(world);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {cmocka_unit_test(null_is_released), cmocka_unit_test(errors_are_optional),
+		cmocka_unit_test(what_has_to_be_given_of_worlds), cmocka_unit_test(what_has_to_be_given_of_the_rest),
+		cmocka_unit_test(what_need_not_be_given)};
+	return cmocka_run_group_tests_name("null", tests, NULL, NULL);
+}
