@@ -6,6 +6,7 @@
 #include "palette.h"
 #include "status.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,11 +56,10 @@ static carom_status check_inset(const carom_inset *inset, carom_error *error)
 	return CAROM_OK;
 }
 
-static carom_status check_arguments(const carom_world *world, const carom_render_def *def, const uint8_t *pixels, carom_error *error)
+static carom_status check_arguments(const carom_world *world, const carom_render_def *def, carom_error *error)
 {
 	GIVEN(world, error);
 	GIVEN(def, error);
-	GIVEN(pixels, error);
 	if (def->width < 1 || def->width > MAX_SIDE || def->height < 1 || def->height > MAX_SIDE)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the picture is %u x %u pixels: both must be 1 to %d", (unsigned)def->width,
 			(unsigned)def->height, MAX_SIDE);
@@ -198,25 +198,47 @@ static void look_at(carom_layer *view, double x, double y, double height, carom_
 	view->clip = clip;
 }
 
-static carom_status main_view(carom_world *world, const carom_render_def *def, carom_layer *view, carom_error *error)
+/* A camera in double precision: nothing is rounded where none is given. */
+typedef struct sight {
+	double x, y, height; /* m */
+} sight;
+
+static carom_status find_sight(carom_world *world, const carom_render_def *def, sight *found, carom_error *error)
 {
 	const carom_world_def *world_def = carom_world_get_def(world);
-	carom_pixels clip = {0, 0, (int32_t)def->width, (int32_t)def->height};
-	double shorter = def->width < def->height ? def->width : def->height;
-	double line = shorter > THINNEST_LINE * LINES_IN_SIDE ? shorter / LINES_IN_SIDE : THINNEST_LINE;
+	const carom_camera *camera = &def->camera;
 	if (def->has_camera) {
-		const carom_camera *camera = &def->camera;
-		look_at(view, (double)camera->center.x, (double)camera->center.y, (double)camera->height, clip, line);
+		*found = (sight){(double)camera->center.x, (double)camera->center.y, (double)camera->height};
 		return CAROM_OK;
 	}
 	bounds b = room_of(world_def);
-	carom_status status = world_def->has_room ? CAROM_OK : bodies_of(world, &b, error);
-	if (status != CAROM_OK)
-		return status;
+	if (!world_def->has_room)
+		TRY(bodies_of(world, &b, error));
 	double wide = (b.max_x - b.min_x) * def->height / def->width, high = b.max_y - b.min_y;
 	double height = FIT_MARGIN * (wide > high ? wide : high);
 	/* A body so far out that its size is lost in its position has none here. */
-	look_at(view, (b.min_x + b.max_x) / 2, (b.min_y + b.max_y) / 2, height > 0 ? height : EMPTY_HEIGHT, clip, line);
+	*found = (sight){(b.min_x + b.max_x) / 2, (b.min_y + b.max_y) / 2, height > 0 ? height : EMPTY_HEIGHT};
+	return CAROM_OK;
+}
+
+carom_status carom_world_fit_camera(carom_world *world, const carom_render_def *def, carom_camera *camera, carom_error *error)
+{
+	sight found = {0};
+	GIVEN(camera, error);
+	TRY(check_arguments(world, def, error));
+	TRY(find_sight(world, def, &found, error));
+	*camera = (carom_camera){{(float)found.x, (float)found.y}, (float)fmax(FLT_MIN, fmin(found.height, FLT_MAX))};
+	return CAROM_OK;
+}
+
+static carom_status main_view(carom_world *world, const carom_render_def *def, carom_layer *view, carom_error *error)
+{
+	carom_pixels clip = {0, 0, (int32_t)def->width, (int32_t)def->height};
+	double shorter = def->width < def->height ? def->width : def->height;
+	double line = shorter > THINNEST_LINE * LINES_IN_SIDE ? shorter / LINES_IN_SIDE : THINNEST_LINE;
+	sight found = {0};
+	TRY(find_sight(world, def, &found, error));
+	look_at(view, found.x, found.y, found.height, clip, line);
 	return CAROM_OK;
 }
 
@@ -300,11 +322,9 @@ static void draw_inset(carom_layer *layer, const carom_layer *view, const carom_
 carom_status carom_world_render(carom_world *world, const carom_render_def *def, uint8_t *pixels, carom_error *error)
 {
 	carom_layer layers[2] = {{.mark_count = 0}};
-	carom_status status = check_arguments(world, def, pixels, error);
-	if (status == CAROM_OK)
-		status = main_view(world, def, &layers[0], error);
-	if (status != CAROM_OK)
-		return status;
+	TRY(check_arguments(world, def, error));
+	GIVEN(pixels, error);
+	TRY(main_view(world, def, &layers[0], error));
 	const carom_world_def *world_def = carom_world_get_def(world);
 	carom_picture picture = {def->width, def->height, ground_of(world_def), def->has_inset ? 2 : 1, layers};
 	draw_room(&layers[0], world_def);

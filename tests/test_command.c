@@ -215,6 +215,20 @@ static void frames_are_at_equal_times(void **state)
 	check("rm -r $D/frames", 0, "");
 }
 
+/* A ball that falls in a scene without room and camera: the first picture is filled by it, and then it is gone. */
+static void a_film_has_one_camera(void **state)
+{
+	(void)state;
+	check("echo '{\"format\": \"carom-scene/1\", \"gravity\": [0, -10], \"bodies\": [{\"circle\": {\"radius\": 0.5}}]}' >$D/s.json; "
+		  "$C run $D/s.json --time 1 --frames $D/f --fps 10 --size 32x32 --png $D/last.png --device cpu",
+		0, "the frames show where the bodies are at the start; a \"camera\" in the scene shows more");
+	check("cmp -s $D/f/frame_000000.png $D/f/frame_000001.png", 1, "");
+	check("cmp -s $D/f/frame_000001.png $D/f/frame_000009.png", 1, "");
+	check("cmp $D/f/frame_000009.png $D/last.png && cmp $D/f/frame_000009.png $D/f/frame_000010.png", 0, "");
+	check("$C run $D/s.json --time 1 --png $D/last.png --size 32x32 --device cpu --quiet && cmp $D/f/frame_000000.png $D/last.png", 0, "");
+	check("rm -r $D/f $D/s.json $D/last.png", 0, "");
+}
+
 static void a_scene_may_come_through_a_pipe(void **state)
 {
 	(void)state;
@@ -342,7 +356,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(help_is_complete), cmocka_unit_test(version_is_the_librarys),
 		cmocka_unit_test(wrong_calls_exit_with_2), cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
-		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times),
+		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(a_film_has_one_camera),
 		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
 		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_closed_output_is_an_error),
 		cmocka_unit_test(a_named_pipe_may_be_written), cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),

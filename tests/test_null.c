@@ -123,6 +123,7 @@ static void what_has_to_be_given_of_the_rest(void **unused)
 	const carom_render_def render = {.width = 1, .height = 1};
 	carom_world *world = world_of_one();
 	carom_pipeline pipeline = {0};
+	carom_camera camera;
 	carom_device_info *devices = NULL;
 	carom_scene *scene = NULL;
 	carom_file *file = NULL;
@@ -146,6 +147,9 @@ static void what_has_to_be_given_of_the_rest(void **unused)
 	REFUSE("world", carom_world_render(NULL, &render, pixels, &error));
 	REFUSE("def", carom_world_render(world, NULL, pixels, &error));
 	REFUSE("pixels", carom_world_render(world, &render, NULL, &error));
+	REFUSE("world", carom_world_fit_camera(NULL, &render, &camera, &error));
+	REFUSE("def", carom_world_fit_camera(world, NULL, &camera, &error));
+	REFUSE("camera", carom_world_fit_camera(world, &render, NULL, &error));
 	REFUSE("path", carom_png_write(NULL, pixels, 1, 1, &error));
 	REFUSE("pixels", carom_png_write("nowhere/picture.png", NULL, 1, 1, &error));
 	REFUSE("path", carom_file_create(NULL, &file, &stream, &error));

@@ -125,6 +125,40 @@ static void a_huge_body_has_a_sharp_rim(void **state)
 	carom_world_destroy(world);
 }
 
+static carom_camera fitted(carom_world *world, carom_render_def def)
+{
+	carom_camera camera = {{NAN, NAN}, NAN};
+	carom_error error = {0};
+	if (carom_world_fit_camera(world, &def, &camera, &error) != CAROM_OK)
+		fail_msg("%s", error.text);
+	return camera;
+}
+
+/* What is drawn without a camera is drawn with the one that is told. */
+static void the_fitted_camera_is_the_pictures(void **state)
+{
+	(void)state;
+	const carom_body_def body = regular(0, 2, 4, -1, 0);
+	carom_world *world = world_on("cpu", carom_default_world_def(), &body, 1), *room = world_on("cpu", in_room(4, 2), NULL, 0);
+	carom_render_def def = sized(60, 30);
+	carom_camera camera = fitted(world, def), of_room = fitted(room, def);
+	assert_true(camera.center.x == 4 && camera.center.y == -1 && camera.height > 4 && camera.height < 4.5f);
+	assert_true(of_room.center.x == 0 && of_room.center.y == 0 && of_room.height > 2 && of_room.height < 9);
+	picture without = picture_of(world, def);
+	def.has_camera = true;
+	def.camera = camera;
+	camera = fitted(world, def);
+	assert_memory_equal(&camera, &def.camera, sizeof camera);
+	picture with = picture_of(world, def);
+	assert_memory_equal(with.pixels, without.pixels, bytes_of(with));
+	def.camera.height = 0;
+	assert_int_equal(carom_world_fit_camera(world, &def, &camera, NULL), CAROM_INVALID_ARGUMENT);
+	free(with.pixels);
+	free(without.pixels);
+	carom_world_destroy(world);
+	carom_world_destroy(room);
+}
+
 static void an_empty_world_is_a_ground(void **state)
 {
 	(void)state;
@@ -237,7 +271,8 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(colors_are_those_of_the_bodies), cmocka_unit_test(places_are_exact),
 		cmocka_unit_test(a_circle_shows_its_angle), cmocka_unit_test(tiny_bodies_show_wherever_they_are),
-		cmocka_unit_test(what_is_outside_is_not_drawn), cmocka_unit_test(a_huge_body_has_a_sharp_rim), cmocka_unit_test(an_empty_world_is_a_ground),
+		cmocka_unit_test(what_is_outside_is_not_drawn), cmocka_unit_test(a_huge_body_has_a_sharp_rim),
+		cmocka_unit_test(the_fitted_camera_is_the_pictures), cmocka_unit_test(an_empty_world_is_a_ground),
 		cmocka_unit_test(an_inset_stays_in_its_frame), cmocka_unit_test(any_size_will_do), cmocka_unit_test(wrong_arguments_are_refused),
 		cmocka_unit_test(what_is_not_used_is_not_checked)};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -73,6 +73,18 @@ carom_status prepare_outputs(struct run *run, carom_error *error)
 	return status;
 }
 
+/* Frames that each looked for the bodies would follow them: what all do together would not be seen. */
+carom_status prepare_camera(struct run *run, carom_error *error)
+{
+	if (!run->options->frames || run->has_camera || carom_world_get_def(run->world)->has_room)
+		return CAROM_OK;
+	carom_status status = carom_world_fit_camera(run->world, &run->render, &run->render.camera, error);
+	run->render.has_camera = status == CAROM_OK;
+	if (status == CAROM_OK)
+		say(&run->options->common, "no camera and no room: the frames show where the bodies are at the start; a \"camera\" in the scene shows more");
+	return status;
+}
+
 /* ---- During the run ---- */
 
 static carom_status write_picture(struct run *run, const char *path, carom_error *error)

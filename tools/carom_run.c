@@ -72,7 +72,8 @@ static const struct option options_table[] = {
 	{"out", "STATE.json", read_output, offsetof(struct run_options, out), "write the last state as a scene that goes on with the same bits"},
 	{"png", "FRAME.png", read_output, offsetof(struct run_options, png), "write a picture of the last state"},
 	{"frames", "DIR", read_path, offsetof(struct run_options, frames),
-		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing"},
+		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing; where the scene has neither camera nor "
+		"room, all show what the first does"},
 	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames for a simulated second, at most 1000000; default 30"},
 	{"stats", "FILE.csv", read_output, offsetof(struct run_options, stats),
 		"write a table with a row a step: time, hits, energy, momenta, deepest penetration"},
@@ -234,10 +235,9 @@ static int run_scene(const struct run_options *options, carom_scene *scene)
 	if (status == CAROM_OK) {
 		say_device(common, run.world);
 		say_recentred(common, run.world);
-		code = run_world(&run);
-	} else {
-		code = report(&error);
+		status = prepare_camera(&run, &error);
 	}
+	code = status == CAROM_OK ? run_world(&run) : report(&error);
 	destroy_outputs(&run);
 	carom_world_destroy(run.world);
 	return code;

@@ -20,6 +20,9 @@ void calls_render(calls *c)
 	if (wrong < 8)
 		def.width = wrong % 2 ? TOO_WIDE : 0;
 	const snapshot before = calls_look(c);
+	carom_camera camera;
+	if (carom_world_fit_camera(*c->slot, &def, &camera, NULL) == CAROM_OK)
+		FUZZ_EXPECT(camera.height > 0);
 	if (calls_judge(c, carom_world_render(*c->slot, &def, pixels, &error), &error)) {
 		calls_note(c, pixels, size);
 		for (size_t k = 3; k < size; k += 4)
