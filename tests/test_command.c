@@ -81,6 +81,11 @@ static void wrong_calls_exit_with_2(void **state)
 		{"ln -s a $D/l; touch $D/a; $C run scenes/mixed.json --out $D/l --png $D/a; code=$?; rm $D/a $D/l; exit $code", "/a: two of --out, "},
 		{"mkdir $D/f; $C run scenes/mixed.json --png $D/f/frame_000001.png --frames $D/./f; code=$?; rmdir $D/f; exit $code", "_000001.png: two of"},
 		{"$C run scenes/mixed.json --out /dev/stdout --png $D/out", "two of --out, --png, --stats and --frames write there"},
+		{"touch $D/a; ln $D/a $D/l; $C run scenes/mixed.json --out $D/l --png $D/a; code=$?; rm $D/a $D/l; exit $code", "/a: two of --out, "},
+		{"$C run tests/bad/array.json --png tests/bad/../bad/array.json", "tests/bad/array.json: --png would replace the scene; only --out may"},
+		{"ln -s $PWD/tests/bad/array.json $D/l; $C run tests/bad/array.json --stats $D/l; code=$?; rm $D/l; exit $code", "--stats would replace the"},
+		{"$C run - --png tests/bad/array.json <tests/bad/array.json", "/dev/stdin: --png would replace the scene"},
+		{"mkdir $D/f; : >$D/f/frame_1.png; $C run $D/f/frame_1.png --frames $D/f; code=$?; rm -r $D/f; exit $code", "--frames would replace the"},
 		{"$C run scenes/mixed.json --frames -", "--frames: found \"-\", which would be standard output; allowed: a name; ./- is one"},
 		{"$C bench table1 --csv $D/c --plot $D/./c", "/c: --csv and --plot write there; give each a name of its own"},
 		{"$C bench all --csv $D/c-table2 --plot $D/c", "/c-table2: --csv and --plot write there"},
@@ -265,6 +270,16 @@ static void standard_output_is_gone_on_with(void **state)
 	check("rm $D/l $D/t $D/h $D/s", 0, "");
 }
 
+/* The scene that is read may be where the state goes. */
+static void a_state_may_replace_its_scene(void **state)
+{
+	(void)state;
+	check("cp scenes/mixed.json $D/s; for i in 1 2; do $C run $D/s --steps 2 --out $D/s --quiet --device cpu; done; "
+		  "$C run $D/s --steps 0 --hash --quiet --device cpu >$D/h; $C run scenes/mixed.json --steps 4 --hash --quiet --device cpu | cmp - $D/h",
+		0, "");
+	check("rm $D/s $D/h", 0, "");
+}
+
 /* What is closed is an error, and no file that is opened takes its place. */
 static void a_closed_output_is_an_error(void **state)
 {
@@ -358,8 +373,9 @@ int main(void)
 		cmocka_unit_test(wrong_calls_exit_with_2), cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
 		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(a_film_has_one_camera),
 		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
-		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_closed_output_is_an_error),
-		cmocka_unit_test(a_named_pipe_may_be_written), cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),
+		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_state_may_replace_its_scene),
+		cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),
+		cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),
 		cmocka_unit_test(an_interruption_writes_what_there_is), cmocka_unit_test(without_opencl_the_cpu_works)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);
 }

@@ -78,8 +78,10 @@ static bool is_stream(const char *name)
 bool are_one_file(const char *a, const char *b)
 {
 	char first[PATH_MAX], second[PATH_MAX];
-	struct stat there;
-	if ((is_stream(a) && is_stream(b)) || !resolve(a, first) || !resolve(b, second) || strcmp(first, second) != 0)
+	struct stat there, other;
+	if (is_stream(a) && is_stream(b))
 		return false;
-	return stat(first, &there) != 0 || !S_ISCHR(there.st_mode); /* terminals and /dev/null take what comes */
+	if (stat(a, &there) == 0 && stat(b, &other) == 0) /* terminals and /dev/null take what comes */
+		return there.st_dev == other.st_dev && there.st_ino == other.st_ino && !S_ISCHR(there.st_mode);
+	return resolve(a, first) && resolve(b, second) && strcmp(first, second) == 0;
 }

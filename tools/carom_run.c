@@ -108,6 +108,17 @@ static carom_status check_paths(const struct run_options *options, carom_error *
 	return CAROM_OK;
 }
 
+/* A state may take the place of the scene that it came from; what is no scene may not. */
+static carom_status check_scene_stays(const struct run_options *options, carom_error *error)
+{
+	const char *scene = options->common.arguments[0];
+	const char *option = options->png && are_one_file(scene, options->png) ? "--png"
+		: options->stats && are_one_file(scene, options->stats)            ? "--stats"
+		: options->frames && is_frame(scene, options->frames)              ? "--frames"
+																		   : NULL;
+	return option ? wrong(error, "%s: %s would replace the scene; only --out may, which writes one", scene, option) : CAROM_OK;
+}
+
 static carom_status check_options(struct run_options *options, carom_error *error)
 {
 	if (options->steps != NO_STEPS && options->time >= 0)
@@ -120,7 +131,8 @@ static carom_status check_options(struct run_options *options, carom_error *erro
 		options->time = DEFAULT_TIME;
 	if (options->fps <= 0)
 		options->fps = DEFAULT_FPS;
-	return check_paths(options, error);
+	const carom_status status = check_paths(options, error);
+	return status == CAROM_OK ? check_scene_stays(options, error) : status;
 }
 
 /* ---- What is said ---- */
@@ -251,11 +263,11 @@ static int run_main(int argc, char **argv)
 	int code = parse_options(&run_command, argc, argv, &options.common);
 	if (code >= 0)
 		return code;
-	if (check_options(&options, &error) != CAROM_OK)
-		return report(&error);
 	const char *path = options.common.arguments[0];
 	if (strcmp(path, "-") == 0)
 		options.common.arguments[0] = path = "/dev/stdin";
+	if (check_options(&options, &error) != CAROM_OK)
+		return report(&error);
 	if (carom_scene_read(path, &scene, &error) != CAROM_OK)
 		return report_input(&error);
 	return run_scene(&options, scene);
@@ -269,6 +281,7 @@ const struct command run_command = {
 	.summary = "Simulates a scene and writes states, pictures and tables",
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
 			   "As --out, --png or --stats, - is standard output.\n"
+			   "--out may write over SCENE.json: the state takes its place. No other output may, and each has a file of its own.\n"
 			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first\n"
 			   "hit, so --steps counts those, and --time counts simulated seconds. With --time, the step before the end\n"
 			   "or before a frame is cut short to end there.\n"

@@ -72,7 +72,7 @@ read_option read_output; /* into a const char *: the name of a file; - is /dev/s
 read_option read_path;   /* the same where standard output can't be meant */
 /* Begins the file and gives it up: what could go wrong at the end goes wrong now. Pipes are left alone: their readers would take this for the end. */
 carom_status try_path(const char *path, carom_error *error);
-/* Would what is written to one be lost by writing to the other? Names are followed to where they lead. */
+/* Would what is in one be lost by writing to the other? Names are followed to where they lead, and a file may have several. */
 bool are_one_file(const char *a, const char *b);
 
 /* ---- carom_interrupt.c */
