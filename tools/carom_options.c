@@ -31,8 +31,9 @@ carom_status read_count(const char *text, void *target, carom_error *error)
 carom_status read_number(const char *text, void *target, carom_error *error)
 {
 	char *end = NULL;
+	const bool is_plain = *text != '+' && text[strspn(text, "0123456789.eE+-")] == '\0'; /* strtod itself would take spaces and 0x10 */
 	double number = strtod(text, &end);
-	if (end == text || *end || !isfinite(number))
+	if (!is_plain || end == text || *end || !isfinite(number))
 		return wrong(error, "found \"%s\"; allowed: a number", text);
 	*(double *)target = number;
 	return CAROM_OK;

@@ -61,7 +61,7 @@ int parse_options(const struct command *command, int argc, char **argv, struct c
 void print_command_help(const struct command *command);
 read_option read_text;     /* into a const char * */
 read_option read_count;    /* into a uint64_t */
-read_option read_number;   /* into a double, finite */
+read_option read_number;   /* into a double, finite, written in decimals */
 read_option read_positive; /* into a double, above 0 */
 /* What the common options say of the world. */
 carom_status apply_options(const struct common_options *options, carom_world_def *world, carom_error *error);
