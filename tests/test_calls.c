@@ -17,9 +17,13 @@ static void help_is_complete(void **state)
 	for (size_t k = 0; k < COUNT(names); k++) {
 		snprintf(line, sizeof line, "$C %s --help", names[k]);
 		check(line, 0, "");
-		assert_non_null(strstr(call.out, "--device NAME"));
+		assert_non_null(strstr(call.out, "--quiet"));
+		assert_int_equal(strstr(call.out, "--device NAME") != NULL, !strcmp(names[k], "run") || !strcmp(names[k], "devices"));
 		assert_string_equal(call.err, "");
 	}
+	check("$C generate --help | tr -s ' \\n' '  '", 0, "");
+	assert_non_null(strstr(call.out, "--speed V 0 to 1e6:"));
+	assert_non_null(strstr(call.out, "--radius R m, 1e-8 to 1e6,"));
 	check("$C run nothing.json --help", 0, "");
 	for (size_t k = 0; k < COUNT(run_options); k++)
 		assert_non_null(strstr(call.out, run_options[k]));
@@ -124,7 +128,13 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C generate --shape circle --count 1 --seed -1", "--seed: found \"-1\"; allowed: a whole number"},
 		{"$C generate --shape circle --count 100 --fill 0", "--fill: found \"0\"; allowed: a number above 0"},
 		{"$C generate --shape circle --count 100 --fill 1e-20", "so wide that floats"},
+		{"$C generate --shape circle --count 1 --set toi=bisection", "--set: no such option: `carom generate --help` lists them"},
+		{"$C generate --shape circle --count 1 --device cpu", "--device: no such option: `carom generate --help` lists them"},
+		{"$C stages --storage image", "--storage: no such option: `carom stages --help` lists them"},
 		{"$C devices here", "one argument too many"},
+		{"$C devices --device cpu", "--device and --storage need --check"},
+		{"$C devices --storage image", "--device and --storage need --check"},
+		{"$C devices --set toi=bisection", "--device, --storage and --set change nothing in the list"},
 	};
 	for (size_t k = 0; k < COUNT(calls); k++) {
 		check(calls[k].line, 2, calls[k].said);

@@ -260,5 +260,6 @@ const struct command bench_command = {
 			   "first_impact; in scale, --set step=NAME measures that step.\n"
 			   "An interruption ends it after the figure at hand; then no file is written.\n",
 	.options = options_table,
+	.makes_worlds = true,
 	.main = bench_main,
 };

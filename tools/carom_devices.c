@@ -51,6 +51,10 @@ static int devices_main(int argc, char **argv)
 		return code;
 	if (options.check)
 		return check_device(&options.common, print_device);
+	if (options.common.device || options.common.storage != CAROM_STORAGE_AUTO || options.common.set_count > 0) {
+		wrong(&error, "--device, --storage and --set change nothing in the list; --device and --storage need --check");
+		return report(&error);
+	}
 	if (carom_device_list_create(&devices, &count, &error) != CAROM_OK)
 		return report(&error);
 	for (size_t k = 0; k < count; k++)
@@ -71,11 +75,12 @@ const struct command devices_command = {
 	.summary = "Lists what OpenCL offers here, what Carom can do with each, and the default",
 	.details = "\nEach device by platform and name: parts of either are what --device takes. The CPU fallback is\n"
 			   "always there. They are in the order in which --device auto tries them: OpenCL devices that are no\n"
-			   "CPUs, the fallback, which is faster than OpenCL on a CPU, then that. Every device is listed,\n"
-			   "whatever --device says.\n"
+			   "CPUs, the fallback, which is faster than OpenCL on a CPU, then that.\n"
 			   "\n--check tries one device instead: how it rounds, and whether a scene that is part of the command\n"
 			   "gives the same bits as everywhere, by each step, in images and in buffers, and drawn. It ends\n"
-			   "with the exit code 0 only if all is right.\n",
+			   "with the exit code 0 only if all is right. --device and --storage choose what is tried; --set is\n"
+			   "refused, for a check runs the default pipeline.\n",
 	.options = options_table,
+	.makes_worlds = true,
 	.main = devices_main,
 };

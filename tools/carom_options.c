@@ -96,12 +96,16 @@ carom_status apply_options(const struct common_options *options, carom_world_def
 	return status;
 }
 
-static const struct option common[] = {
+static const struct option of_worlds[] = {
 	{"device", "NAME", read_text, offsetof(struct common_options, device),
 		"auto, cpu, opencl, or part of a platform's or device's name; by default what CAROM_DEVICE says, else auto"},
 	{"storage", "KIND", read_storage, offsetof(struct common_options, storage),
 		"image or buffer: how an OpenCL device holds textures; by default what suits the device"},
 	{"set", "SLOT=NAME", read_set, 0, "the alternative for a slot, over the scene's; once a slot; `carom stages` lists them"},
+	{NULL, NULL, NULL, 0, NULL},
+};
+
+static const struct option of_all[] = {
 	{"quiet", NULL, NULL, offsetof(struct common_options, quiet), "only errors on stderr"},
 	{"help", NULL, NULL, offsetof(struct common_options, help), "this text"},
 	{"version", NULL, NULL, offsetof(struct common_options, version), "the version"},
@@ -136,8 +140,10 @@ static carom_status take_option(const struct command *command, int argc, char **
 	const char *name = argv[*index] + 2, *equals = strchr(name, '='), *value = equals ? equals + 1 : NULL;
 	size_t length = equals ? (size_t)(equals - name) : strlen(name);
 	const struct option *option = find_option(command->options, name, length);
+	if (!option && command->makes_worlds)
+		option = find_option(of_worlds, name, length);
 	if (!option)
-		option = find_option(common, name, length);
+		option = find_option(of_all, name, length);
 	if (!option)
 		return wrong(error, "%s: no such option: `carom %s --help` lists them", argv[*index], command->name);
 	void *target = (char *)options + option->offset;
@@ -240,6 +246,10 @@ void print_command_help(const struct command *command)
 	if (command->options->name)
 		printf("\noptions:\n");
 	print_table(command->options);
+	if (command->makes_worlds) {
+		printf("\noptions of every command that simulates:\n");
+		print_table(of_worlds);
+	}
 	printf("\noptions of every command:\n");
-	print_table(common);
+	print_table(of_all);
 }

@@ -309,5 +309,6 @@ const struct command run_command = {
 			   "asked for is written and printed, of the state then, how many steps it had is said, and the exit code is\n"
 			   "130 (143); a second one ends the process at once. A file is whole or as it was before.\n",
 	.options = options_table,
+	.makes_worlds = true,
 	.main = run_main,
 };

@@ -20,7 +20,7 @@ enum {
 #define MAX_ARGUMENTS 4
 #define MAX_SETS 32
 
-/* The options that every command takes, and what stands between the options. Every command's options begin with it. */
+/* The options that every command takes, or every one that makes worlds, and what stands between the options. Every command's options begin with it. */
 struct common_options {
 	const char *device; /* NULL if not given */
 	carom_storage storage;
@@ -49,6 +49,7 @@ struct command {
 	const char *summary; /* a line */
 	const char *details; /* paragraphs for the help */
 	const struct option *options;
+	bool makes_worlds;                  /* takes --device, --storage and --set, too */
 	int (*main)(int argc, char **argv); /* the exit code; argv[0] is the command's name */
 };
 
@@ -63,7 +64,7 @@ read_option read_text;     /* into a const char * */
 read_option read_count;    /* into a uint64_t */
 read_option read_number;   /* into a double, finite, written in decimals */
 read_option read_positive; /* into a double, above 0 */
-/* What the common options say of the world. */
+/* What the options say of the world. */
 carom_status apply_options(const struct common_options *options, carom_world_def *world, carom_error *error);
 
 /* ---- carom_paths.c */
