@@ -244,8 +244,8 @@ typedef struct carom_world_def {
 	float epsilon;           /**< part of a step, 2^-22..0.5: the accuracy of toi bisection [2.1]; default 2^-18 */
 	uint32_t iterations;     /**< bisections a pass, >= 1 [2.1, `iter`]; 0 (the default) for all in one pass */
 	carom_pipeline pipeline; /**< default: all NULL */
-	const char *device;      /**< auto (default), cpu, opencl, or part of a platform's or device's name, in any case; NULL: the
-	                          environment's CAROM_DEVICE, else auto */
+	const char *device;      /**< auto (default), cpu, opencl, or part of a platform's or device's name, in any case, not ""; NULL:
+	                          the environment's CAROM_DEVICE, else auto */
 	carom_storage storage;   /**< default CAROM_STORAGE_AUTO; of an OpenCL device, the CPU fallback has its own */
 	uint32_t threads;        /**< of the CPU fallback, 256 at most; 0 (the default) for one a core */
 	bool profile;            /**< measure each kernel, for carom_world_profile; default false, since it takes time itself */

@@ -113,7 +113,8 @@ static carom_status no_such_device(const char *name, bool from_environment, cons
 		size_t used = strlen(known);
 		snprintf(known + used, sizeof known - used, "%s'%s'", used ? ", " : "", list[i].name);
 	}
-	return carom_fail(error, CAROM_UNKNOWN_NAME, "%sthere is no device '%.128s'; use auto, cpu, opencl or part of one of these names: %s%s",
+	return carom_fail(error, CAROM_UNKNOWN_NAME,
+		"%sthere is no device '%.128s'; use auto, cpu, opencl or part of one of these names: %s%s; `carom devices` tells more of them",
 		from_environment ? "CAROM_DEVICE: " : "", name, known, count > 1 ? "" : " (no OpenCL device was found)");
 }
 
@@ -135,6 +136,8 @@ carom_status carom_device_open(const carom_device_def *def, carom_device **devic
 	carom_device_info *list = NULL;
 	size_t count = 0;
 	bool tried = false;
+	if (def->name && !*def->name)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "device: found \"\", must be auto, cpu, opencl or part of a name, or NULL");
 	carom_status status = carom_device_list_create(&list, &count, error);
 	if (status)
 		return status;

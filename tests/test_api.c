@@ -297,9 +297,10 @@ static void devices_by_name(void **unused)
 	scenery_check(carom_device_list_create(&list, &count, NULL), NULL);
 	def.device = "abacus";
 	assert_refused(&def, CAROM_UNKNOWN_NAME, "there is no device 'abacus'; use auto, cpu, opencl or part of one of these names: '");
+	def.device = "";
+	assert_refused(&def, CAROM_INVALID_ARGUMENT, "device: found \"\", must be auto, cpu, opencl or part of a name, or NULL");
 	assert_true(opens_cpu("cpu") && opens_cpu("CPU") && opens_cpu("caRoM"));
 	assert_true(opens_cpu("auto") == !list[0].is_opencl);
-	assert_true(opens_cpu("") == opens_cpu("auto"));
 	for (size_t i = 0; i < count; i++) {
 		if (!list[i].is_opencl || !list[i].works)
 			continue;
@@ -309,6 +310,8 @@ static void devices_by_name(void **unused)
 	}
 	setenv("CAROM_DEVICE", "cpu", 1);
 	assert_true(opens_cpu(NULL));
+	setenv("CAROM_DEVICE", "", 1);
+	assert_true(opens_cpu(NULL) == opens_cpu("auto"));
 	setenv("CAROM_DEVICE", "abacus", 1);
 	assert_true(opens_cpu("cpu"));
 	def.device = NULL;

@@ -104,7 +104,7 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C run scenes/mixed.json --set toi", "--set: found \"toi\"; allowed: slot=alternative"},
 		{"$C run scenes/mixed.json --set toi=guess", "circle_quadratic"},
 		{"$C run scenes/mixed.json --set tio=bisection", "toi"},
-		{"$C run scenes/mixed.json --device abacus", "abacus"},
+		{"$C run scenes/mixed.json --device abacus", "; `carom devices` tells more of them"},
 		{"CAROM_DEVICE=abacus $C run scenes/mixed.json", "CAROM_DEVICE: there is no device 'abacus'"},
 		{"$C run no/such/scene.json", "no/such/scene.json: can't be read: No such file"},
 		{"$C run tests", "tests: can't be read: Is a directory"},
