@@ -258,7 +258,8 @@ typedef struct carom_world carom_world;
 CAROM_API carom_world_def carom_default_world_def(void);
 
 /** An empty world on an opened device. Fails with CAROM_UNKNOWN_NAME for a device or alternative that is not there,
- * CAROM_INVALID_ARGUMENT for a field out of range (named in the error), CAROM_DEVICE, CAROM_OUT_OF_MEMORY.
+ * CAROM_INVALID_ARGUMENT for a field out of range (named in the error), or one of the environment's CAROM_MAX_IMAGE_SIZE, CAROM_MAX_ALLOCATION and
+ * CAROM_KERNEL_DIR (likewise); CAROM_DEVICE, CAROM_OUT_OF_MEMORY.
  * An OpenCL device builds kernels here, and those of pictures when the first is drawn, which may take seconds. The environment's
  * CAROM_CACHE names a folder to keep them in for the next world of any process; it is made if it is missing, and nobody else should be
  * able to write there. It changes no bit and is never an error: what it does not have, or not whole, is built. */

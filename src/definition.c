@@ -1,9 +1,9 @@
 /* What a world is made from: the defaults, and what is allowed. */
-#include <math.h>
+#include "definition.h"
 
+#include "device.h"
 #include "layout.h"
 #include "status.h"
-#include "world.h"
 
 carom_world_def carom_default_world_def(void)
 {

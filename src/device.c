@@ -138,6 +138,7 @@ carom_status carom_device_open(const carom_device_def *def, carom_device **devic
 	bool tried = false;
 	if (def->name && !*def->name)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "device: found \"\", must be auto, cpu, opencl or part of a name, or NULL");
+	TRY(carom_cl_check_override(error));
 	carom_status status = carom_device_list_create(&list, &count, error);
 	if (status)
 		return status;

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "scene.h"
 
+#include "definition.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -131,17 +133,22 @@ static carom_status blame_file(const carom_scene *scene, carom_error *error)
 	return carom_fail(error, CAROM_INVALID_SCENE, "%s: bodies[%lu].%s%s", storage->name, index, outer, field);
 }
 
+static carom_status fill_world(const carom_scene *scene, carom_world *world, carom_error *error)
+{
+	TRY(carom_world_add(world, scene->bodies, scene->body_count, NULL, error));
+	return carom_world_set_contacts(world, scene->contact_count, scene->contacts, error);
+}
+
+/* What else can be wrong as a world is made, like the environment, is not of the file. */
 carom_status carom_scene_create_world(const carom_scene *scene, carom_world **world, carom_error *error)
 {
-	carom_status status;
 	carom_world *made = NULL;
 	GIVEN(scene, error);
 	GIVEN(world, error);
-	status = carom_world_create(&scene->world, &made, error);
-	if (status == CAROM_OK && scene->body_count > 0)
-		status = carom_world_add(made, scene->bodies, scene->body_count, NULL, error);
-	if (status == CAROM_OK)
-		status = carom_world_set_contacts(made, scene->contact_count, scene->contacts, error);
+	if (carom_check_world_def(&scene->world, error))
+		return blame_file(scene, error);
+	TRY(carom_world_create(&scene->world, &made, error));
+	const carom_status status = fill_world(scene, made, error);
 	if (status == CAROM_OK) {
 		*world = made;
 		return CAROM_OK;

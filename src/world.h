@@ -2,9 +2,8 @@
 #ifndef CAROM_WORLD_H
 #define CAROM_WORLD_H
 
-#include <math.h>
-
 #include "carom.h"
+#include "definition.h"
 #include "device.h"
 #include "step/step.h"
 
@@ -111,14 +110,6 @@ struct carom_world {
 	carom_progress progress;
 	void *progress_context;
 };
-
-static inline bool carom_is_finite(carom_vec2 v)
-{
-	return isfinite(v.x) && isfinite(v.y);
-}
-
-/* definition.c */
-carom_status carom_check_world_def(const carom_world_def *def, carom_error *error);
 
 /* bodies.c */
 carom_status carom_body_make(const carom_body_def *def, const carom_world *world, size_t index, carom_body *body, carom_vec2 *vertices,

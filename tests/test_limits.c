@@ -47,6 +47,35 @@ static void limits_are_whole_numbers(void **unused)
 	assert_null(devices);
 }
 
+/* A scene that is right is not blamed for the environment, a folder without kernels is not passed over. */
+static void the_environment_is_blamed(void **unused)
+{
+	(void)unused;
+	static const struct {
+		const char *variable, *text, *said;
+	} wrong[] = {
+		{"CAROM_MAX_ALLOCATION", "abc", "CAROM_MAX_ALLOCATION: found 'abc'"},
+		{"CAROM_KERNEL_DIR", "nowhere", "CAROM_KERNEL_DIR: found 'nowhere', which has none of the kernels, as aabb/loose.cl is one"},
+		{"CAROM_KERNEL_DIR", "scenes", "CAROM_KERNEL_DIR: found 'scenes', which has none of the kernels"},
+	};
+	carom_scene *scene = NULL;
+	carom_world *world = NULL;
+	carom_error error;
+	scenery_check(carom_scene_read("scenes/mixed.json", &scene, &error), &error);
+	scene->world.device = "cpu";
+	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+		setenv(wrong[i].variable, wrong[i].text, 1);
+		assert_int_equal(carom_scene_create_world(scene, &world, &error), CAROM_INVALID_ARGUMENT);
+		assert_ptr_equal(strstr(error.text, wrong[i].said), error.text);
+		unsetenv(wrong[i].variable);
+	}
+	setenv("CAROM_KERNEL_DIR", "", 1);
+	scenery_check(carom_scene_create_world(scene, &world, &error), &error);
+	unsetenv("CAROM_KERNEL_DIR");
+	carom_world_destroy(world);
+	carom_scene_destroy(scene);
+}
+
 static void limits_only_get_lower(void **unused)
 {
 	(void)unused;
@@ -224,7 +253,7 @@ static void allocations_are_limited(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test_teardown(limits_are_whole_numbers, restore),
+	const struct CMUnitTest tests[] = {cmocka_unit_test_teardown(limits_are_whole_numbers, restore), cmocka_unit_test(the_environment_is_blamed),
 		cmocka_unit_test_teardown(limits_only_get_lower, restore), cmocka_unit_test_teardown(small_images_make_way_for_buffers, restore),
 		cmocka_unit_test_teardown(sides_are_limited, restore), cmocka_unit_test_teardown(pictures_are_drawn_in_blocks, restore),
 		cmocka_unit_test_teardown(pictures_are_drawn_in_passes, restore), cmocka_unit_test_teardown(allocations_are_limited, restore)};

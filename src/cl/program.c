@@ -61,16 +61,38 @@ char *carom_cl_read_file(const char *path, size_t *size)
 	return bytes;
 }
 
-/* While developing, CAROM_KERNEL_DIR names a folder to read the kernels from instead; NULL where it has none. */
-static char *read_override(const char *path)
+/* While developing, CAROM_KERNEL_DIR names a folder to read kernels from instead; NULL where it is not set. */
+static const char *override_folder(void)
 {
 	const char *folder = getenv("CAROM_KERNEL_DIR");
+	return folder && *folder ? folder : NULL;
+}
+
+/* NULL where the folder does not have it. */
+static char *read_override(const char *path)
+{
+	const char *folder = override_folder();
 	char name[4096];
 	size_t size;
 	if (!folder)
 		return NULL;
 	snprintf(name, sizeof name, "%s/%s", folder, path + strlen("kernels/"));
 	return carom_cl_read_file(name, &size);
+}
+
+carom_status carom_cl_check_override(carom_error *error)
+{
+	const char *folder = override_folder();
+	bool is_used = !folder;
+	for (size_t i = 0; !is_used && i < carom_kernel_source_count; i++) {
+		char *text = read_override(carom_kernel_sources[i].path);
+		is_used = text != NULL;
+		free(text);
+	}
+	if (is_used)
+		return CAROM_OK;
+	return carom_fail(error, CAROM_INVALID_ARGUMENT, "CAROM_KERNEL_DIR: found '%.256s', which has none of the kernels, as %s is one", folder,
+		carom_kernel_sources[0].path + strlen("kernels/"));
 }
 
 /* For a GPU an alternative's kernels may be written in another way, in NAME.gpu.cl. */
