@@ -341,7 +341,8 @@ CAROM_API carom_status carom_world_advance_to(carom_world *world, double time, u
 
 /** Called now and then during a step or advance, on the calling thread, with what the call has done so far; returning false
  * ends the call early (with CAROM_OK: the report tells how far it got). How often it is called changes no result, while
- * cutting one advance into several cuts steps short. */
+ * cutting one advance into several cuts steps short. It may read the world, and draw it. What would change it, another step too, is
+ * CAROM_INVALID_ARGUMENT then; it must not be destroyed. */
 typedef bool (*carom_progress)(void *context, const carom_report *so_far);
 /** Has `progress` called from now on, with `context`; NULL for none. */
 CAROM_API void carom_world_set_progress(carom_world *world, carom_progress progress, void *context);

@@ -182,6 +182,7 @@ static carom_status run_all(carom_world *world, uint64_t steps, carom_report *re
 	carom_report done = {0};
 	bool go_on = true;
 	carom_status status = CAROM_OK;
+	world->in_call = true;
 	while (!status && go_on && world->body_count > 0 && done.steps < steps && !is_over(world)) {
 		const double before = done.advanced;
 		status = get_ready(world, error);
@@ -189,14 +190,23 @@ static carom_status run_all(carom_world *world, uint64_t steps, carom_report *re
 			status = run_leg(world, leg_size(world, steps - done.steps), &done, &go_on, error);
 		world->good_for -= done.advanced - before;
 	}
+	world->in_call = false;
 	if (report)
 		*report = done;
 	return status;
 }
 
+carom_status carom_check_idle(const carom_world *world, carom_error *error)
+{
+	if (!world->in_call)
+		return CAROM_OK;
+	return carom_fail(error, CAROM_INVALID_ARGUMENT, "world: found in the middle of a step; its progress callback may read it, not change it");
+}
+
 carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
 	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
 	world->target = -1.0;
 	world->remaining[0] = (float)FOR_EVER;
 	world->remaining[1] = 0.0f;
@@ -206,6 +216,7 @@ carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *
 carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error)
 {
 	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
 	const double rest = time - world->time;
 	if (!(time < FOR_EVER) || !(time == world->target || rest >= 0.0))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "time: found %g s, must be from the world's %g s to %g s", time, world->time, FOR_EVER);
@@ -220,6 +231,7 @@ carom_status carom_world_advance_to(carom_world *world, double time, uint64_t mo
 carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error)
 {
 	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
 	if (!(seconds >= 0.0 && seconds < FOR_EVER))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "seconds: found %g, must be from 0 to %g", seconds, FOR_EVER);
 	world->target = -1.0;

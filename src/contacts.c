@@ -224,6 +224,7 @@ carom_status carom_world_set_contacts(carom_world *world, size_t count, const ca
 	uint8_t *counts = NULL;
 	carom_status status = CAROM_OK;
 	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
 	if (count > 0)
 		GIVEN(contacts, error);
 	for (size_t k = 0; k < count; k++)

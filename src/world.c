@@ -154,6 +154,7 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error)
 {
 	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
 	const size_t used[5] = {world->bodies.used, world->vertices.used, world->names.used, world->linear.used, world->rotational.used};
 	const size_t before = world->body_count;
 	if (count > MAX_BODIES - before)
@@ -286,6 +287,7 @@ static carom_status check_state(const carom_world *world, uint32_t index, const 
 carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
 {
 	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
 	if (count > 0)
 		GIVEN(states, error);
 	TRY(check_range(world, first, count, error));
@@ -309,6 +311,7 @@ carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec
 {
 	carom_body *body;
 	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
 	TRY(check_range(world, index, 1, error));
 	body = &carom_world_bodies(world)[index];
 	if (!carom_is_finite(force) || !isfinite(torque))

@@ -107,6 +107,7 @@ struct carom_world {
 	double target;      /* s: where the clock was set to end; negative for nowhere */
 	float remaining[2]; /* s, until then, as the clock has it: a sum of two */
 	uint64_t batch;     /* steps handed over at once */
+	bool in_call;       /* of a step or an advance: what is called in it must leave the world as it is */
 	carom_progress progress;
 	void *progress_context;
 };
@@ -125,6 +126,8 @@ uint32_t carom_polygon_texels(const carom_world *world);
 bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices);
 /* Fills in Outlines. */
 carom_status carom_outlines_send(carom_world *world, carom_error *error);
+/* advance.c: refuses to change a world from its own progress callback */
+carom_status carom_check_idle(const carom_world *world, carom_error *error);
 /* range.c: CAROM_LIMIT where a step from here would leave the floats; else says how long none will, in good_for */
 carom_status carom_check_range(carom_world *world, carom_error *error);
 /* Can a body not be here, at this speed? */

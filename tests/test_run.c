@@ -1,4 +1,4 @@
-/* Runs: the same twice, stopped and resumed, cut short, with any number of threads, several at once; and how much memory.
+/* Runs: the same twice, stopped and resumed, with any number of threads, several at once; and how much memory.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <pthread.h>
@@ -114,70 +114,6 @@ static void worlds_in_four_threads(void **unused)
 			assert_int_equal(pthread_join(threads[i], NULL), 0);
 		for (size_t i = 0; i < 4; i++)
 			assert_true(errands[i].hash == run_crowd(device, errands[i].seed, 0, 300));
-	}
-}
-
-/* ---- Progress */
-
-/* Counts its calls, and says stop when so many steps or seconds are done. */
-typedef struct watch {
-	uint64_t stop_at, calls;
-	double stop_after;
-	carom_report last;
-} watch;
-
-static bool look(void *context, const carom_report *so_far)
-{
-	watch *w = context;
-	assert_true(so_far->steps > w->last.steps && so_far->hits >= w->last.hits && so_far->advanced >= w->last.advanced);
-	w->calls++;
-	w->last = *so_far;
-	return so_far->steps < w->stop_at && so_far->advanced < w->stop_after;
-}
-
-/* Called or not, and cut short or not: the same steps give the same bits. */
-static void steps_cut_short(void **unused)
-{
-	(void)unused;
-	SCENERY_EACH_DEVICE(device) {
-		const uint64_t whole = run_crowd(device, 12, 0, 600);
-		watch all = {.stop_at = UINT64_MAX, .stop_after = INFINITY}, some = {.stop_at = 200, .stop_after = INFINITY};
-		carom_world *world = scenery_crowd(device, 12, 0), *cut = scenery_crowd(device, 12, 0);
-		if (!world)
-			continue;
-		carom_world_set_progress(world, look, &all);
-		assert_int_equal(runs_step(world, 600).steps, 600);
-		assert_true(all.calls >= 2 && all.last.steps == 600 && runs_hash(world) == whole);
-		carom_world_set_progress(cut, look, &some);
-		const carom_report report = runs_step(cut, 600);
-		assert_true(report.steps >= 200 && report.steps < 600 && report.steps == some.last.steps && report.hits == some.last.hits);
-		assert_true(carom_world_time(cut) == report.advanced);
-		carom_world_set_progress(cut, NULL, NULL);
-		assert_int_equal(runs_step(cut, 600 - report.steps).steps, 600 - report.steps);
-		assert_true(runs_hash(cut) == whole);
-		carom_world_destroy(world);
-		carom_world_destroy(cut);
-	}
-}
-
-static void an_advance_cut_short(void **unused)
-{
-	(void)unused;
-	SCENERY_EACH_DEVICE(device) {
-		watch some = {.stop_at = UINT64_MAX, .stop_after = 0.5};
-		carom_world *world = scenery_crowd(device, 13, 0);
-		carom_report report, rest;
-		carom_error error;
-		if (!world)
-			continue;
-		carom_world_set_progress(world, look, &some);
-		scenery_check(carom_world_advance(world, 4.0, &report, &error), &error);
-		assert_true(report.advanced >= 0.5 && report.advanced < 4.0 && report.advanced == some.last.advanced);
-		assert_true(carom_world_time(world) == report.advanced);
-		carom_world_set_progress(world, NULL, NULL);
-		scenery_check(carom_world_advance(world, 4.0 - report.advanced, &rest, &error), &error);
-		assert_true(fabs(carom_world_time(world) - 4.0) < 1e-9 && fabs(report.advanced + rest.advanced - 4.0) < 1e-9);
-		carom_world_destroy(world);
 	}
 }
 
@@ -382,7 +318,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_run_twice), cmocka_unit_test(any_number_of_threads),
 		cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(images_and_buffers), cmocka_unit_test(worlds_in_four_threads),
-		cmocka_unit_test(steps_cut_short), cmocka_unit_test(an_advance_cut_short), cmocka_unit_test(a_stall_tells_what_was_done),
-		cmocka_unit_test(memory_is_known_beforehand), cmocka_unit_test(a_list_that_cannot_grow_loses_nothing), cmocka_unit_test(too_many_bodies)};
+		cmocka_unit_test(a_stall_tells_what_was_done), cmocka_unit_test(memory_is_known_beforehand),
+		cmocka_unit_test(a_list_that_cannot_grow_loses_nothing), cmocka_unit_test(too_many_bodies)};
 	return cmocka_run_group_tests_name("run", tests, NULL, NULL);
 }
