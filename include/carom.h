@@ -108,7 +108,9 @@ typedef struct carom_body_def {
 	float radius;               /**< m, > 0: CAROM_CIRCLE and CAROM_REGULAR */
 	uint32_t sides;             /**< 3..64: CAROM_REGULAR */
 	uint32_t vertex_count;      /**< 3..64: CAROM_POLYGON */
-	const carom_vec2 *vertices; /**< m, `vertex_count` of them, convex, any origin: they are recentred on their centre of mass */
+	const carom_vec2 *vertices; /**< m, `vertex_count` of them, convex, any origin: they are recentred on their centre of mass;
+	                               each side is longer than a millionth of the length from the first to the farthest, and the area
+	                               larger than a millionth of that squared */
 	carom_vec2 position;        /**< m, of the centre of mass; default (0, 0) */
 	carom_vec2 velocity;        /**< m/s; default (0, 0) */
 	float angle;                /**< rad; kept in [-pi, pi]; default 0 */

@@ -62,6 +62,8 @@ static void reverse(point *p, uint32_t n)
 	}
 }
 
+#define THINNEST 1e-6 /* of a polygon's length, which its sides must exceed, and its area divided by its length */
+
 /* Convex, counter-clockwise and simple: every turn to the left, and once round in all. NULL, or what is wrong. */
 static const char *convex_flaw(const point *p, uint32_t n, double size)
 {
@@ -69,8 +71,8 @@ static const char *convex_flaw(const point *p, uint32_t n, double size)
 	for (uint32_t i = 0; i < n; i++) {
 		point e = minus(p[(i + 1) % n], p[i]), f = minus(p[(i + 2) % n], p[(i + 1) % n]);
 		double edge = hypot(e.x, e.y);
-		if (edge <= 1e-6 * size)
-			return "has two vertices at the same place";
+		if (edge <= THINNEST * size)
+			return "has two vertices at the same place, or no farther apart than a millionth of its length";
 		if (cross(e, f) < -1e-7 * size * edge)
 			return "is not convex, or crosses itself";
 		half_turns += atan2(cross(e, f), e.x * f.x + e.y * f.y);
@@ -162,6 +164,7 @@ static void regular_points(const carom_body_def *def, point *p)
 	}
 }
 
+/* Its length, from the first vertex to the farthest. */
 static double size_of(const point *p, uint32_t n)
 {
 	double size = 0.0;
@@ -176,8 +179,8 @@ static carom_status check_polygon(const point *p, uint32_t n, double area, size_
 	const double size = size_of(p, n);
 	const char *flaw = convex_flaw(p, n, size);
 	char found[256];
-	if (!flaw && !(area > 1e-6 * size * size))
-		flaw = "has no area";
+	if (!flaw && !(area > THINNEST * size * size))
+		flaw = "has no area, or at most a millionth of its length squared";
 	if (!flaw)
 		return CAROM_OK;
 	snprintf(found, sizeof found, "the polygon %s%s; it must be convex, with %d to %d vertices in order", flaw, once, CAROM_MIN_VERTICES,

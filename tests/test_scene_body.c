@@ -183,8 +183,35 @@ static void both_ways_agree_on_damaged_texts(void **state)
 	}
 }
 
+/* Of a bar of ten metres, so thick: is it a body? */
+static bool is_body(const char *thickness)
+{
+	char text[256];
+	carom_scene *scene = NULL;
+	carom_world *world = NULL;
+	carom_error error;
+	const int length = snprintf(text, sizeof text,
+		"{\"format\": \"carom-scene/1\", \"bodies\": [{\"polygon\": {\"vertices\": [[0, 0], [10, 0], [10, %s], [0, %s]]}}]}", thickness, thickness);
+	if (carom_scene_parse(text, (size_t)length, "bar", &scene, &error))
+		fail_msg("%s", error.text);
+	scene->world.device = "cpu";
+	const carom_status status = carom_scene_create_world(scene, &world, &error);
+	assert_true(status == CAROM_OK || strstr(error.text, "a millionth of its length"));
+	carom_world_destroy(world);
+	carom_scene_destroy(scene);
+	return status == CAROM_OK;
+}
+
+static void bars_may_be_a_millionth_thick(void **unused)
+{
+	(void)unused;
+	assert_true(is_body("1.01e-5"));
+	assert_false(is_body("0.99e-5"));
+}
+
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test(both_ways_of_reading_agree), cmocka_unit_test(both_ways_agree_on_damaged_texts)};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(bars_may_be_a_millionth_thick), cmocka_unit_test(both_ways_of_reading_agree),
+		cmocka_unit_test(both_ways_agree_on_damaged_texts)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
