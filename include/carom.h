@@ -454,12 +454,12 @@ CAROM_API carom_status carom_png_write(const char *path, const uint8_t *pixels, 
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
-/** A file being written: until it is whole, what was there before stays. */
+/** A file being written: until it is whole, what was there before stays, unless that is a device, a pipe or an open descriptor. */
 typedef struct carom_file carom_file;
 /** Begins a file under a temporary name beside `path`; writes go to *stream. Symbolic links are followed. What is there and no file, a device or a
  * pipe, is written into, and so is an open descriptor of this process that has a name: /dev/stdout, /dev/fd/N. All that write files do so. */
 CAROM_API carom_status carom_file_create(const char *path, carom_file **file, FILE **stream, carom_error *error);
-/** Flushes and renames it to its own name; on failure what was there before stays. Either way the file is released. */
+/** Flushes and renames it to its own name; on failure what was there before stays, if it was a file. Either way the file is released. */
 CAROM_API carom_status carom_file_commit(carom_file *file, carom_error *error);
 /** Gives it up and removes the temporary file. */
 CAROM_API void carom_file_destroy(carom_file *file);

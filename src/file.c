@@ -137,7 +137,8 @@ carom_status carom_file_commit(carom_file *file, carom_error *error)
 		number = errno;
 	file->stream = NULL;
 	if (number) {
-		status = fail_io(error, file->target.path, "can't be written", number, "what was there before stays; free some space or write elsewhere");
+		status = fail_io(error, file->target.path, "can't be written", number,
+			file->temporary ? "what was there before stays; free some space or write elsewhere" : "free some space or write elsewhere");
 	} else if (file->temporary && !take_name(file)) {
 		status = fail_io(error, file->target.path, "can't be replaced", errno, "what was there before stays; check the folder's permissions");
 	} else {

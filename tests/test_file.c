@@ -246,7 +246,7 @@ static void a_full_disk_is_an_error(void **state)
 	assert_int_equal(carom_file_create("/dev/full", &file, &stream, NULL), CAROM_OK);
 	fputs("too much", stream);
 	assert_int_equal(carom_file_commit(file, &error), CAROM_IO);
-	assert_non_null(strstr(error.text, "/dev/full: can't be written: No space left"));
+	assert_string_equal(error.text, "/dev/full: can't be written: No space left on device; free some space or write elsewhere");
 	for (int k = 0; k < 2; k++) { /* a failure in the middle, not at the end */
 		assert_int_equal(carom_file_create("/dev/full", &file, &stream, NULL), CAROM_OK);
 		for (int i = 0; i < 1000000; i++)
