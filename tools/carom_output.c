@@ -73,16 +73,33 @@ carom_status prepare_outputs(struct run *run, carom_error *error)
 	return status;
 }
 
-/* Frames that each looked for the bodies would follow them: what all do together would not be seen. */
+static bool is_seen(const carom_inset *part, const carom_camera *camera, const carom_render_def *render)
+{
+	const double high = (double)camera->height / 2, wide = high * render->width / render->height;
+	const double x = (double)camera->center.x, y = (double)camera->center.y, left = (double)part->min.x, bottom = (double)part->min.y;
+	return left < x + wide && left + (double)part->size.x > x - wide && bottom < y + high && bottom + (double)part->size.y > y - high;
+}
+
 carom_status prepare_camera(struct run *run, carom_error *error)
 {
-	if (!run->options->frames || run->has_camera || carom_world_get_def(run->world)->has_room)
+	const struct run_options *options = run->options;
+	/* Frames that each looked for the bodies would follow them: what all do together would not be seen. */
+	const bool is_to_stay = options->frames && !run->has_camera && !carom_world_get_def(run->world)->has_room;
+	carom_camera camera;
+	if (!is_to_stay && !options->has_inset)
 		return CAROM_OK;
-	carom_status status = carom_world_fit_camera(run->world, &run->render, &run->render.camera, error);
-	run->render.has_camera = status == CAROM_OK;
-	if (status == CAROM_OK)
-		say(&run->options->common, "no camera and no room: the frames show where the bodies are at the start; a \"camera\" in the scene shows more");
-	return status;
+	carom_status status = carom_world_fit_camera(run->world, &run->render, &camera, error);
+	if (status != CAROM_OK)
+		return status;
+	if (options->has_inset && !is_seen(&options->inset, &camera, &run->render))
+		say(&options->common, "--inset: this part lies outside of the picture, which at the start shows %.6g m of height about (%.6g, %.6g)",
+			(double)camera.height, (double)camera.center.x, (double)camera.center.y);
+	if (is_to_stay) {
+		run->render.has_camera = true;
+		run->render.camera = camera;
+		say(&options->common, "no camera and no room: the frames show where the bodies are at the start; a \"camera\" in the scene shows more");
+	}
+	return CAROM_OK;
 }
 
 /* ---- During the run ---- */

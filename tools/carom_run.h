@@ -54,7 +54,7 @@ carom_status simulate(struct run *run, carom_error *error);
 carom_status allocate_pixels(const carom_render_def *render, uint8_t **pixels, carom_error *error);
 /* Fails where an output could not be written in the end, before hours are spent on it, and opens the table. */
 carom_status prepare_outputs(struct run *run, carom_error *error);
-/* The camera of a film, which the world decides where the scene does not. */
+/* The camera of a film, which the world decides where the scene does not. Says so where the enlarged part is not in the picture. */
 carom_status prepare_camera(struct run *run, carom_error *error);
 /* Simulated seconds at which the next frame is due; infinite if no frames are asked for. */
 double next_frame(const struct run *run);
