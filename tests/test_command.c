@@ -10,7 +10,8 @@ static void devices_and_stages_are_listed(void **state)
 	assert_non_null(strstr(call.out, "works"));
 	check("$C stages", 0, "");
 	assert_non_null(strstr(call.out, "step       first_impact"));
-	assert_non_null(strstr(call.out, "toi"));
+	assert_non_null(strstr(call.out, "toi        bisection            yes      yes      yes     \n"));
+	assert_non_null(strstr(call.out, "events     clusters             yes      yes      no       default\n"));
 	assert_non_null(strstr(call.out, "default"));
 	check("$C stages >/dev/full", 1, "standard output can't be written");
 }
@@ -112,7 +113,8 @@ static void a_film_has_one_camera(void **state)
 static void an_inset_outside_the_picture_is_told(void **state)
 {
 	(void)state;
-	check("$C run scenes/mixed.json --steps 0 --png $D/p.png --size 64x36 --inset 17,0,2,2 --device cpu", 0, "--inset: this part lies outside of the picture");
+	check("$C run scenes/mixed.json --steps 0 --png $D/p.png --size 64x36 --inset 17,0,2,2 --device cpu", 0,
+		"--inset: this part lies outside of the picture");
 	check("$C run scenes/mixed.json --steps 0 --png $D/p.png --size 64x36 --inset 0,-12,2,2 --device cpu", 0, "shows 18.4 m of height about (0, 0)");
 	check("$C run scenes/mixed.json --steps 0 --png $D/p.png --size 64x36 --inset 15,-10,2,2 --device cpu; rm $D/p.png", 0, NULL);
 	assert_null(strstr(call.err, "--inset"));
@@ -254,10 +256,10 @@ static void without_opencl_the_cpu_works(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
-		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(a_film_has_one_camera), cmocka_unit_test(an_inset_outside_the_picture_is_told),
-		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
-		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_state_may_replace_its_scene),
-		cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),
+		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(a_film_has_one_camera),
+		cmocka_unit_test(an_inset_outside_the_picture_is_told), cmocka_unit_test(a_scene_may_come_through_a_pipe),
+		cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file), cmocka_unit_test(standard_output_is_gone_on_with),
+		cmocka_unit_test(a_state_may_replace_its_scene), cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),
 		cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),
 		cmocka_unit_test(an_interruption_writes_what_there_is), cmocka_unit_test(without_opencl_the_cpu_works)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);

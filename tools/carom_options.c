@@ -101,7 +101,8 @@ static const struct option of_worlds[] = {
 		"auto, cpu, opencl, or part of a platform's or device's name; by default what CAROM_DEVICE says, else auto"},
 	{"storage", "KIND", read_storage, offsetof(struct common_options, storage),
 		"image or buffer: how an OpenCL device holds textures; by default what suits the device"},
-	{"set", "SLOT=NAME", read_set, 0, "the alternative for a slot, over the scene's; once a slot; `carom stages` lists them"},
+	{"set", "SLOT=NAME", read_set, 0,
+		"the alternative for a slot, over the scene's; once a slot; `carom stages` lists them, and the slots that take it"},
 	{NULL, NULL, NULL, 0, NULL},
 };
 
