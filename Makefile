@@ -5,6 +5,7 @@ PREFIX ?= /usr/local
 LIBDIR ?= $(PREFIX)/lib
 PKG_CONFIG ?= pkg-config
 CC_FOR_BUILD ?= $(CC)
+DOXYGEN ?= doxygen
 CAIRO ?= yes
 BOX2D ?= $(call yes_if,$(PKG_CONFIG) --exists 'box2d >= 2.4' 'box2d < 3')
 CHIPMUNK ?= $(call yes_if,printf '%s\n' '$(hash)include <chipmunk/chipmunk.h>' '$(hash)if CP_VERSION_MAJOR != 7' '$(hash)error' \
@@ -294,8 +295,9 @@ static:
 	@C_FLAGS='$(C11) $(call quoted,$(ALL_INCLUDES))' CXX_FLAGS='-std=c++17 $(call quoted,$(ALL_INCLUDES))' sh tests/static.sh
 
 doc:
+	@command -v $(DOXYGEN) >/dev/null || { echo 'make doc: $(DOXYGEN) is not there: install the package doxygen, or all that tools/bootstrap --developer does' >&2; exit 1; }
 	@mkdir -p $(BUILD)
-	@CAROM_VERSION='$(VERSION)' CAROM_BUILD='$(BUILD)' doxygen tools/Doxyfile
+	@CAROM_VERSION='$(VERSION)' CAROM_BUILD='$(BUILD)' $(DOXYGEN) tools/Doxyfile
 	@echo '$(BUILD)/doc/html/index.html'
 
 # Races that hide from a run show here, of the library and of the command, where other threads write the frames.

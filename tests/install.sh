@@ -67,6 +67,11 @@ page_is_clean() {
 	! grep . "$root/warnings"
 }
 
+# What only developers need is not there everywhere.
+names_doxygen() {
+	! ${MAKE:-make} doc DOXYGEN=none/doxygen >"$root/said" 2>&1 && grep 'install the package doxygen, or all that tools/bootstrap --developer' "$root/said"
+}
+
 fenced c >"$root/example.c"
 cp "$root/example.c" "$root/example.cpp"
 fenced text >"$root/wanted"
@@ -89,5 +94,6 @@ else
 fi
 
 attempt "make uninstall leaves nothing" uninstalls
+attempt "make doc says how to get doxygen" names_doxygen
 
 exit "$failed"
