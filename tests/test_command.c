@@ -152,6 +152,9 @@ static void standard_output_is_gone_on_with(void **state)
 		0, "");
 	check("test -L $D/l; $C run scenes/mixed.json --steps 2 --out - --quiet --device cpu | cmp - $D/s", 0, "");
 	check("$C run scenes/mixed.json --steps 2 --out - --stats - --quiet --device cpu | tail -n +4 | cmp - $D/s", 0, "");
+	check("$C run scenes/mixed.json --steps 2 --out - --stats - --hash --quiet --device cpu >$D/t; head -c 4 $D/t; tail -n 1 $D/t | cmp - $D/h", 0,
+		"");
+	assert_string_equal(call.out, "step");
 	check("$C generate --shape circle --count 9 --out - --quiet >$D/t; $C generate --shape circle --count 9 --quiet | cmp - $D/t", 0, "");
 	check("rm $D/l $D/t $D/h $D/s", 0, "");
 }

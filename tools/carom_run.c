@@ -299,6 +299,7 @@ const struct command run_command = {
 	.summary = "Simulates a scene and writes states, pictures and tables",
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
 			   "As --out, --png or --stats, - is standard output.\n"
+			   "What several write there follows each other: the table, the picture, the state, and the hash as the last line.\n"
 			   "--out may write over SCENE.json: the state takes its place. No other output may, and each has a file of its own.\n"
 			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first\n"
 			   "hit, so --steps counts those, and --time counts simulated seconds. With --time, the step before the end\n"
