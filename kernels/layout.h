@@ -308,10 +308,10 @@
 /* Pushes: two records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular */
 #define PUSHES_WIDTH 2
 
-#define GROUP_MOST 64 /* work-items of a group */
-#define GROUP_FEW 32  /* of a smaller one, */
+#define GROUP_MOST 64  /* work-items of a group */
+#define GROUP_FEW 32   /* of a smaller one, */
 #define GROUP_WIDE 256 /* and of one that looks for one body's neighbours, on a GPU */
-#define SEEK_EACH 4   /* slots at most for each of those that look for hits, where most sleep: those that do not are shared */
+#define SEEK_EACH 4    /* slots at most for each of those that look for hits, where most sleep: those that do not are shared */
 
 /* Status: ints, and some floats in their bits */
 #define STATUS_WIDTH 64

@@ -69,8 +69,10 @@ finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_O
 		again = smaller(again, least_of(meetings));
 		if (!IS_ANY(others.live & ((meetings <= (floats)(1.0f)) | (ids >= (ints)(0)))))
 			continue;
-		for (int n = 0; n < BUNCH; n++, others.slots = TURNED(others.slots), others.live = TURNED(others.live), ids = TURNED(ids), meetings = TURNED(meetings)) {
-			int other = FIRST(others.slots), other_id = FIRST(ids), events = FIRST(others.live) && other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
+		for (int n = 0; n < BUNCH;
+			 n++, others.slots = TURNED(others.slots), others.live = TURNED(others.live), ids = TURNED(ids), meetings = TURNED(meetings)) {
+			int other = FIRST(others.slots), other_id = FIRST(ids),
+				events = FIRST(others.live) && other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
 			if (events > 0)
 				wake_before(status, wakes, other, FIRST(meetings));
 			float until = smaller(CHANNEL(first, NEXT_TIME), 1.0f);
@@ -250,7 +252,8 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	}
 	if (!is_known)
 		return (int2)(id, LOOKS_NOT);
-	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, rules, active[id], id, other_id, next, length);
+	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, rules, active[id], id, other_id, next,
+		length);
 	return (int2)(id, other_id);
 }
 
@@ -282,8 +285,8 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 		if (lane == 0) {
 			int2 who = (int2)(LOOKS_NO_MORE, LOOKS_NOT);
 			if (first >= 0)
-				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, rules, leader,
-					head, round, length, &first);
+				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, rules,
+					leader, head, round, length, &first);
 			if (who.x == LOOKS_LATER)
 				first = -1;
 			looks[0] = who.x;
@@ -296,7 +299,7 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 		if (over)
 			break;
 		/* at one place, for this is most of the program, and of the time of a GPU */
-		for (int k = lane & 1; k < 2; k += lanes > 1 ? 2 : 1)
+		for (int k = lane & 1; k<2; k += lanes> 1 ? 2 : 1)
 			if (looks[k] >= 0)
 				findings[lanes > 1 ? lane : k] = look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, looks[k],
 					PEEK(members, MEMBER(looks[k], MEMBER_OWNER)), length, looks[1 - k], lane / 2, lanes > 1 ? lanes / 2 : 1, &found_with);

@@ -106,8 +106,7 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	bool is_incident = is_row == c.swapped;
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
 	float2 back = (float2)(-n.x, -n.y);
-	rest r = rest_begin(key, slot_is_static(slots, other) ? PARTNER_STATIC(key) : other, n, force, slop,
-		rub);
+	rest r = rest_begin(key, slot_is_static(slots, other) ? PARTNER_STATIC(key) : other, n, force, slop, rub);
 	for (int j = 0; j < c.count; j++) {
 		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;

@@ -299,7 +299,7 @@ static void what_rubs_rests_whatever_its_restitution(void **unused)
 			const carom_report last = runs_step(world, runs_affordable(60));
 			if (device == scenery_devices)
 				print_message("%s: %llu hits, at last %.2g J\n", steps[i], (unsigned long long)(run.hits + last.hits), now.kinetic_energy);
-			assert_true(run.held == 0 && last.held == 0 && last.hits < 60 * COUNT * 100);
+			assert_true(run.held == 0 && last.held == 0 && last.hits < (uint64_t)60 * COUNT * 100);
 			assert_true(now.max_penetration < 1e-4);
 			runs_enough(now.kinetic_energy < 1e-3 * (begun.kinetic_energy + begun.potential_energy));
 			runs_same_hash(&first, runs_hash(world), device);
