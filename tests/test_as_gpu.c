@@ -49,8 +49,8 @@ static void pictures_have_the_same_bits(void **unused)
 {
 	(void)unused;
 	static const uint32_t sizes[][2] = {{1, 1}, {300, 200}, {1500, 1100}};
-	picture first = {0};
 	for (size_t k = 0; k < 3; k++) {
+		picture first = {0};
 		carom_render_def def = sized(sizes[k][0], sizes[k][1]);
 		SCENERY_EACH_DEVICE(device) {
 			carom_world *world = crowded(device, "events", SCENERY_MIXED, 700);

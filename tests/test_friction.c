@@ -298,7 +298,8 @@ static void what_rubs_rests_whatever_its_restitution(void **unused)
 			const carom_measure now = runs_measure(world);
 			const carom_report last = runs_step(world, runs_affordable(60));
 			if (device == scenery_devices)
-				print_message("%s: %llu hits, at last %.2g J\n", steps[i], (unsigned long long)(run.hits + last.hits), now.kinetic_energy);
+				print_message("%s: %llu and %llu hits, at last %.2g J\n", steps[i], (unsigned long long)run.hits, (unsigned long long)last.hits,
+					now.kinetic_energy);
 			assert_true(run.held == 0 && last.held == 0 && last.hits < (uint64_t)60 * COUNT * 100);
 			assert_true(now.max_penetration < 1e-4);
 			runs_enough(now.kinetic_energy < 1e-3 * (begun.kinetic_energy + begun.potential_energy));
