@@ -262,7 +262,7 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), int round, int lanes, float length, SHARED crew *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
-	int lane = GROUP_LANE % lanes, teams = GROUP_LANES / lanes;
+	int lane = GROUP_LANE % lanes, teams = GROUP_LANES / lanes, each = max(lanes / 2, 1); /* lanes for one that looks */
 	SHARED int *looks = all->looks[GROUP_LANE / lanes];
 	SHARED finding *findings = &all->findings[GROUP_LANE - lane];
 	int leader = -1, head = -1, first = -1; /* of the first lane's cluster */
@@ -299,10 +299,10 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 		if (over)
 			break;
 		/* at one place, for this is most of the program, and of the time of a GPU */
-		for (int k = lane & 1; k<2; k += lanes> 1 ? 2 : 1)
+		for (int k = lane & 1; k < 2; k += min(lanes, 2))
 			if (looks[k] >= 0)
 				findings[lanes > 1 ? lane : k] = look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, looks[k],
-					PEEK(members, MEMBER(looks[k], MEMBER_OWNER)), length, looks[1 - k], lane / 2, lanes > 1 ? lanes / 2 : 1, &found_with);
+					PEEK(members, MEMBER(looks[k], MEMBER_OWNER)), length, looks[1 - k], lane / 2, each, &found_with);
 		team_reduce(all, lane, lanes);
 		for (int k = 0; k < 2 && lane == 0; k++) {
 			int id = looks[k];
