@@ -13,7 +13,7 @@
 /* Each header stands after those it needs. */
 static const char *const headers[2][28] = {
 	{"layout", "texture", "numbers", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster",
-		"around", "mend", "answer", "heap", "team", "queue", "seek", "rest", "load"},
+		"around", "mend", "answer", "heap", "team", "queue", "seek", "rest", "load", "kept"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "tiles", "light"},
 };
 
