@@ -45,10 +45,15 @@ static cl_int bind_textures(cl_device *d, carom_stage stage, carom_texture *cons
 	return CL_SUCCESS;
 }
 
+static bool sorts_shapes(carom_stage stage)
+{
+	return stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES;
+}
+
 /* How large a stage's groups are to be: smaller ones where there are few work-items, or where each goes its own way, which a GPU runs one after the other. */
 static size_t wanted_size(const cl_device *d, carom_stage stage)
 {
-	if (stage == STAGE_FIRST || stage == STAGE_IMPULSE || (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES && d->is_cpu))
+	if (stage == STAGE_FIRST || stage == STAGE_IMPULSE || (sorts_shapes(stage) && d->is_cpu))
 		return 1;
 	if (stage == STAGE_MEND)
 		return d->is_cpu ? GROUP_FEW : GROUP_WIDE;
@@ -57,12 +62,15 @@ static size_t wanted_size(const cl_device *d, carom_stage stage)
 	return GROUP_MOST;
 }
 
-/* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. Some devices take only small groups. */
+/* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. Some devices take only small groups; where a GPU's lanes count on each
+ * other that is not enough. */
 static cl_int local_size(const cl_device *d, carom_stage stage, cl_kernel kernel, size_t *local)
 {
 	size_t wanted = wanted_size(d, stage), most = 1;
 	cl_int code = d->cl.clGetKernelWorkGroupInfo(kernel, d->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
 	*local = wanted < most ? wanted : most;
+	if (!code && most < wanted && !d->is_cpu && (stage == STAGE_RESOLVE || sorts_shapes(stage)))
+		return CL_INVALID_WORK_GROUP_SIZE;
 	return code;
 }
 
