@@ -156,6 +156,8 @@ static carom_status create_kernels(cl_device *d, cl_program program, carom_error
 		else
 			code = keep_kernel(d, kernels[i]);
 	}
+	if (code == CL_INVALID_WORK_GROUP_SIZE)
+		return carom_cl_device_fail(d, error, code, "it can't run as many work-items together as a kernel for GPUs needs");
 	return code ? carom_cl_device_fail(d, error, code, "a kernel can't be asked for what it is") : CAROM_OK;
 }
 
