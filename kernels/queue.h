@@ -78,6 +78,7 @@ finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_O
 			float until = smaller(CHANNEL(first, NEXT_TIME), 1.0f);
 			if (!FIRST(others.live) || FIRST(meetings) > until)
 				continue;
+			/* not asked yet by what looks at four, or at more steps than this one */
 			if ((BUNCH > 1 || ahead > 0.0f) && stay_apart(disc_k, disc_seen(slots, work, other, other_id, length)))
 				continue;
 			bool is_partner = other_id >= 0 && other_id == partner, is_known = is_partner && found_with->y >= 0.0f;

@@ -110,7 +110,7 @@ void seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_O
 		unite(parents, s, other);
 }
 
-/* Of the four those that this slot watches. */
+/* Of a bunch those that this slot watches. */
 INLINE ints watched(LIST_IN(status), LIST_IN(wakes), int s, bunch others, int changed, int cursor, int half_end)
 {
 #define CHANGED(one) wakes[WAKE((others.slots)one, WAKE_CHANGED)]

@@ -68,7 +68,7 @@ carom_status carom_device_list_create(carom_device_info **devices, size_t *count
 {
 	carom_device_info *list = NULL, *grown;
 	size_t found = 0;
-	carom_status status;
+	carom_status status = CAROM_OK;
 	GIVEN(devices, error);
 	GIVEN(count, error);
 	TRY(carom_cl_list(&list, &found, error));
@@ -78,7 +78,6 @@ carom_status carom_device_list_create(carom_device_info **devices, size_t *count
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to list the devices");
 	}
 	insert_fallback(grown, found);
-	status = CAROM_OK;
 	for (size_t i = 0; !status && i <= found; i++)
 		status = heed_limits(&grown[i], error);
 	if (status) {

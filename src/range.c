@@ -14,6 +14,7 @@
 /* What a body may be at the end of a step, if nothing is in its way: turning counts as speed at the rim. */
 typedef struct reached {
 	double place, speed, spin; /* m, m/s, rad/s */
+	double push;               /* m/s^2, or rad/s^2: by how much both may grow */
 } reached;
 
 static double larger_of(carom_vec2 v)
@@ -25,14 +26,14 @@ static reached reach_of(const carom_world *world, size_t index)
 {
 	const carom_body *body = &carom_world_bodies(world)[index];
 	const float *l = (const float *)world->linear.items + 4 * index, *r = (const float *)world->rotational.items + 4 * index;
-	const double time = (double)world->def.time_step, push = larger_of(body->force) / (double)body->mass,
+	const double time = (double)world->def.time_step, push = larger_of(world->def.gravity) + larger_of(body->force) / (double)body->mass,
 				 twist = fabs((double)body->torque) / (double)body->inertia;
 	reached most = {.place = fmax(larger_of((carom_vec2){l[LINEAR_X], l[LINEAR_Y]}), (double)body->bound)};
 	if (body->is_static)
 		return most;
 	most.spin = fabs((double)r[ROTATIONAL_VELOCITY]) + twist * time;
-	most.speed = larger_of((carom_vec2){l[LINEAR_VX], l[LINEAR_VY]}) + (larger_of(world->def.gravity) + push) * time
-		+ most.spin * (double)body->bound;
+	most.speed = larger_of((carom_vec2){l[LINEAR_VX], l[LINEAR_VY]}) + push * time + most.spin * (double)body->bound;
+	most.push = push + twist * fmax((double)body->bound, 1.0);
 	return most;
 }
 
@@ -51,14 +52,11 @@ static const char *excess(const carom_world *world, const reached *most)
 }
 
 /* s: until what pushes add makes the speed too large; and the place, where no room keeps a body. What hits do is not foreseen. */
-static double good_for(const carom_world *world, size_t index, const reached *most)
+static double good_for(const carom_world *world, const reached *most)
 {
-	const carom_body *body = &carom_world_bodies(world)[index];
-	const double twist = fabs((double)body->torque) / (double)body->inertia,
-				 push = larger_of(world->def.gravity) + larger_of(body->force) / (double)body->mass + twist * fmax((double)body->bound, 1.0),
-				 speed = fmax(most->speed, most->spin), left = MOST - most->place;
-	const double by_speed = (MOST - speed) / push; /* infinite where nothing pushes */
-	const double by_place = 2.0 * left / (speed + sqrt(speed * speed + 2.0 * push * left));
+	const double speed = fmax(most->speed, most->spin), left = MOST - most->place;
+	const double by_speed = (MOST - speed) / most->push; /* infinite where nothing pushes */
+	const double by_place = 2.0 * left / (speed + sqrt(speed * speed + 2.0 * most->push * left));
 	return world->def.has_room ? by_speed : fmin(by_speed, by_place);
 }
 
@@ -75,7 +73,7 @@ carom_status carom_check_range(carom_world *world, carom_error *error)
 			return carom_fail(error, CAROM_LIMIT, "body %zu: %s is too large for a step in 32-bit floats; allowed: up to 1e9 m, m/s and rad/s", i,
 				what);
 		if (!body->is_static)
-			world->good_for = fmin(world->good_for, good_for(world, i, &most));
+			world->good_for = fmin(world->good_for, good_for(world, &most));
 		heaviest = body->is_static ? heaviest : fmax(heaviest, fmax((double)body->mass, (double)body->inertia));
 		fastest = fmax(fastest, fmax(most.speed, most.spin));
 	}

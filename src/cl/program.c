@@ -33,15 +33,21 @@ static const carom_kernel_source *source_named(const char *slot, const char *nam
 	return NULL;
 }
 
+/* NAME.gpu is no alternative: append takes it for NAME. */
+static bool is_alternative(const char *name)
+{
+	return !strchr(name, '.');
+}
+
 bool carom_cl_has_alternative(const char *slot, const char *alternative)
 {
-	return source_named(slot, alternative) && !strchr(alternative, '.');
+	return source_named(slot, alternative) && is_alternative(alternative);
 }
 
 const char *carom_cl_alternative(const char *slot, size_t index)
 {
 	for (size_t i = 0; i < carom_kernel_source_count; i++)
-		if (!strcmp(carom_kernel_sources[i].slot, slot) && !strchr(carom_kernel_sources[i].name, '.') && index-- == 0)
+		if (!strcmp(carom_kernel_sources[i].slot, slot) && is_alternative(carom_kernel_sources[i].name) && index-- == 0)
 			return carom_kernel_sources[i].name;
 	return NULL;
 }

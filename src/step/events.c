@@ -23,7 +23,8 @@
 #define MEND_SHARE 1024  /* slots for one group of those that look for new neighbours */
 #define SHARE 16         /* slots for one work-item of those that share what is active, on a CPU, */
 #define SHARE_GPU 4      /* and on a GPU, which has work-items in plenty */
-#define MOST_GROUPS 1024 /* of those that run clusters, on a GPU: about as many as run at once, so that the largest clusters of all begin first */
+#define GROUP_SHARE 8    /* slots for one group of those that run clusters, on a GPU, */
+#define MOST_GROUPS 1024 /* and no more: about as many as run at once, so that the largest clusters of all begin first */
 #define TEAM_LANES 8     /* of a group, look at one cluster's bodies, */
 #define TEAM_LANES_OF_MANY 4
 #define MANY (1 << 19) /* bodies: then there are clusters enough to keep all lanes busy */
@@ -47,7 +48,7 @@ int32_t carom_events_share(const carom_world *world)
 
 static carom_status resolve(carom_world *world, int32_t round, carom_error *error)
 {
-	const int32_t count = (int32_t)world->body_count, groups = count / 8 + 64;
+	const int32_t count = (int32_t)world->body_count, groups = count / GROUP_SHARE + 64;
 	if (!carom_is_gpu(world))
 		return carom_run(world, STAGE_RESOLVE, carom_events_share(world), 1, round, 1, error);
 	return carom_run(world, STAGE_RESOLVE, GROUP_FEW * (groups < MOST_GROUPS ? groups : MOST_GROUPS), 1, round,
