@@ -100,13 +100,12 @@ static carom_status sort_shapes(carom_world *world, uint32_t shapes, int32_t row
 	const uint32_t *room = world->canvas.room;
 	const int32_t chunks = carom_parts_of(shapes, BIN_CHUNK), row_room = (int32_t)(room[ROLE_ROW_LIST] / 2),
 				  tile_room = (int32_t)room[ROLE_TILE_LIST];
-	const int32_t each = carom_is_gpu(world) ? GROUP_MOST : 1; /* work-items for a chunk or a row */
 	if (chunks)
-		TRY(carom_run(world, STAGE_BIN_COUNT, each * chunks, 1, (int32_t)shapes, 0, error));
-	TRY(carom_run(world, STAGE_BIN_SUM, each * rows, 1, chunks, 0, error));
+		TRY(carom_run(world, STAGE_BIN_COUNT, chunks, 1, (int32_t)shapes, 0, error));
+	TRY(carom_run(world, STAGE_BIN_SUM, rows, 1, chunks, 0, error));
 	if (chunks)
-		TRY(carom_run(world, STAGE_BIN_ROWS, each * chunks, 1, (int32_t)shapes, row_room, error));
-	return carom_run(world, STAGE_BIN_TILES, each * rows, 1, row_room, tile_room, error);
+		TRY(carom_run(world, STAGE_BIN_ROWS, chunks, 1, (int32_t)shapes, row_room, error));
+	return carom_run(world, STAGE_BIN_TILES, rows, 1, row_room, tile_room, error);
 }
 
 /* Makes the lists longer if they were too short: `again` tells. */

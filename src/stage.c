@@ -95,6 +95,12 @@ const carom_slot carom_slots[] = {
 };
 const size_t carom_slot_count = sizeof carom_slots / sizeof *carom_slots;
 
+bool carom_stage_runs_groups(carom_stage stage)
+{
+	return stage == STAGE_PACE || stage == STAGE_CELLS || stage == STAGE_MEND || stage == STAGE_RESOLVE
+		|| (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES);
+}
+
 bool carom_stage_draws(carom_stage stage)
 {
 	return stage >= STAGE_VERTICES && stage <= STAGE_PIXELS;

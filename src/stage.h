@@ -90,16 +90,16 @@ typedef enum carom_stage {
 	STAGE_COLLISION,    /* (bodies) */
 	/* the step events; "share": work-items that share what is active, `round` being the number of the round */
 	STAGE_LOAD,    /* (slots): the state into slots */
-	STAGE_PACE,    /* (a group, 1, slots, tenths of a radius that all get at least) */
+	STAGE_PACE,    /* (one group, 1, slots, tenths of a radius that all get at least) */
 	STAGE_REACH,   /* (slots, 1, cells a row, rows) */
-	STAGE_CELLS,   /* (a group, rows of all levels, cells a row, rows) */
+	STAGE_CELLS,   /* (one group, rows of all levels, cells a row, rows) */
 	STAGE_SORT,    /* (slots) */
 	STAGE_NEAR,    /* (slots, 1, cells a row, rows) */
 	STAGE_GATHER,  /* (slots) */
 	STAGE_MEND,    /* (groups, 1, cells a row, rows) */
 	STAGE_SEEK,    /* (slots, or one for SEEK_EACH of them, 1, round, slots) */
 	STAGE_MUSTER,  /* (share, 1, round) */
-	STAGE_RESOLVE, /* (share, or GROUP_FEW for each group of a GPU, 1, round, lanes of a team) */
+	STAGE_RESOLVE, /* (groups, 1, round, lanes of a team) */
 	STAGE_CHECK,   /* (share, 1, round) */
 	STAGE_SETTLE,  /* (1, 1, round, slots) */
 	STAGE_DRIFT,   /* (slots, 1, room in Movers) */
@@ -114,10 +114,10 @@ typedef enum carom_stage {
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
 	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */
-	STAGE_BIN_COUNT, /* (chunks, 1, shapes); of a GPU GROUP_MOST for each, here and below */
-	STAGE_BIN_SUM,   /* (rows of tiles, 1, chunks) */
-	STAGE_BIN_ROWS,  /* (chunks, 1, shapes, room in the list) */
-	STAGE_BIN_TILES, /* (rows of tiles, 1, room in the rows' list, room in the tiles') */
+	STAGE_BIN_COUNT, /* (groups: chunks, 1, shapes) */
+	STAGE_BIN_SUM,   /* (groups: rows of tiles, 1, chunks) */
+	STAGE_BIN_ROWS,  /* (groups: chunks, 1, shapes, room in the list) */
+	STAGE_BIN_TILES, /* (groups: rows of tiles, 1, room in the rows' list, room in the tiles') */
 	STAGE_PIXELS,    /* (tile columns, rows of tiles, room in the tiles' list): a tile of pixels */
 	STAGE_COUNT
 } carom_stage;
@@ -154,6 +154,8 @@ typedef struct carom_slot {
 extern const carom_slot carom_slots[];
 extern const size_t carom_slot_count;
 
+/* Does domain[0] count groups of work-items? How large they are is the device's choice. Of all other stages it counts work-items. */
+bool carom_stage_runs_groups(carom_stage stage);
 /* Is the stage one of rendering? Those of a device are made ready when the first is run. */
 bool carom_stage_draws(carom_stage stage);
 bool carom_slot_draws(const char *name);

@@ -202,7 +202,7 @@ static carom_status run_stage(carom_device *device, carom_stage stage, carom_tex
 	if (!d->kernels[stage].kernel)
 		return carom_fail(error, CAROM_DEVICE, "%s: the program has no kernel %s", d->base.info.name, carom_stages[stage].kernel);
 	local[0] = d->kernels[stage].local;
-	global[0] = ((size_t)domain[0] + local[0] - 1) / local[0] * local[0];
+	global[0] = (carom_stage_runs_groups(stage) ? (size_t)domain[0] : ((size_t)domain[0] + local[0] - 1) / local[0]) * local[0];
 	event = next_event(d, stage);
 	code = bind_textures(d, stage, textures, &next);
 	if (!code)

@@ -50,9 +50,9 @@ static carom_status resolve(carom_world *world, int32_t round, carom_error *erro
 {
 	const int32_t count = (int32_t)world->body_count, groups = count / GROUP_SHARE + 64;
 	if (!carom_is_gpu(world))
-		return carom_run(world, STAGE_RESOLVE, carom_events_share(world), 1, round, 1, error);
-	return carom_run(world, STAGE_RESOLVE, GROUP_FEW * (groups < MOST_GROUPS ? groups : MOST_GROUPS), 1, round,
-		count < MANY ? TEAM_LANES : TEAM_LANES_OF_MANY, error);
+		return carom_run(world, STAGE_RESOLVE, carom_events_share(world) / GROUP_MOST + 1, 1, round, 1, error);
+	return carom_run(world, STAGE_RESOLVE, groups < MOST_GROUPS ? groups : MOST_GROUPS, 1, round, count < MANY ? TEAM_LANES : TEAM_LANES_OF_MANY,
+		error);
 }
 
 int32_t carom_events_movers(const carom_world *world)
@@ -70,9 +70,9 @@ carom_status carom_events_find_neighbours(carom_world *world, carom_error *error
 	carom_events *events = &world->events;
 	const int32_t count = (int32_t)world->body_count, columns = (int32_t)events->columns, rows = (int32_t)events->rows;
 	const int32_t tenths = events->doublings > 0 ? 4 << events->doublings : 1; /* of a radius, that all are taken to get */
-	TRY(carom_run(world, STAGE_PACE, GROUP_MOST, 1, count, tenths, error));
+	TRY(carom_run(world, STAGE_PACE, 1, 1, count, tenths, error));
 	TRY(carom_run(world, STAGE_REACH, count, 1, columns, rows, error));
-	TRY(carom_run(world, STAGE_CELLS, GROUP_MOST, CELL_ROWS(rows), columns, rows, error));
+	TRY(carom_run(world, STAGE_CELLS, 1, CELL_ROWS(rows), columns, rows, error));
 	TRY(carom_run(world, STAGE_SORT, count, 1, 0, 0, error));
 	carom_swap(world, ROLE_SLOTS);
 	carom_swap(world, ROLE_NEED);
@@ -101,8 +101,7 @@ carom_status carom_events_resolve(carom_world *world, carom_error *error)
 	const int32_t count = (int32_t)world->body_count;
 	carom_status status;
 	world->events.since++;
-	TRY(carom_run(world, STAGE_MEND, (carom_is_gpu(world) ? GROUP_WIDE : GROUP_FEW) * (count / MEND_SHARE + 4), 1, (int32_t)world->events.columns,
-		(int32_t)world->events.rows, error));
+	TRY(carom_run(world, STAGE_MEND, count / MEND_SHARE + 4, 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
 	TRY(run_rounds(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, count, error));
 	carom_swap(world, ROLE_CLOCK);
