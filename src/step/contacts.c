@@ -42,10 +42,12 @@ static carom_status run(carom_world *world, carom_error *error)
 	return release(world, 0, error);
 }
 
-/* Of a step that is not done nothing is left. */
+/* Of a step that is not done nothing is left: it begins again, with new lists, which forget how far it was. */
 static carom_status unload(carom_world *world, carom_error *error)
 {
 	TRY(release(world, 1, error));
+	if (world->events.within)
+		world->events.since = UINT32_MAX / 2;
 	return carom_events_unload(world, error);
 }
 

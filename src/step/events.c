@@ -251,6 +251,7 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 	if (status[STATUS_STALE])
 		world->events.since = UINT32_MAX / 2;
 	world->events.in_batch = false;
+	world->events.within = status[STATUS_PASS] > 0;
 	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;
 	return send_status(world, status, error);
 }
