@@ -360,6 +360,10 @@
 #define STATUS_PLACED 38     /* slots that have got their place */
 #define STATUS_MOVERS 39     /* slots in Movers */
 #define STATUS_EXTRA 40      /* ints wanted in Extra */
+#define STATUS_THRONGS 43     /* of THRONG ints that were wanted at once in Neighbours */
+#define THRONG 1024
+#define THRONGS_MOST (1 << 20) /* more are not counted in NEIGHBOURS, which would overflow: there is no room for them */
+#define NODES_MOST (1 << 29)  /* likewise */
 #define STATUS_TOUCHING 41   /* slots with contacts */
 #define STATUS_RULED 42      /* of the step's hits */
 

@@ -16,7 +16,7 @@ bool mend_knows(LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), int s, int
 /* Where there is no room the lists are made anew. */
 void mend_add(LIST_OUT(status), LIST_OUT(extra), int s, int other)
 {
-	int node = atomic_add(&status[STATUS_EXTRA], NODE_WIDTH), next = int_load(extra, s), seen;
+	int node = PEEK(status, STATUS_STALE) ? INT_MAX - NODE_WIDTH : atomic_add(&status[STATUS_EXTRA], NODE_WIDTH), next = int_load(extra, s), seen;
 	if (node + NODE_WIDTH > status[STATUS_EXTRA_ROOM]) {
 		atomic_or(&status[STATUS_STALE], 1);
 		return;

@@ -15,7 +15,7 @@
 void status_begin(LIST_OUT(status), int count)
 {
 	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
-	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = status[STATUS_RULED] = 0;
+	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = status[STATUS_RULED] = status[STATUS_THRONGS] = 0;
 	status[STATUS_LITTERED] = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;
@@ -205,8 +205,10 @@ int group_sum(__local int *wanted)
 /* Room for `count` ints in Neighbours; -1 if there is not enough. */
 int neighbours_take(LIST_OUT(status), int count)
 {
-	int start = atomic_add(&status[STATUS_NEIGHBOURS], count);
-	if (start + count <= status[STATUS_ROOM])
+	int crowds = count / THRONG;
+	bool too_many = crowds > 0 && atomic_add(&status[STATUS_THRONGS], crowds) > THRONGS_MOST - crowds;
+	int start = too_many ? INT_MAX : atomic_add(&status[STATUS_NEIGHBOURS], count);
+	if (start <= status[STATUS_ROOM] - count)
 		return start;
 	atomic_or(&status[STATUS_SMALL], 1);
 	return -1;
@@ -228,7 +230,7 @@ typedef struct near_list {
 /* Of two bodies of different levels one looks for the other, and tells it. */
 void node_push(LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int other, int s)
 {
-	int node = atomic_inc(&status[STATUS_NODES]);
+	int node = PEEK(status, STATUS_NODES) > NODES_MOST ? INT_MAX : atomic_inc(&status[STATUS_NODES]);
 	if (node >= status[STATUS_NODE_ROOM]) {
 		atomic_or(&status[STATUS_SMALL], 1);
 		return;

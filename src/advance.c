@@ -162,8 +162,11 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 /* What the device has made itself is good to go on from, for a while. */
 static carom_status get_ready(carom_world *world, carom_error *error)
 {
-	const bool is_good = world->bodies_current && world->device_current && world->good_for >= (double)world->def.time_step;
+	const bool is_changed = !world->bodies_current || !world->device_current,
+			   is_good = !is_changed && world->good_for >= (double)world->def.time_step;
 	carom_status status = is_good ? CAROM_OK : carom_textures_fetch(world, error);
+	if (is_changed)
+		world->stalled = 0; /* what stood still did so as it was before */
 	if (!status && !is_good)
 		status = carom_check_range(world, error);
 	return status ? status : carom_textures_update(world, error);
@@ -203,11 +206,19 @@ carom_status carom_check_idle(const carom_world *world, carom_error *error)
 	return carom_fail(error, CAROM_INVALID_ARGUMENT, "world: found in the middle of a step; its progress callback may read it, not change it");
 }
 
+/* Whatever fails before anything is done has done nothing. */
+static void begin_report(carom_report *report)
+{
+	if (report)
+		*report = (carom_report){0};
+}
+
 carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
+	begin_report(report);
 	GIVEN(world, error);
 	TRY(carom_check_idle(world, error));
-	world->target = -1.0;
+	world->target = NAN;
 	world->remaining[0] = (float)FOR_EVER;
 	world->remaining[1] = 0.0f;
 	return run_all(world, steps, report, error);
@@ -215,6 +226,7 @@ carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *
 
 carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error)
 {
+	begin_report(report);
 	GIVEN(world, error);
 	TRY(carom_check_idle(world, error));
 	const double rest = time - world->time;
@@ -230,10 +242,11 @@ carom_status carom_world_advance_to(carom_world *world, double time, uint64_t mo
 
 carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error)
 {
+	begin_report(report);
 	GIVEN(world, error);
 	TRY(carom_check_idle(world, error));
 	if (!(seconds >= 0.0 && seconds < FOR_EVER))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "seconds: found %g, must be from 0 to %g", seconds, FOR_EVER);
-	world->target = -1.0;
+	world->target = NAN;
 	return carom_world_advance_to(world, world->time + seconds, UINT64_MAX, report, error);
 }

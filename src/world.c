@@ -59,7 +59,7 @@ carom_status carom_world_create(const carom_world_def *def, carom_world **world,
 	keep_names(&w->def.pipeline, &w->pipeline);
 	w->step = step_named(w->pipeline.step);
 	w->host_current = w->contacts_current = true;
-	w->target = -1.0;
+	w->target = NAN;
 	w->batch = 1;
 	if (def->device) {
 		snprintf(w->device_name, sizeof w->device_name, "%s", def->device);
@@ -127,10 +127,6 @@ static bool append_body(carom_world *world, const carom_body_def *def, carom_bod
 	}
 	*slot = *body;
 	world->body_count++;
-	if (body->friction > 0.0f && !world->rubs) {
-		world->rubs = true;
-		world->prepared = false; /* the step may need more */
-	}
 	return true;
 }
 
@@ -149,6 +145,16 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	if (!append_body(world, def, &body, vertices))
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for body %zu", index);
 	return CAROM_OK;
+}
+
+/* Once something rubs the step may need more. */
+static void look_for_friction(carom_world *world, size_t first)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	for (size_t i = first; i < world->body_count && !world->rubs; i++) {
+		world->rubs = bodies[i].friction > 0.0f;
+		world->prepared = world->prepared && !world->rubs;
+	}
 }
 
 carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error)
@@ -176,6 +182,7 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 		world->body_count = before;
 		return status;
 	}
+	look_for_friction(world, before);
 	if (first)
 		*first = (uint32_t)before;
 	world->bodies_current = world->device_current = false;

@@ -105,7 +105,7 @@ struct carom_world {
 	float stalled;      /* steps in a row that did not get on */
 	double time;        /* s */
 	double good_for;    /* s: the time in which no body leaves what the floats can hold */
-	double target;      /* s: where the clock was set to end; negative for nowhere */
+	double target;      /* s: where the clock was set to end; NAN for nowhere */
 	float remaining[2]; /* s, until then, as the clock has it: a sum of two */
 	uint64_t batch;     /* steps handed over at once */
 	bool in_call;       /* of a step or an advance: what is called in it must leave the world as it is */

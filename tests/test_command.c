@@ -96,6 +96,15 @@ static void frames_are_at_equal_times(void **state)
 }
 
 /* A ball that falls in a scene without room and camera: the first picture is filled by it, and then it is gone. */
+/* A ball of 30,000 m/s in a gap of a centimetre. */
+static void what_was_held_is_said(void **state)
+{
+	(void)state;
+	check("echo '{\"format\": \"carom-scene/1\", \"room\": {\"min\": [0, 0], \"max\": [2.01, 10]}, \"bodies\": "
+		  "[{\"circle\": {\"radius\": 1}, \"position\": [1.005, 5], \"velocity\": [30000, 0]}]}' | $C run - --steps 3 --device cpu",
+		0, "3 times a body was hit too often in a step, and held");
+}
+
 static void a_film_has_one_camera(void **state)
 {
 	(void)state;
@@ -259,10 +268,11 @@ static void without_opencl_the_cpu_works(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
-		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(a_film_has_one_camera),
-		cmocka_unit_test(an_inset_outside_the_picture_is_told), cmocka_unit_test(a_scene_may_come_through_a_pipe),
-		cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file), cmocka_unit_test(standard_output_is_gone_on_with),
-		cmocka_unit_test(a_state_may_replace_its_scene), cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),
+		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(what_was_held_is_said),
+		cmocka_unit_test(a_film_has_one_camera), cmocka_unit_test(an_inset_outside_the_picture_is_told),
+		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
+		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_state_may_replace_its_scene),
+		cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),
 		cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),
 		cmocka_unit_test(an_interruption_writes_what_there_is), cmocka_unit_test(without_opencl_the_cpu_works)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);

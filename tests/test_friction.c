@@ -335,11 +335,34 @@ static void a_later_body_rubs(void **unused)
 	}
 }
 
+/* Bodies that are refused leave nothing, not even the friction of those that were right. */
+static void a_refused_body_rubs_nothing(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		for (int i = 0; i < 2; i++) {
+			const carom_world_def def = runs_resting("contacts", 4.0f, 8.0f);
+			carom_body_def bodies[] = {box_at(-2.0f, 0.5f, 0.0f), box_at(-2.0f, 1.7f, 0.0f), box_at(-2.0f, 2.9f, 0.0f)};
+			carom_body_def refused[] = {box_at(2.0f, 0.5f, 0.0f), scenery_circle(0.0f, 5.0f, 0.0f, 0.0f, -1.0f)};
+			carom_error error;
+			carom_world *world = runs_world(&def, device, bodies, 3);
+			if (!world)
+				continue;
+			runs_step(world, 60);
+			refused[0].friction = 1.0f;
+			if (i)
+				assert_int_equal(carom_world_add(world, refused, 2, NULL, &error), CAROM_INVALID_ARGUMENT);
+			runs_same_hash(&first, runs_hash_after(world, 10, 1), device);
+		}
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(a_ball_slides_or_rolls), cmocka_unit_test(balls_turn_each_other),
 		cmocka_unit_test(a_pair_takes_the_mean), cmocka_unit_test(friction_adds_no_energy), cmocka_unit_test(what_slides_stops_or_rolls),
 		cmocka_unit_test(slopes_hold_what_grips), cmocka_unit_test(pyramids_stand), cmocka_unit_test(what_rubs_rests_whatever_its_restitution),
-		cmocka_unit_test(a_later_body_rubs)};
+		cmocka_unit_test(a_later_body_rubs), cmocka_unit_test(a_refused_body_rubs_nothing)};
 	return cmocka_run_group_tests_name("friction", tests, NULL, NULL);
 }

@@ -26,6 +26,8 @@ static carom_status account(struct run *run, const carom_report *done, carom_sta
 	static const carom_report nothing = {0};
 	run->total.steps += done->steps;
 	run->total.hits += done->hits;
+	run->total.ruled += done->ruled;
+	run->total.held += done->held;
 	run->total.advanced += done->advanced;
 	go_on(run, &nothing);
 	if (status == CAROM_OK && run->stats && done->steps > 0)

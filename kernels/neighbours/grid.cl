@@ -80,7 +80,7 @@ __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(statu
 	int s = get_global_id(0), local_id = get_local_id(0);
 	near_list list;
 	list.ahead = list.behind = 0;
-	if (s < domain.x)
+	if (s < domain.x && PEEK(status, STATUS_THRONGS) <= THRONGS_MOST)
 		near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &list, neighbours, -1);
 	wanted[local_id] = list.ahead + list.behind;
 	barrier(CLK_LOCAL_MEM_FENCE);

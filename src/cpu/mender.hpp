@@ -58,6 +58,8 @@ private:
 	/* Where there is no room the lists are made anew. */
 	void add(int32_t s, int32_t other) const
 	{
+		if (__atomic_load_n(&status[STATUS_STALE], __ATOMIC_RELAXED))
+			return;
 		const int32_t node = fetch_add(&status[STATUS_EXTRA], NODE_WIDTH);
 		if (node + NODE_WIDTH > status[STATUS_EXTRA_ROOM]) {
 			__atomic_store_n(&status[STATUS_STALE], 1, __ATOMIC_RELAXED);

@@ -65,8 +65,8 @@ Pool::~Pool()
 void Pool::run(int32_t rows, int32_t chunk, const Work &work)
 {
 	if (rows <= std::max(chunk / 8, 1) || workers.empty()) {
-		if (rows > 0)
-			work(0, rows);
+		for (int32_t begin = 0; begin < rows; begin += chunk) /* what is kept of a chunk is never more than that */
+			work(begin, begin + std::min(chunk, rows - begin));
 		return;
 	}
 	open(work, rows, chunk);

@@ -57,12 +57,19 @@ static carom_status begin(carom_world *world, carom_error *error)
 	return carom_events_begin(world, error);
 }
 
+/* What a list of so many items takes, in items: its last row is whole. */
+static uint64_t folded(uint64_t items)
+{
+	return items > UINT32_MAX / 2 ? items : (uint64_t)carom_row_width((uint32_t)items) * carom_row_count((uint32_t)items);
+}
+
+/* Where some body has friction, too. */
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
-	const uint64_t n = carom_capacity(body_count), grips = FOURS_MOST * GRIP_WIDTH * (def->friction > 0 ? n : 1);
-	const uint64_t warm = CONTACTS_MOST * n * (uint64_t)WARM_WIDTH(def->friction > 0);
-	return carom_events_memory(pipeline, def, body_count, vertex_count)
-		+ n * (16 * (FOURS_MOST * FOUR_WIDTH + PUSHES_WIDTH) + 4 * (TOUCHING_WIDTH + 1)) + 16 * (LOADS_OF(n) + grips + warm);
+	const uint64_t n = carom_capacity(body_count),
+				   records = folded(FOURS_MOST * FOUR_WIDTH * n) + folded(FOURS_MOST * GRIP_WIDTH * n) + folded(LOADS_OF(n))
+		+ folded(PUSHES_WIDTH * n) + folded(CONTACTS_MOST * n * (uint64_t)WARM_WIDTH(true));
+	return carom_events_memory(pipeline, def, body_count, vertex_count) + 16 * records + 4 * (folded(TOUCHING_WIDTH * n) + folded(n));
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)

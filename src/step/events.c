@@ -185,6 +185,10 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 {
 	carom_events *events = &world->events;
 	world->prepared = false; /* if that fails, the next call begins with lists of the first size */
+	if (status[STATUS_THRONGS] > THRONGS_MOST || status[STATUS_NODES] > NODES_MOST)
+		return carom_fail(error, CAROM_LIMIT,
+			"more than %d million pairs of the %zu bodies are so near that they might hit: too many lie in one place",
+			THRONGS_MOST / 1000 * THRONG / 2000, world->body_count);
 	if (status[STATUS_NEIGHBOURS] > status[STATUS_ROOM]) {
 		events->room = enough(status[STATUS_NEIGHBOURS]);
 		TRY(carom_events_create_list(world, ROLE_NEIGHBOURS, false, events->room, error));

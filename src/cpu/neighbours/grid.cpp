@@ -42,7 +42,7 @@ template <typename T> static void pace(const Job<T> &job)
 	const float side = 1.01f * (radius + std::max(distance, cell_part * way));
 	for (int field : {STATUS_STALE, STATUS_SMALL, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS,
 			 STATUS_PLACED, STATUS_HITS, STATUS_RULED, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING,
-			 STATUS_WANTED, STATUS_BORNE, STATUS_PASS})
+			 STATUS_WANTED, STATUS_BORNE, STATUS_PASS, STATUS_THRONGS})
 		status[field] = 0;
 	status[STATUS_EXTRA] = count;
 	status[STATUS_BUILDS]++;
@@ -156,6 +156,18 @@ private:
 	size_t count = 0;
 };
 
+/* Where so many more begin in Neighbours; -1 if there is no room for them. */
+static int32_t take_room(int32_t *status, int32_t many)
+{
+	const int32_t crowds = many / THRONG;
+	const bool is_counted = crowds == 0 || fetch_add(&status[STATUS_THRONGS], crowds) <= THRONGS_MOST - crowds;
+	const int32_t start = is_counted ? fetch_add(&status[STATUS_NEIGHBOURS], many) : 0;
+	if (is_counted && start <= status[STATUS_ROOM] - many)
+		return start;
+	__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
+	return -1;
+}
+
 /* The search for neighbours of a few slots; what they find lies here until it is known how much it is. */
 template <typename T> class Search
 {
@@ -175,18 +187,17 @@ public:
 		for (int32_t s = begin; s < end; s++) {
 			spans[s].start = found.size();
 			behind.clear();
-			search(s, found, behind);
+			if (found.size() / THRONG + __atomic_load_n(&status[STATUS_THRONGS], __ATOMIC_RELAXED) <= THRONGS_MOST)
+				search(s, found, behind);
 			spans[s].half = found.size();
 			found.add(behind);
 			spans[s].end = found.size();
 		}
-		const int32_t many = found.size(), start = fetch_add(&status[STATUS_NEIGHBOURS], many);
-		const bool fits = start + many <= status[STATUS_ROOM];
+		const int32_t start = take_room(status, found.size());
+		const bool fits = start >= 0;
 		std::fill(extra + begin, extra + end, -1);
 		if (fits)
-			std::copy_n(found.begin(), many, neighbours + start);
-		else
-			__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
+			std::copy_n(found.begin(), found.size(), neighbours + start);
 		for (int32_t s = begin; s < end; s++) {
 			Span &span = spans[s];
 			span = fits ? Span{start + span.start, start + span.half, start + span.end, FOUND_NONE} : Span{0, 0, 0, FOUND_NONE};
@@ -259,8 +270,9 @@ private:
 	/* Of two bodies of different levels one looks, and tells the other. */
 	void tell(int32_t other, int32_t s)
 	{
-		const int32_t node = fetch_add(&status[STATUS_NODES], 1);
-		if (node >= status[STATUS_NODE_ROOM]) {
+		const bool too_many = __atomic_load_n(&status[STATUS_NODES], __ATOMIC_RELAXED) > NODES_MOST;
+		const int32_t node = too_many ? -1 : fetch_add(&status[STATUS_NODES], 1);
+		if (too_many || node >= status[STATUS_NODE_ROOM]) {
 			__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
 			return;
 		}
@@ -322,10 +334,8 @@ template <typename T> static void gather(const Job<T> &job)
 				continue;
 			for (int32_t k = members[s].head; k >= 0; k = nodes[NODE_WIDTH * k + NODE_LINK])
 				more++;
-			int32_t to = fetch_add(&status[STATUS_NEIGHBOURS], own + more);
-			if (to + own + more > status[STATUS_ROOM]) {
-				__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
-			} else {
+			int32_t to = take_room(status, own + more);
+			if (to >= 0) {
 				std::copy(neighbours + spans[s].start, neighbours + spans[s].end, neighbours + to);
 				spans[s] = {to, to + spans[s].half - spans[s].start, to + own + more, FOUND_NONE};
 				to += own;
