@@ -235,7 +235,8 @@ typedef enum carom_storage {
 
 /** What a world is made from. Start from carom_default_world_def(). */
 typedef struct carom_world_def {
-	float time_step;         /**< s, >= 1.17549435e-38: how long a step of events or contacts lasts, the longest of first_impact; default 1/60 */
+	float
+		time_step; /**< s, >= 1.17549435e-38: how long a step of events or contacts lasts, the longest of first_impact (the last one before an end: see carom_world_advance); default 1/60 */
 	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
 	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
 	float friction;          /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
@@ -334,10 +335,10 @@ typedef struct carom_report {
  * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are, or in the next step come, above 1e9 (m, m/s, rad/s), where floats overflow, or
  * there are more bodies than the step can hold. */
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
-/** Runs as many steps as `seconds` (>= 0) of simulated time take; the last is cut short to end there. Where less than
- * 1.17549435e-38 s is left, the end is reached. In a world without bodies nothing runs, and no time passes. */
+/** Runs as many steps as `seconds` (0 to 1.2676506e30) of simulated time take; the last is cut short to end there, or, so that it leaves no sliver, longer than `time_step` by a 4096th
+ * at most. Then carom_world_time is the end, exactly. Where less than 1.17549435e-38 s is left, the end is reached. In a world without bodies nothing runs, and no time passes. */
 CAROM_API carom_status carom_world_advance(carom_world *world, double seconds, carom_report *report, carom_error *error);
-/** The same up to the simulated time `time` (s, not before carom_world_time), but at most `most_steps` steps. Calls for the same
+/** The same up to the simulated time `time` (s, not before carom_world_time, up to 1.2676506e30), but at most `most_steps` steps. Calls for the same
  * time go on where the one before ended: cutting the way into several calls changes no bit. */
 CAROM_API carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error);
 

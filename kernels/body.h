@@ -86,10 +86,17 @@ bool is_lossy(float restitution, float friction)
 float step_length(TEX_IN(uniforms), TEX_IN(clock))
 {
 	float4 step = TEX_LOAD(clock, CLOCK_STEP, 0), time = TEX_LOAD(clock, CLOCK_TIME, 0);
-	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
-	if (CHANNEL(step, STEP_ENDED) > 0.0f || CHANNEL(time, TIME_REMAINING) < LEAST_STEP)
+	float time_step = CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP), remaining = CHANNEL(time, TIME_REMAINING);
+	if (CHANNEL(step, STEP_ENDED) > 0.0f || remaining < LEAST_STEP)
 		return 0.0f;
-	return smaller(CHANNEL(world, WORLD_TIME_STEP), CHANNEL(time, TIME_REMAINING));
+	return remaining <= time_step * LAST_STEP ? remaining : time_step;
+}
+
+/* What remains after a step: nothing if that was to be the last, for what a float can't tell of its length is no step. */
+float2 time_left(float4 time, float advanced)
+{
+	float2 remaining = (float2)(CHANNEL(time, TIME_REMAINING), CHANNEL(time, TIME_REMAINING_LOW));
+	return advanced == remaining.x ? (float2)(0.0f, 0.0f) : add_exactly(remaining, -advanced);
 }
 
 /* The j-th vertex of a polygon whose first is at `first`, in the polygon's frame [2, figure 2], and the normal of the side that begins there and ends

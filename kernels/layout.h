@@ -88,6 +88,10 @@
 #define RULED_HITS 0
 #define RULED_HITS_LOW 1
 
+#define LAST_STEP \
+	(1.0f         \
+		+ 1.0f    \
+			/ 4096.0f) /* time steps that the last one before an end may last: a time step is a float, and so many hardly ever end where they are meant to */
 #define LEAST_STEP 1.17549435e-38f /* s, the least normal float: what is divided by less may become infinite */
 
 /* AABB [2.1] of the body over the whole step */
@@ -360,12 +364,12 @@
 #define STATUS_PLACED 38     /* slots that have got their place */
 #define STATUS_MOVERS 39     /* slots in Movers */
 #define STATUS_EXTRA 40      /* ints wanted in Extra */
-#define STATUS_THRONGS 43     /* of THRONG ints that were wanted at once in Neighbours */
+#define STATUS_THRONGS 43    /* of THRONG ints that were wanted at once in Neighbours */
 #define THRONG 1024
 #define THRONGS_MOST (1 << 20) /* more are not counted in NEIGHBOURS, which would overflow: there is no room for them */
-#define NODES_MOST (1 << 29)  /* likewise */
-#define STATUS_TOUCHING 41   /* slots with contacts */
-#define STATUS_RULED 42      /* of the step's hits */
+#define NODES_MOST (1 << 29)   /* likewise */
+#define STATUS_TOUCHING 41     /* slots with contacts */
+#define STATUS_RULED 42        /* of the step's hits */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.

@@ -183,6 +183,7 @@ static uint64_t leg_size(const carom_world *world, uint64_t steps_left)
 static carom_status run_all(carom_world *world, uint64_t steps, carom_report *report, carom_error *error)
 {
 	carom_report done = {0};
+	const double begun = world->time;
 	bool go_on = true;
 	carom_status status = CAROM_OK;
 	world->in_call = true;
@@ -194,6 +195,10 @@ static carom_status run_all(carom_world *world, uint64_t steps, carom_report *re
 		world->good_for -= done.advanced - before;
 	}
 	world->in_call = false;
+	if (!status && is_over(world) && !isnan(world->target)) { /* but for what floats can't tell */
+		world->time = world->target;
+		done.advanced = world->time - begun;
+	}
 	if (report)
 		*report = done;
 	return status;

@@ -1,6 +1,7 @@
 /* Crowds under the step events keep their energy and momentum and don't overlap; and worlds that are changed between calls. On every device. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "layout.h"
 #include "runs.h"
@@ -207,10 +208,31 @@ static void accumulate_adds_no_energy_to_events(void **unused)
 	}
 }
 
+/* So many pairs that an int can't count their places in lists. */
+static void a_throng_is_a_limit(void **unused)
+{
+	enum { COUNT = 36000 };
+	static carom_body_def bodies[COUNT];
+	const carom_world_def def = runs_def();
+	(void)unused;
+	for (int i = 0; i < COUNT; i++)
+		bodies[i] = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.1f);
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = runs_world(&def, device, bodies, COUNT);
+		carom_error error;
+		if (!world)
+			continue;
+		assert_int_equal(carom_world_step(world, 1, NULL, &error), CAROM_LIMIT);
+		assert_non_null(strstr(error.text, "pairs of the 36000 bodies"));
+		assert_true(runs_state(world, COUNT - 1).position.x == 0.0f);
+		carom_world_destroy(world);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(crowds_keep_energy_and_momentum), cmocka_unit_test(twenty_thousand_circles),
 		cmocka_unit_test(little_or_nothing_in_a_room), cmocka_unit_test(changed_worlds_are_as_new_ones),
-		cmocka_unit_test(accumulate_adds_no_energy_to_events)};
+		cmocka_unit_test(accumulate_adds_no_energy_to_events), cmocka_unit_test(a_throng_is_a_limit)};
 	return cmocka_run_group_tests_name("events_crowds", tests, NULL, NULL);
 }

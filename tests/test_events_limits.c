@@ -1,7 +1,6 @@
 /* The step events at its limits: speed, size, number, and hits that come one upon the other. On every device. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "forecast.h"
 #include "layout.h"
@@ -384,33 +383,11 @@ static void bodies_on_top_of_one_another(void **unused)
 	}
 }
 
-/* So many pairs that an int can't count their places in lists. */
-static void a_throng_is_a_limit(void **unused)
-{
-	enum { COUNT = 36000 };
-	static carom_body_def bodies[COUNT];
-	const carom_world_def def = runs_def();
-	(void)unused;
-	for (int i = 0; i < COUNT; i++)
-		bodies[i] = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.1f);
-	SCENERY_EACH_DEVICE(device) {
-		carom_world *world = runs_world(&def, device, bodies, COUNT);
-		carom_error error;
-		if (!world)
-			continue;
-		assert_int_equal(carom_world_step(world, 1, NULL, &error), CAROM_LIMIT);
-		assert_non_null(strstr(error.text, "pairs of the 36000 bodies"));
-		assert_true(runs_state(world, COUNT - 1).position.x == 0.0f);
-		carom_world_destroy(world);
-	}
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(fast_bodies_hit), cmocka_unit_test(a_blow_goes_through_a_row),
 		cmocka_unit_test(a_shot_scatters_many), cmocka_unit_test(fast_body_between_walls), cmocka_unit_test(fast_rods_do_not_pass),
 		cmocka_unit_test(spinning_bars), cmocka_unit_test(galperin_counts_pi), cmocka_unit_test(newtons_cradle),
-		cmocka_unit_test(sizes_from_one_to_a_thousand), cmocka_unit_test(bodies_fly_apart), cmocka_unit_test(bodies_on_top_of_one_another),
-		cmocka_unit_test(a_throng_is_a_limit)};
+		cmocka_unit_test(sizes_from_one_to_a_thousand), cmocka_unit_test(bodies_fly_apart), cmocka_unit_test(bodies_on_top_of_one_another)};
 	return cmocka_run_group_tests_name("events_limits", tests, NULL, NULL);
 }

@@ -382,12 +382,9 @@ static void rest_is_a_stall(void **unused)
 		assert_int_equal(carom_world_advance(world, 10.0, NULL, &error), CAROM_STALLED);
 		assert_non_null(strstr(error.text, "body 0 with a wall"));
 		assert_near((double)state_of(world, 0).position.y, 0.5, 1e-4);
-		/* put elsewhere it goes on */
-		const carom_body_state above = {.position = {0.0f, 3.0f}};
-		carom_report report;
+		const carom_body_state above = {.position = {0.0f, 3.0f}}; /* from there it goes on */
 		scenery_check(carom_world_set_states(world, 0, 1, &above, &error), &error);
-		scenery_check(carom_world_step(world, 3, &report, &error), &error);
-		assert_int_equal(report.steps, 3);
+		scenery_check(carom_world_step(world, 3, NULL, &error), &error);
 		carom_world_destroy(world);
 	}
 }

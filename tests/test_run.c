@@ -166,6 +166,37 @@ static void what_is_refused_did_nothing(void **unused)
 	carom_world_destroy(world);
 }
 
+/* An advance arrives, exactly, and no step is a sliver, though the time step is a float. */
+static void an_advance_arrives(void **unused)
+{
+	static const struct {
+		const char *step;
+		float time_step;
+		uint64_t steps; /* in a tenth of a second */
+	} cases[] = {{"events", 1.0f / 60.0f, 6}, {"contacts", 0.01f, 10}, {"first_impact", 0.001f, 100}, {"events", 0.03f, 4}, {"events", 0.25f, 1}};
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+			carom_world_def def = carom_default_world_def();
+			const carom_body_def ball = scenery_circle(0.0f, 0.0f, 1.0f, 0.0f, 0.5f);
+			carom_report report;
+			carom_error error;
+			def.pipeline.step = cases[i].step;
+			def.time_step = cases[i].time_step;
+			carom_world *world = scenery_world(&def, device);
+			if (!world)
+				continue;
+			scenery_check(carom_world_add(world, &ball, 1, NULL, &error), &error);
+			for (int k = 1; k <= 32; k++) {
+				scenery_check(carom_world_advance_to(world, 0.1 * k, UINT64_MAX, &report, &error), &error);
+				assert_int_equal(report.steps, cases[i].steps);
+				assert_true(fabs(report.advanced - 0.1) < 1e-8 && carom_world_time(world) == 0.1 * k);
+			}
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* ---- Memory */
 
 static uint64_t taken;
@@ -346,7 +377,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_run_twice), cmocka_unit_test(any_number_of_threads),
 		cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(images_and_buffers), cmocka_unit_test(worlds_in_four_threads),
-		cmocka_unit_test(a_stall_tells_what_was_done), cmocka_unit_test(what_is_refused_did_nothing), cmocka_unit_test(memory_is_known_beforehand),
-		cmocka_unit_test(a_list_that_cannot_grow_loses_nothing), cmocka_unit_test(too_many_bodies)};
+		cmocka_unit_test(a_stall_tells_what_was_done), cmocka_unit_test(what_is_refused_did_nothing), cmocka_unit_test(an_advance_arrives),
+		cmocka_unit_test(memory_is_known_beforehand), cmocka_unit_test(a_list_that_cannot_grow_loses_nothing), cmocka_unit_test(too_many_bodies)};
 	return cmocka_run_group_tests_name("run", tests, NULL, NULL);
 }

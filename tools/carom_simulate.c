@@ -42,18 +42,11 @@ static carom_status step(struct run *run, uint64_t steps, carom_error *error)
 	return account(run, &done, status, error);
 }
 
-/* So little is left only where the time step, a float, is not quite what was meant; a step for it would be waste. */
-static bool is_reached(const struct run *run, double until)
-{
-	const double length = (double)carom_world_get_def(run->world)->time_step;
-	return until - carom_world_time(run->world) <= fmin(length, until) * 1e-6;
-}
-
 /* --time: ends at `until` exactly, with --stats step by step. */
 static carom_status run_until(struct run *run, double until, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	while (status == CAROM_OK && !run->interrupted && !is_reached(run, until)) {
+	while (status == CAROM_OK && !run->interrupted && carom_world_time(run->world) < until) {
 		carom_report done = {0};
 		status = carom_world_advance_to(run->world, until, run->stats ? 1 : UINT64_MAX, &done, error);
 		status = account(run, &done, status, error);
@@ -72,6 +65,13 @@ static carom_status run_time(struct run *run, double end, carom_error *error)
 			status = write_frame(run, error);
 	}
 	return status == CAROM_OK && !run->interrupted ? run_until(run, end, error) : status;
+}
+
+/* Time steps are floats, and many of them not quite what was meant. */
+static bool is_reached(const struct run *run, double until)
+{
+	const double length = (double)carom_world_get_def(run->world)->time_step;
+	return until - carom_world_time(run->world) <= fmin(length, until) * 1e-6;
 }
 
 /* Steps that surely end before `until`; 0 if the next one may not. */

@@ -17,7 +17,7 @@ __kernel void first(TEX_IN(reduced), TEX_IN(walls), TEX_IN(uniforms), TEX_IN(clo
 	float length = step_length(TEX(uniforms), TEX(clock)), stalled = CHANNEL(step, STEP_STALLED);
 	float advanced = CHANNEL(hit, HIT_TIME) <= 1.0f ? CHANNEL(hit, HIT_TIME) * length : length;
 	float2 elapsed = add_exactly((float2)(CHANNEL(time, TIME_ELAPSED), CHANNEL(time, TIME_ELAPSED_LOW)), advanced);
-	float2 remaining = add_exactly((float2)(CHANNEL(time, TIME_REMAINING), CHANNEL(time, TIME_REMAINING_LOW)), -advanced);
+	float2 remaining = time_left(time, advanced);
 	if (length > 0.0f) {
 		float limit = (float)STALL_LIMIT + (float)STALL_LIMIT_BODY * (float)domain.z;
 		bool stands = CHANNEL(hit, HIT_TIME) <= 1.0f && advanced < STALL_LENGTH * CHANNEL(world, WORLD_TIME_STEP);

@@ -15,7 +15,7 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 	step = (float4)(0.0f, 0.0f, CHANNEL(step, STEP_STALLED), CHANNEL(step, STEP_ENDED));
 	if (done) {
 		float2 elapsed = add_exactly((float2)(CHANNEL(time, TIME_ELAPSED), CHANNEL(time, TIME_ELAPSED_LOW)), length);
-		float2 remaining = add_exactly((float2)(CHANNEL(time, TIME_REMAINING), CHANNEL(time, TIME_REMAINING_LOW)), -length);
+		float2 remaining = time_left(time, length);
 		float2 hits = add_exactly((float2)(CHANNEL(counts, COUNTS_HITS), CHANNEL(counts, COUNTS_HITS_LOW)), (float)status[STATUS_HITS]);
 		hit = (float4)(NO_HIT, 0.0f, 0.0f, 1.0f);
 		step = (float4)(length, length, 0.0f, 0.0f);

@@ -163,10 +163,19 @@ template <typename T> bool loses_energy(T restitution, T friction)
 /* How long the step that begins may last, by the clock as the step before left it. */
 template <typename T> T step_length(const Texels<T> &clock, const Texels<T> &uniforms)
 {
-	T remaining = clock.fact(CLOCK_TIME, TIME_REMAINING);
+	const T remaining = clock.fact(CLOCK_TIME, TIME_REMAINING), longest = uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP);
 	if (clock.fact(CLOCK_STEP, STEP_ENDED) > 0 || remaining < LEAST_STEP)
 		return 0;
-	return smaller(uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP), remaining);
+	return longest * T(LAST_STEP) < remaining ? longest : remaining;
+}
+
+/* What the clock after a step says of time; where the step went to the end, none remains. */
+template <typename T> void add_time(const Texels<T> &clock, const Texels<T> &next, T advanced)
+{
+	const Sum<T> elapsed = add_exactly({clock.fact(CLOCK_TIME, TIME_ELAPSED), clock.fact(CLOCK_TIME, TIME_ELAPSED_LOW)}, advanced);
+	Sum<T> remaining{clock.fact(CLOCK_TIME, TIME_REMAINING), clock.fact(CLOCK_TIME, TIME_REMAINING_LOW)};
+	remaining = remaining.high == advanced ? Sum<T>{0, 0} : add_exactly(remaining, -advanced);
+	next.set(CLOCK_TIME, 0, elapsed.high, elapsed.low, remaining.high, remaining.low);
 }
 
 /* Bodies of the step that begins, for the stages with the textures STATE, vertices, clock, ... */

@@ -38,18 +38,6 @@ template <typename T> static void stand(const Texels<T> &clock, const Texels<T> 
 	next.fact(CLOCK_STEP, STEP_ADVANCED) = 0;
 }
 
-template <typename T> static void add_time(const Texels<T> &clock, const Texels<T> &next, T advanced)
-{
-	Sum<T> elapsed{clock.fact(CLOCK_TIME, TIME_ELAPSED), clock.fact(CLOCK_TIME, TIME_ELAPSED_LOW)};
-	Sum<T> remaining{clock.fact(CLOCK_TIME, TIME_REMAINING), clock.fact(CLOCK_TIME, TIME_REMAINING_LOW)};
-	elapsed = add_exactly(elapsed, advanced);
-	remaining = add_exactly(remaining, -advanced);
-	next.fact(CLOCK_TIME, TIME_ELAPSED) = elapsed.high;
-	next.fact(CLOCK_TIME, TIME_ELAPSED_LOW) = elapsed.low;
-	next.fact(CLOCK_TIME, TIME_REMAINING) = remaining.high;
-	next.fact(CLOCK_TIME, TIME_REMAINING_LOW) = remaining.low;
-}
-
 /* Time gets on, and whether it got on enough is counted. */
 template <typename T> static void get_on(const Texels<T> &clock, const Texels<T> &next, T length, T advanced, bool stalls, T limit)
 {

@@ -23,8 +23,7 @@ template <typename T> static void settle(const Job<T> &job)
 		};
 		now.set(CLOCK_HIT, 0, NO_HIT, 0, 0, 1);
 		now.set(CLOCK_STEP, 0, length, length, 0, 0);
-		add(CLOCK_TIME, TIME_ELAPSED, TIME_ELAPSED_LOW, length);
-		add(CLOCK_TIME, TIME_REMAINING, TIME_REMAINING_LOW, -length);
+		add_time(clock, now, length);
 		add(CLOCK_COUNTS, COUNTS_HITS, COUNTS_HITS_LOW, static_cast<T>(status[STATUS_HITS]));
 		add(CLOCK_RULED, RULED_HITS, RULED_HITS_LOW, static_cast<T>(status[STATUS_RULED]));
 		now.fact(CLOCK_COUNTS, COUNTS_STEPS) += 1;
