@@ -332,7 +332,8 @@ typedef struct carom_report {
  * that their pushes make in a step they are stopped, without a bounce; where they rub they are held against each other, too; one of first_impact lasts until the first hit and at most
  * `time_step` [2.2].
  * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED (first_impact alone): time can't get on, and the
- * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are, or in the next step come, above 1e9 (m, m/s, rad/s), where floats overflow, or
+ * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are, or in the next step come, above 1e9 (m, m/s, rad/s), where floats overflow, a body would
+ * pass the room 2^32 times in a step, or
  * there are more bodies than the step can hold. */
 CAROM_API carom_status carom_world_step(carom_world *world, uint64_t steps, carom_report *report, carom_error *error);
 /** Runs as many steps as `seconds` (0 to 1.2676506e30) of simulated time take; the last is cut short to end there, or, so that it leaves no sliver, longer than `time_step` by a 4096th

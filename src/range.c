@@ -7,8 +7,10 @@
 #include "status.h"
 #include "world.h"
 
-#define MOST 1e9           /* m, m/s, rad/s: four factors of that size are below the largest float, 3.4e38 */
-#define MOST_TRAVEL 1e18   /* m, rad: what a step may add to a place */
+#define MOST 1e9         /* m, m/s, rad/s: four factors of that size are below the largest float, 3.4e38 */
+#define MOST_TRAVEL 1e18 /* m, rad: what a step may add to a place */
+#define MOST_ROOMS \
+	4294967296.0 /* so often may a step go through the room: floats tell ways from times, and where these differ by too little walls don't hold */
 #define MOST_MOMENTUM 1e36 /* kg m/s, kg m^2/s */
 
 /* What a body may be at the end of a step, if nothing is in its way: turning counts as speed at the rim. */
@@ -37,6 +39,11 @@ static reached reach_of(const carom_world *world, size_t index)
 	return most;
 }
 
+static double room_size(const carom_world_def *def)
+{
+	return fmax((double)def->room_max.x - (double)def->room_min.x, (double)def->room_max.y - (double)def->room_min.y);
+}
+
 static const char *excess(const carom_world *world, const reached *most)
 {
 	const carom_world_def *def = &world->def;
@@ -46,8 +53,11 @@ static const char *excess(const carom_world *world, const reached *most)
 		return "its place or its size";
 	if (most->speed > MOST || most->spin > MOST)
 		return "its speed, or what a step of so much push adds to it,";
-	if (fmax(most->speed, most->spin) * (double)def->time_step > MOST_TRAVEL)
+	const double way = most->speed * (double)def->time_step;
+	if (fmax(way, most->spin * (double)def->time_step) > MOST_TRAVEL || (def->has_room && way > MOST_ROOMS * room_size(def)))
 		return "its way in one step";
+	if (!def->has_room && most->place + way > MOST)
+		return "its place, or how far a step brings it,";
 	return NULL;
 }
 
@@ -63,8 +73,8 @@ static double good_for(const carom_world *world, const reached *most)
 /* Bodies hit each other, so the heaviest may become the fastest. */
 carom_status carom_check_range(carom_world *world, carom_error *error)
 {
-	double heaviest = 0.0, fastest = 0.0;
-	world->good_for = INFINITY;
+	double heaviest = 0.0, fastest = 0.0, good = INFINITY;
+	world->good_for = 0.0; /* if this fails, the next step looks again */
 	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
 		const reached most = reach_of(world, i);
@@ -73,13 +83,14 @@ carom_status carom_check_range(carom_world *world, carom_error *error)
 			return carom_fail(error, CAROM_LIMIT, "body %zu: %s is too large for a step in 32-bit floats; allowed: up to 1e9 m, m/s and rad/s", i,
 				what);
 		if (!body->is_static)
-			world->good_for = fmin(world->good_for, good_for(world, &most));
+			good = fmin(good, good_for(world, &most));
 		heaviest = body->is_static ? heaviest : fmax(heaviest, fmax((double)body->mass, (double)body->inertia));
 		fastest = fmax(fastest, fmax(most.speed, most.spin));
 	}
 	if (heaviest * fastest > MOST_MOMENTUM)
 		return carom_fail(error, CAROM_LIMIT,
 			"a body of %g kg or kg m^2 and a speed of %g m/s or rad/s make a momentum too large for a step in 32-bit floats", heaviest, fastest);
+	world->good_for = good;
 	return CAROM_OK;
 }
 
@@ -91,8 +102,6 @@ static bool is_between(float x, float least, float most, double slack)
 /* By more than a thousandth of it, and what rounding makes of the way in a step: a run may end a little outside, and goes on from there. */
 bool carom_outside_room(const carom_world_def *def, carom_vec2 p, carom_vec2 v)
 {
-	const double way = hypot((double)v.x, (double)v.y) * (double)def->time_step,
-				 size = fmax((double)def->room_max.x - (double)def->room_min.x, (double)def->room_max.y - (double)def->room_min.y),
-				 slack = size / 1024 + way / (1 << 20);
+	const double way = hypot((double)v.x, (double)v.y) * (double)def->time_step, slack = room_size(def) / 1024 + way / (1 << 20);
 	return def->has_room && !(is_between(p.x, def->room_min.x, def->room_max.x, slack) && is_between(p.y, def->room_min.y, def->room_max.y, slack));
 }

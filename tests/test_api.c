@@ -195,6 +195,41 @@ static void steps_start_within_floats(void **unused)
 	heavy.mass = 1e36f;
 	heavy.velocity.x = 10.0f;
 	assert_no_start(def, heavy, "a body of 1e+36 kg");
+	wide.room_min.x = -1.0f;
+	wide.time_step = 1e5f;
+	wide.gravity.y = -10.0f;
+	here.velocity.x = 0.0f;
+	assert_no_start(wide, here, "body 0: its way in one step");
+	falling.gravity.x = 0.0f;
+	falling.time_step = 1e6f;
+	here.velocity.x = 2e3f;
+	assert_no_start(falling, here, "body 0: its place, or how far a step brings it,");
+}
+
+/* What falls gets no farther than that, however often it is asked to. */
+static void steps_end_within_floats(void **unused)
+{
+	static const char *const steps[] = {"events", "contacts", "first_impact"};
+	(void)unused;
+	for (size_t i = 0; i < COUNT(steps); i++) {
+		carom_world_def def = carom_default_world_def();
+		const carom_body_def body = scenery_circle(0.0f, 0.0f, 5e8f, 0.0f, 1.0f);
+		carom_world *world = NULL;
+		carom_body_state state;
+		carom_error error = {0};
+		def.device = "cpu";
+		def.gravity.y = -1e6f;
+		def.pipeline.step = steps[i];
+		scenery_check(carom_world_create(&def, &world, &error), &error);
+		scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
+		for (uint64_t k = 1; k <= 1000000; k *= 100) {
+			const carom_status expected = k <= 100 ? CAROM_OK : CAROM_LIMIT;
+			assert_int_equal(carom_world_step(world, k, NULL, &error), expected);
+			scenery_check(carom_world_get_states(world, 0, 1, &state, &error), &error);
+			assert_true(fabsf(state.position.x) <= 1e9f && fabsf(state.position.y) <= 1e9f);
+		}
+		carom_world_destroy(world);
+	}
 }
 
 /* ---- Names */
@@ -325,7 +360,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(statuses_have_names), cmocka_unit_test(version_is_the_headers),
 		cmocka_unit_test(definitions_out_of_range), cmocka_unit_test(definitions_in_range), cmocka_unit_test(any_number_of_iterations),
-		cmocka_unit_test(steps_start_within_floats), cmocka_unit_test(unknown_names_list_the_known), cmocka_unit_test(stages_are_listed),
-		cmocka_unit_test(devices_are_listed), cmocka_unit_test(devices_by_name)};
+		cmocka_unit_test(steps_start_within_floats), cmocka_unit_test(steps_end_within_floats), cmocka_unit_test(unknown_names_list_the_known),
+		cmocka_unit_test(stages_are_listed), cmocka_unit_test(devices_are_listed), cmocka_unit_test(devices_by_name)};
 	return cmocka_run_group_tests_name("api", tests, NULL, NULL);
 }
