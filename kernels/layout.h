@@ -552,7 +552,7 @@
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */
 #define STALL_LIMIT 4096                 /* of those in a row, and 16 a body, are a stall */
 #define STALL_LIMIT_BODY 16
-#define SINGULAR 0.000244140625f /* 2^-12: two contacts nearer to one another than this, by the determinant, count as one */
+#define SINGULAR 2.384185791015625e-7f /* 2^-22: two contacts nearer to one another than this, by the determinant, count as one */
 
 /* Sine and cosine: pi/2 in three parts, and minimax polynomials on [-pi/4, pi/4] (Cephes) */
 #define LARGEST_TURN 1073741824.0f /* 2^30: a larger number of quarter turns has no fraction left, and counts as 0 */

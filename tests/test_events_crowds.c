@@ -208,6 +208,41 @@ static void accumulate_adds_no_energy_to_events(void **unused)
 	}
 }
 
+/* Faces that meet in a short piece alone: both its ends push, and energy and momentum stay to rounding, however short it is. */
+static void narrow_faces_keep_energy(void **unused)
+{
+	enum { COUNT = 12 };
+	static const float widths[] = {0.2f, 0.05f, 0.01f, 0.005f, 0.001f, 0.0003f};
+	static const char *const steps[] = {"events", "first_impact"};
+	(void)unused;
+	for (size_t i = 0; i < 2 * sizeof widths / sizeof *widths; i++) {
+		const float width = widths[i / 2];
+		carom_world_def def = runs_def();
+		carom_body_def bodies[2 * COUNT];
+		scenery_random random = {5};
+		uint64_t first = 0;
+		def.pipeline.step = steps[i % 2];
+		for (int k = 0; k < COUNT; k++) { /* rods that stand on others, boxes that pass each other but for so much */
+			const float x = 4.0f * (float)k - 24.0f, speed = scenery_uniform(&random, 1.0f, 3.0f);
+			bodies[2 * k] = k % 2 ? scenery_box(x, 0.0f, 0.0f, speed, width, 1.0f) : scenery_box(x, 0.0f, 0.0f, speed, 1.0f, 1.0f);
+			bodies[2 * k + 1] = k % 2 ? scenery_box(x, 1.2f, 0.0f, -1.0f, width, 1.0f) : scenery_box(x + 1.0f - width, 1.2f, 0.0f, -1.0f, 1.0f, 1.0f);
+		}
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = runs_world(&def, device, bodies, 2 * COUNT);
+			if (!world)
+				continue;
+			const carom_measure before = runs_measure(world);
+			assert_int_equal(runs_advance(world, 0.25).hits, COUNT);
+			const carom_measure after = runs_measure(world);
+			runs_near(after.kinetic_energy / before.kinetic_energy, 1.0, 1e-6);
+			runs_near(after.momentum_y, before.momentum_y, 1e-5);
+			runs_near((double)runs_state(world, 2).angular_velocity, 0.0, 0.0);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* So many pairs that an int can't count their places in lists. */
 static void a_throng_is_a_limit(void **unused)
 {
@@ -233,6 +268,6 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(crowds_keep_energy_and_momentum), cmocka_unit_test(twenty_thousand_circles),
 		cmocka_unit_test(little_or_nothing_in_a_room), cmocka_unit_test(changed_worlds_are_as_new_ones),
-		cmocka_unit_test(accumulate_adds_no_energy_to_events), cmocka_unit_test(a_throng_is_a_limit)};
+		cmocka_unit_test(accumulate_adds_no_energy_to_events), cmocka_unit_test(narrow_faces_keep_energy), cmocka_unit_test(a_throng_is_a_limit)};
 	return cmocka_run_group_tests_name("events_crowds", tests, NULL, NULL);
 }
