@@ -285,7 +285,7 @@ float pair_stillness(body a, body b)
 {
 	float linear_speed = (span(a.v) + span(a.a)) + (span(b.v) + span(b.a));
 	float turning = (magnitude(a.w) + magnitude(a.b)) * a.radius + (magnitude(b.w) + magnitude(b.b)) * b.radius;
-	return (linear_speed + turning) * APPROACH;
+	return (linear_speed + turning) * APPROACH + STILL;
 }
 
 /* How long to go on, at least, from a contact that does not approach: from the first no farther than the slop at the bodies' speeds; from the next, after

@@ -535,6 +535,7 @@
 #define SLOP 9.5367431640625e-7f /* 2^-20: bodies this far apart touch, as a part of the coordinates' size: eight units in the last place */
 #define SUNK_MOST 16.0f          /* slops: what overlaps by more than one and less than so many, rounding has sunk; that is a hit unless it parts */
 #define SUNK_RATE 0.125f         /* slops a step, a unit in the last place, or faster */
+#define STILL 1e-24f             /* m a step: and so much slower is none anyway, for of less than a float's least number no impulse can be made */
 #define APPROACH 9.5367431640625e-7f /* 2^-20: a slower approach, as a part of the speeds, is lost in rounding and is none */
 #define SEARCH_LIMIT 64              /* steps of one search for a hit; what is not found by then pauses */
 #define MARGIN \

@@ -18,7 +18,7 @@ float wall_slop(body k)
 
 float wall_stillness(body k)
 {
-	return ((span(k.v) + span(k.a)) + (magnitude(k.w) + magnitude(k.b)) * k.radius) * APPROACH;
+	return ((span(k.v) + span(k.a)) + (magnitude(k.w) + magnitude(k.b)) * k.radius) * APPROACH + STILL;
 }
 
 /* How far the body is from a wall at time t. */

@@ -35,7 +35,7 @@ template <typename T> T pair_stillness(const Body<T> &a, const Body<T> &b)
 {
 	T straight = (span(a.v) + span(a.a)) + (span(b.v) + span(b.a));
 	T turning = (std::abs(a.w) + std::abs(a.b)) * a.radius + (std::abs(b.w) + std::abs(b.b)) * b.radius;
-	return (straight + turning) * APPROACH;
+	return (straight + turning) * APPROACH + STILL;
 }
 
 template <typename T> struct Lowest {

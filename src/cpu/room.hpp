@@ -34,7 +34,7 @@ template <typename T> T wall_slop(const Body<T> &body)
 
 template <typename T> T wall_stillness(const Body<T> &body)
 {
-	return ((span(body.v) + span(body.a)) + (std::abs(body.w) + std::abs(body.b)) * body.radius) * APPROACH;
+	return ((span(body.v) + span(body.a)) + (std::abs(body.w) + std::abs(body.b)) * body.radius) * APPROACH + STILL;
 }
 
 template <typename T> T wall_gap(const Convex<T> &convex, const Wall<T> &wall, T t)
