@@ -207,7 +207,7 @@ define remember
 $(BUILD)/$(1): FORCE | $(BUILD)/needs
 	@printf '%s\n' '$$(subst ','\'',$(2))' | cmp -s - $$@ || printf '%s\n' '$$(subst ','\'',$(2))' > $$@
 endef
-$(eval $(call remember,flags,$$(CC) $$(ALL_CFLAGS) $$(CXX) $$(ALL_CXXFLAGS) $$(EIGEN) $$(LINK)))
+$(eval $(call remember,flags,$$(CC) $$(ALL_CFLAGS) $$(CXX) $$(ALL_CXXFLAGS) $$(EIGEN) $$(LINK) $$(LIBRARIES) $$(CAIRO_LIBRARIES) $$(BOX2D_INCLUDES) $$(PEER_LIBRARIES) $$(CC_FOR_BUILD)))
 $(eval $(call remember,library.list,$$(LIBRARY)))
 $(eval $(call remember,command.list,$$(COMMAND)))
 $(eval $(call remember,kernels.list,$$(KERNELS)))

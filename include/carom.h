@@ -203,7 +203,7 @@ typedef struct carom_device_info {
 	bool is_opencl;          /**< not the CPU fallback */
 	bool is_cpu;             /**< computes on the machine's CPU: the fallback, and what OpenCL calls one */
 	bool works;              /**< Carom can run on it */
-	bool is_default;         /**< `auto` takes this one */
+	bool is_default;         /**< in a list of devices: `auto` takes this one */
 	bool exact;              /**< divides and takes roots correctly rounded: the same bits as every other exact device */
 	bool has_images;         /**< of which Carom can use what it needs; else textures are buffers */
 	uint32_t compute_units;  /**< CPU cores of the fallback */
@@ -237,10 +237,11 @@ typedef enum carom_storage {
 typedef struct carom_world_def {
 	float
 		time_step; /**< s, >= 1.17549435e-38: how long a step of events or contacts lasts, the longest of first_impact (the last one before an end: see carom_world_advance); default 1/60 */
-	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
-	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
-	float friction;          /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
-	bool has_room;           /**< four walls that nothing passes; default none. Centres of mass must start inside; what of a body is
+	carom_vec2 gravity; /**< m/s^2; default (0, 0) */
+	float restitution;  /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
+	float friction;     /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
+	bool
+		has_room; /**< four walls that nothing passes; default none. Centres of mass must start inside, or outside by no more than a thousandth of it; what of a body is
 	                          beyond a wall at the start may stay there, but gets no farther */
 	carom_vec2 room_min;     /**< m, the lower left corner */
 	carom_vec2 room_max;     /**< m, the upper right corner: above room_min in both */
@@ -286,7 +287,7 @@ CAROM_API carom_status carom_world_get_states(carom_world *world, uint32_t first
 /** Writes the same, all or none. CAROM_INVALID_ARGUMENT: a number is not finite, a position outside the room by more
  * than a thousandth of it and what rounding makes of a step's way, a static body moves. */
 CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error);
-/** A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none. */
+/** A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none: for it anything but 0 is CAROM_INVALID_ARGUMENT. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
 
 #define CAROM_MAX_CONTACTS 12 /**< of a body that moves, in the step contacts; one with more is not borne, but hit */
@@ -313,9 +314,9 @@ CAROM_API carom_status carom_world_contact_count(carom_world *world, size_t *cou
 /** Reads `count` of them from number `first` on: in the order of `body`, and of one body in that of `other`. */
 CAROM_API carom_status carom_world_get_contacts(carom_world *world, size_t first, size_t count, carom_contact *contacts, carom_error *error);
 /** Replaces them, all or none. The next step of contacts finds who rests on whom by itself, and its forces sooner when it begins with these: with the
- * states they are what another world needs to go on with the same bits. Other steps take no notice, and forget them. CAROM_INVALID_ARGUMENT names the contact
- * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a pair that is there twice, more than
- * CAROM_MAX_CONTACTS of a body, a number that is not finite. */
+ * states they are what another world needs to go on with the same bits. Other steps take no notice, and forget them. Bodies that are added later change none of them. CAROM_INVALID_ARGUMENT names the contact
+ * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a number that is not finite; or the body: a pair that is there twice, more than
+ * CAROM_MAX_CONTACTS of a body. */
 CAROM_API carom_status carom_world_set_contacts(carom_world *world, size_t count, const carom_contact *contacts, carom_error *error);
 
 /** What a call of carom_world_step or carom_world_advance did. */
@@ -343,7 +344,7 @@ CAROM_API carom_status carom_world_advance(carom_world *world, double seconds, c
  * time go on where the one before ended: cutting the way into several calls changes no bit. */
 CAROM_API carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error);
 
-/** Called now and then during a step or advance, on the calling thread, with what the call has done so far; returning false
+/** Called now and then during a step or advance, after as many steps as take about a tenth of a second, but 256 at most, on the calling thread, with what the call has done so far; returning false
  * ends the call early (with CAROM_OK: the report tells how far it got). How often it is called changes no result, while
  * cutting one advance into several cuts steps short. It may read the world, and draw it. What would change it, another step too, is
  * CAROM_INVALID_ARGUMENT then; it must not be destroyed. */
@@ -415,7 +416,7 @@ typedef struct carom_scene {
  * found and what is allowed; CAROM_IO a file that can't be read. A name of an open descriptor of this process, as /dev/stdin is, is read from the
  * place on where that is. */
 CAROM_API carom_status carom_scene_read(const char *path, carom_scene **scene, carom_error *error);
-/** The same from memory; `name` stands for the file in errors. The text need not end in a NUL. */
+/** The same from memory; `name` stands for the file in errors, and NULL for "scene". The text need not end in a NUL. */
 CAROM_API carom_status carom_scene_parse(const char *text, size_t length, const char *name, carom_scene **scene, carom_error *error);
 /** Releases the scene and all that its pointers point to. */
 CAROM_API void carom_scene_destroy(carom_scene *scene);

@@ -169,7 +169,8 @@ carom_status carom_world_get_contacts(carom_world *world, size_t first, size_t c
 		GIVEN(contacts, error);
 	TRY(carom_contacts_fetch(world, error));
 	if (first > contact_count(world) || count > contact_count(world) - first)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts %zu to %zu: the world has %zu", first, first + count, contact_count(world));
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts %zu to %zu: the world has %zu", first,
+			count > SIZE_MAX - first ? SIZE_MAX : first + count, contact_count(world));
 	if (count > 0)
 		memcpy(contacts, (const carom_contact *)world->contacts.items + first, count * sizeof *contacts);
 	return CAROM_OK;

@@ -117,42 +117,64 @@ static carom_status no_such_device(const char *name, bool from_environment, cons
 		from_environment ? "CAROM_DEVICE: " : "", name, known, count > 1 ? "" : " (no OpenCL device was found)");
 }
 
-static carom_status open_one(const carom_device_def *def, const carom_device_info *which, carom_device **device, carom_error *error)
+/* How many of the same names come before: a machine may have several GPUs of a kind. */
+static size_t alike_before(const carom_device_info *list, size_t index)
+{
+	size_t count = 0;
+	for (size_t i = 0; i < index; i++)
+		count += !strcmp(list[i].platform, list[index].platform) && !strcmp(list[i].name, list[index].name);
+	return count;
+}
+
+static carom_status open_one(const carom_device_def *def, const carom_device_info *which, size_t alike, carom_device **device, carom_error *error)
 {
 	if (!which->works)
 		return carom_fail(error, CAROM_DEVICE, "the device '%s' can't be used: %s", which->name, which->reason);
 	if (which->is_opencl)
-		return carom_cl_open(def, which, device, error);
+		return carom_cl_open(def, which, alike, device, error);
 	TRY(carom_cpu_open(def, device, error));
 	(*device)->info = *which;
 	return CAROM_OK;
 }
 
+/* Without a look at OpenCL, whose drivers may be slow to load, or broken. */
+static carom_status open_fallback(const carom_device_def *def, carom_device **device, carom_error *error)
+{
+	carom_device_info info = {0};
+	carom_cpu_info(&info);
+	TRY(heed_limits(&info, error));
+	return open_one(def, &info, 0, device, error);
+}
+
 /* The first that opens of those that match: for `auto` and the like a device that fails makes way for the next. */
+static carom_status open_first(const carom_device_def *def, const char *name, const carom_device_info *list, size_t count, carom_device **device,
+	carom_error *error)
+{
+	carom_error failed = {0};
+	for (size_t i = 0; i < count; i++)
+		if (matches(&list[i], name) && !open_one(def, &list[i], alike_before(list, i), device, &failed)) {
+			(*device)->info.is_default = false; /* that is for lists */
+			return CAROM_OK;
+		}
+	if (!failed.status)
+		return no_such_device(name, !def->name, list, count, error);
+	if (error)
+		*error = failed;
+	return failed.status;
+}
+
 carom_status carom_device_open(const carom_device_def *def, carom_device **device, carom_error *error)
 {
 	const char *name = def->name ? def->name : getenv("CAROM_DEVICE");
 	carom_device_info *list = NULL;
 	size_t count = 0;
-	bool tried = false;
 	if (def->name && !*def->name)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "device: found \"\", must be auto, cpu, opencl or part of a name, or NULL");
 	TRY(carom_cl_check_override(error));
-	carom_status status = carom_device_list_create(&list, &count, error);
-	if (status)
-		return status;
-	if (!name || !*name)
-		name = "auto";
-	for (size_t i = 0; i < count; i++) {
-		if (!matches(&list[i], name))
-			continue;
-		tried = true;
-		status = open_one(def, &list[i], device, error);
-		if (!status)
-			break;
-	}
-	if (!tried)
-		status = no_such_device(name, !def->name, list, count, error);
+	if (name && !strcasecmp(name, "cpu"))
+		return open_fallback(def, device, error);
+	TRY(carom_device_list_create(&list, &count, error));
+	const carom_status status = open_first(def, name && *name ? name : "auto", list, count, device, error);
 	carom_device_list_destroy(list);
 	return status;
 }

@@ -72,7 +72,8 @@ void carom_device_close(carom_device *device);
 carom_status carom_cl_list(carom_device_info **devices, size_t *count, carom_error *error);
 /* Fails where the environment's CAROM_KERNEL_DIR names no folder of kernels. */
 carom_status carom_cl_check_override(carom_error *error);
-carom_status carom_cl_open(const carom_device_def *def, const carom_device_info *which, carom_device **device, carom_error *error);
+/* Of the devices that are called so the one with so many `alike` before it in that list. */
+carom_status carom_cl_open(const carom_device_def *def, const carom_device_info *which, size_t alike, carom_device **device, carom_error *error);
 bool carom_cl_has_alternative(const char *slot, const char *alternative);
 /* The index-th name of an alternative of `slot`, by name; NULL past the last. */
 const char *carom_cl_alternative(const char *slot, size_t index);

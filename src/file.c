@@ -38,9 +38,15 @@ static int open_temporary(carom_file *file, mode_t mode)
 	for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
 		snprintf(file->temporary, size, "%.*s/carom.tmp.%ld.%d", folder, path, (long)getpid(), attempt);
 		int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-		if (descriptor >= 0 || errno != EEXIST)
+		if (descriptor >= 0)
 			return descriptor;
+		if (errno != EEXIST)
+			break;
 	}
+	const int number = errno;
+	free(file->temporary); /* it has no such file, so that there is none to remove */
+	file->temporary = NULL;
+	errno = number;
 	return -1;
 }
 
@@ -62,7 +68,7 @@ static int open_beside(carom_file *file)
 		return -1;
 	descriptor = open_temporary(file, 0600);
 	if (descriptor >= 0)
-		fchmod(descriptor, there.st_mode & 07777);
+		fchmod(descriptor, there.st_mode & 0777); /* whom a program runs as is not given to a new owner; some file systems have no permissions */
 	return descriptor;
 }
 
@@ -105,11 +111,8 @@ carom_status carom_file_create(const char *path, carom_file **file, FILE **strea
 		made->stream = fdopen(descriptor, "wb");
 	if (!made->stream) {
 		int number = errno;
-		if (descriptor >= 0) {
+		if (descriptor >= 0)
 			close(descriptor);
-			if (made->temporary)
-				unlink(made->temporary);
-		}
 		if (number == ENOMEM)
 			goto no_memory;
 		carom_file_destroy(made);

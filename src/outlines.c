@@ -38,8 +38,7 @@ bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *
 	const size_t size = body->vertex_count * sizeof *vertices;
 	carom_vec2 *corner = world->vertices.items;
 	body->vertex_first = note->first;
-	/* a note may be of bodies that were given up: then there is nothing, or something else */
-	if (note->count == body->vertex_count && note->first + note->count <= used_vertices(world) && !memcmp(corner + note->first, vertices, size))
+	if (note->count == body->vertex_count && !memcmp(corner + note->first, vertices, size))
 		return true;
 	body->vertex_first = (uint32_t)used_vertices(world);
 	corner = carom_array_grow(&world->vertices, even(body->vertex_count) * sizeof *corner);

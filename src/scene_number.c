@@ -11,15 +11,19 @@
 
 /* ---- To text */
 
-/* Without a locale's comma. */
+/* Without a locale's comma, or whatever else it has for a point. */
 static size_t format_by_printf(float number, char *text)
 {
 	int length = snprintf(text, SCENE_NUMBER_SIZE, "%.*g", DIGITS, (double)number);
+	size_t kept = 0;
 	for (int k = 0; k < length; k++) {
-		if (text[k] == ',')
-			text[k] = '.';
+		if (strchr("0123456789+-e", text[k]))
+			text[kept++] = text[k];
+		else if (kept == 0 || text[kept - 1] != '.') /* one point for what may be several bytes */
+			text[kept++] = '.';
 	}
-	return (size_t)length;
+	text[kept] = 0;
+	return kept;
 }
 
 /* The digits of `number`, which is above 10^-4 and below 10^9: rounded(number * 10^(8 - *decade)), 10^8 <= it < 10^9. The

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <float.h>
 #include <limits.h>
+#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -134,8 +135,11 @@ carom_status carom_scene_parse(const char *text, size_t length, const char *name
 {
 	static const char byte_order_mark[] = "\xEF\xBB\xBF";
 	carom_status status;
-	GIVEN(text, error);
 	GIVEN(scene, error);
+	if (length > 0)
+		GIVEN(text, error);
+	else
+		text = "";
 	if (length > MOST_BYTES)
 		return carom_fail(error, CAROM_INVALID_SCENE, "%s: found more than 2 GiB of text; allowed: up to %d bytes", name ? name : "scene",
 			MOST_BYTES);
@@ -145,9 +149,18 @@ carom_status carom_scene_parse(const char *text, size_t length, const char *name
 	reader.scene = scene_create(reader.name);
 	if (!reader.scene)
 		return scene_fail_memory(&reader);
+	const locale_t plain = newlocale(LC_NUMERIC_MASK, "C",
+		(locale_t)0); /* jansson takes the point from the thread's locale, and gives up where that has several bytes */
+	if (!plain) {
+		carom_scene_destroy(reader.scene);
+		return scene_fail_memory(&reader);
+	}
 	if (!scene_find_bodies(reader.text, reader.end, &reader.bodies, &reader.bodies_end))
 		reader.bodies = reader.bodies_end = reader.end;
+	const locale_t before = uselocale(plain);
 	status = read_scene(&reader);
+	uselocale(before);
+	freelocale(plain);
 	if (status == CAROM_OK) {
 		*scene = reader.scene;
 	} else {

@@ -234,7 +234,8 @@ bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *ti
 static carom_status check_range(const carom_world *world, uint32_t first, size_t count, carom_error *error)
 {
 	if (first > world->body_count || count > world->body_count - first)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies %u to %zu: the world has %zu", first, first + count, world->body_count);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies %u to %zu: the world has %zu", first,
+			count > SIZE_MAX - first ? SIZE_MAX : first + count, world->body_count);
 	return CAROM_OK;
 }
 
@@ -323,7 +324,7 @@ carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec
 	body = &carom_world_bodies(world)[index];
 	if (!carom_is_finite(force) || !isfinite(torque))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
-	if (body->is_static)
+	if (body->is_static && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and feels no force", index);
 	body->force = force;
 	body->torque = torque;

@@ -105,6 +105,14 @@ static void what_was_held_is_said(void **state)
 		0, "3 times a body was hit too often in a step, and held");
 }
 
+/* Drivers may be broken, and take their time. */
+static void the_cpu_needs_no_driver(void **state)
+{
+	(void)state;
+	check("LD_DEBUG=files $C run scenes/mixed.json --steps 1 --quiet --device cpu 2>&1 | grep libOpenCL", 1, "");
+	assert_string_equal(call.out, "");
+}
+
 static void a_film_has_one_camera(void **state)
 {
 	(void)state;
@@ -269,7 +277,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
 		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(what_was_held_is_said),
-		cmocka_unit_test(a_film_has_one_camera), cmocka_unit_test(an_inset_outside_the_picture_is_told),
+		cmocka_unit_test(the_cpu_needs_no_driver), cmocka_unit_test(a_film_has_one_camera), cmocka_unit_test(an_inset_outside_the_picture_is_told),
 		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
 		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_state_may_replace_its_scene),
 		cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),

@@ -108,7 +108,7 @@ static void links_and_permissions_stay(void **state)
 	struct stat there;
 	char link[512];
 	put_file("target", "old");
-	assert_int_equal(chmod(in_folder("target"), 0640), 0);
+	assert_int_equal(chmod(in_folder("target"), 04640), 0); /* whoever runs it is not the one who replaces it */
 	snprintf(link, sizeof link, "%s", in_folder("link"));
 	assert_int_equal(symlink("target", link), 0);
 	put_file("link", "new");
@@ -116,9 +116,30 @@ static void links_and_permissions_stay(void **state)
 	assert_int_equal(lstat(link, &there), 0);
 	assert_true(S_ISLNK(there.st_mode));
 	assert_int_equal(stat(link, &there), 0);
-	assert_int_equal(there.st_mode & 0777, 0640);
+	assert_int_equal(there.st_mode & 07777, 0640);
 	unlink(link);
 	unlink(in_folder("target"));
+}
+
+/* What others have left there, under all the names that there are, stays. */
+static void files_of_others_stay(void **state)
+{
+	(void)state;
+	char name[64];
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	carom_error error;
+	for (int k = 0; k < 1000; k++) {
+		snprintf(name, sizeof name, "carom.tmp.%ld.%d", (long)getpid(), k);
+		FILE *other = fopen(in_folder(name), "w");
+		assert_non_null(other);
+		fclose(other);
+	}
+	assert_int_equal(carom_file_create(in_folder("new"), &file, &stream, &error), CAROM_IO);
+	for (int k = 0; k < 1000; k++) {
+		snprintf(name, sizeof name, "carom.tmp.%ld.%d", (long)getpid(), k);
+		assert_int_equal(unlink(in_folder(name)), 0);
+	}
 }
 
 static void links_may_lead_to_what_is_not_there_yet(void **state)
@@ -318,9 +339,9 @@ static int remove_folder(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(a_file_appears_when_it_is_whole), cmocka_unit_test(a_file_given_up_leaves_the_old_one),
-		cmocka_unit_test(links_and_permissions_stay), cmocka_unit_test(links_may_lead_to_what_is_not_there_yet),
-		cmocka_unit_test(names_may_be_as_long_as_any), cmocka_unit_test(only_files_are_replaced), cmocka_unit_test(what_is_open_is_gone_on_with),
-		cmocka_unit_test(what_cannot_be_written_is_named), cmocka_unit_test(a_full_disk_is_an_error), cmocka_unit_test(pixels_read_back),
-		cmocka_unit_test(bad_pictures_are_refused)};
+		cmocka_unit_test(links_and_permissions_stay), cmocka_unit_test(files_of_others_stay),
+		cmocka_unit_test(links_may_lead_to_what_is_not_there_yet), cmocka_unit_test(names_may_be_as_long_as_any),
+		cmocka_unit_test(only_files_are_replaced), cmocka_unit_test(what_is_open_is_gone_on_with), cmocka_unit_test(what_cannot_be_written_is_named),
+		cmocka_unit_test(a_full_disk_is_an_error), cmocka_unit_test(pixels_read_back), cmocka_unit_test(bad_pictures_are_refused)};
 	return cmocka_run_group_tests_name("file", tests, make_folder, remove_folder);
 }

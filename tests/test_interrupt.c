@@ -27,6 +27,7 @@ static pid_t start(const char *line)
 	if (process == 0) {
 		signal(SIGINT, SIG_DFL);
 		signal(SIGTERM, SIG_DFL);
+		signal(SIGHUP, SIG_DFL);
 		execl("/bin/sh", "sh", "-c", text, (char *)NULL);
 		_exit(127);
 	}
@@ -120,6 +121,7 @@ static void what_was_asked_for_is_written(void **state)
 	(void)state;
 	a_run_can_be_gone_on_with("cpu", SIGINT);
 	a_run_can_be_gone_on_with("cpu", SIGTERM);
+	a_run_can_be_gone_on_with("cpu", SIGHUP);
 	if (has_opencl())
 		a_run_can_be_gone_on_with("opencl", SIGINT);
 }

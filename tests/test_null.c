@@ -136,7 +136,7 @@ static void what_has_to_be_given_of_the_rest(void **unused)
 	REFUSE("count", carom_device_list_create(&devices, NULL, &error));
 	REFUSE("path", carom_scene_read(NULL, &scene, &error));
 	REFUSE("scene", carom_scene_read("scenes/mixed.json", NULL, &error));
-	REFUSE("text", carom_scene_parse(NULL, 0, "scene", &scene, &error));
+	REFUSE("text", carom_scene_parse(NULL, 2, "scene", &scene, &error));
 	REFUSE("scene", carom_scene_parse("{}", 2, "scene", NULL, &error));
 	REFUSE("scene", carom_scene_create_world(NULL, &world, &error));
 	scenery_check(carom_scene_read("scenes/mixed.json", &scene, NULL), NULL);

@@ -124,8 +124,9 @@ static void unreadable_files_are_named(void **state)
 	assert_non_null(strstr(error.text, "tests: can't be read: Is a directory"));
 	assert_int_equal(carom_scene_read("", &scene, &error), CAROM_IO);
 	assert_int_equal(carom_scene_read(NULL, &scene, &error), CAROM_INVALID_ARGUMENT);
-	assert_int_equal(carom_scene_parse(NULL, 0, "x", &scene, &error), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_scene_parse(NULL, 1, "x", &scene, &error), CAROM_INVALID_ARGUMENT);
 	assert_int_equal(carom_scene_parse("", 0, NULL, &scene, NULL), CAROM_INVALID_SCENE);
+	assert_int_equal(carom_scene_parse(NULL, 0, NULL, &scene, NULL), CAROM_INVALID_SCENE);
 	assert_null(scene);
 	carom_scene_destroy(NULL);
 }

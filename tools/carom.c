@@ -27,7 +27,7 @@ static void print_help(void)
 	printf("\n`carom COMMAND --help` tells more of a command; `carom --version` prints the version.\n\n"
 		   "Results go to stdout, everything else to stderr.\n"
 		   "exit codes: 0 done, 1 the work failed (a device, a disk), 2 the call or the input was wrong,\n"
-		   "            130 interrupted (143 by SIGTERM)\n"
+		   "            130 interrupted (143 by SIGTERM, 129 by SIGHUP)\n"
 		   "environment: CAROM_DEVICE  the device if --device is not given; `man carom` has more\n");
 }
 

@@ -1,4 +1,4 @@
-/* Interruptions, SIGINT and SIGTERM: the first ends the work after what is at hand, the second the process.
+/* Interruptions, SIGINT, SIGTERM and SIGHUP (its terminal is gone): the first ends the work after what is at hand, the second the process.
  * SPDX-License-Identifier: MIT */
 #include "carom_tool.h"
 
@@ -28,6 +28,7 @@ void catch_interruptions(void)
 {
 	catch_signal(SIGINT);
 	catch_signal(SIGTERM);
+	catch_signal(SIGHUP);
 }
 
 bool is_interrupted(void)

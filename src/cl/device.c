@@ -285,15 +285,15 @@ static carom_status set_up(cl_device *d, const carom_device_def *def, const caro
 	return build_program(d, false, error);
 }
 
-static const carom_cl_found *same_device(const carom_cl_found *found, size_t count, const carom_device_info *which)
+static const carom_cl_found *same_device(const carom_cl_found *found, size_t count, const carom_device_info *which, size_t alike)
 {
 	for (size_t i = 0; i < count; i++)
-		if (!strcmp(found[i].info.platform, which->platform) && !strcmp(found[i].info.name, which->name))
+		if (!strcmp(found[i].info.platform, which->platform) && !strcmp(found[i].info.name, which->name) && alike-- == 0)
 			return &found[i];
 	return NULL;
 }
 
-carom_status carom_cl_open(const carom_device_def *def, const carom_device_info *which, carom_device **device, carom_error *error)
+carom_status carom_cl_open(const carom_device_def *def, const carom_device_info *which, size_t alike, carom_device **device, carom_error *error)
 {
 	cl_device *d = calloc(1, sizeof *d);
 	carom_cl_found *found = NULL;
@@ -309,7 +309,7 @@ carom_status carom_cl_open(const carom_device_def *def, const carom_device_info 
 	status = carom_cl_find(&d->cl, &found, &count, error);
 	if (status)
 		goto end;
-	mine = same_device(found, count, which);
+	mine = same_device(found, count, which, alike);
 	if (!mine || !mine->info.works) {
 		const char *why = mine ? mine->info.reason : count ? found[0].info.reason : "";
 		status = carom_fail(error, CAROM_DEVICE, "the device '%s' is gone%s%s", which->name, *why ? ": " : "", why);
