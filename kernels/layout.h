@@ -398,7 +398,7 @@
 #define STUCK_FAST 65536
 
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,
- * at the points that approach more slowly than CONTACT_FAST |a|. Impulses stop what would come nearer in the step than to half a cushion: CUSHION slops, or
+ * or a CONTACT_NEAR of the smaller radius if that is less, at the points that approach more slowly than CONTACT_FAST |a|. Impulses stop what would come nearer in the step than to half a cushion: CUSHION slops, or
  * |a| / 2 if that is less. Then forces let them come nearer by EASE of the gap in a step, down to a cushion. Both are found within a CONTACT_PART of
  * EASE of a cushion, or by CONTACT_ITERATIONS iterations; forces that need more than one within a CONTACT_CLOSER of that, so that the next step needs none.
  *
@@ -414,6 +414,7 @@
 #define GRIP_SLIDE 0.25f
 #define GRIP_PATIENCE 16
 #define GRIP_IMPULSES 64
+#define CONTACT_NEAR 0.25f /* of the smaller body's radius: farther is not near, however long a step is */
 #define CONTACT_FAST 4.0f
 #define EASE 0.5f
 #define CUSHION 64.0f

@@ -28,6 +28,12 @@ typedef struct rests {
 	rest of[CONTACTS_MOST];
 } rests;
 
+/* How far a push moves a body in a step, but no farther than what is small beside the smaller body: of more than that nobody says that it is near. */
+float rest_force(float push, float radius)
+{
+	return smaller(push, CONTACT_NEAR * radius);
+}
+
 rest rest_begin(int key, int partner, float2 n, float force, float slop, float friction)
 {
 	rest r;
@@ -87,7 +93,7 @@ void rests_insert(rests *all, rest r)
 void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, int other, float length, rests *all)
 {
 	body own = body_of(slots, s, trajectory_start(slots, s), length), partner = body_of(slots, other, trajectory_start(slots, other), length);
-	float force = larger(norm(own.a), norm(partner.a));
+	float force = rest_force(larger(norm(own.a), norm(partner.a)), smaller(own.radius, partner.radius));
 	float2 d = (float2)(partner.x.x - own.x.x, partner.x.y - own.x.y);
 	if (!(force > 0.0f) || norm(d) - (own.radius + partner.radius) > force)
 		return;
@@ -118,7 +124,7 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 
 void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, rests *all)
 {
-	float offset, force = norm(k.a);
+	float offset, force = rest_force(norm(k.a), k.radius);
 	float2 n = wall_normal(room, wall, &offset), none = (float2)(0.0f, 0.0f);
 	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
 	rest r = rest_begin(-1 - wall, PARTNER_WALL(wall), n, force, wall_slop(k), friction);

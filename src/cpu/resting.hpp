@@ -118,7 +118,9 @@ private:
 
 	/* What is known of a contact before its points are. */
 	struct Rules {
-		T force, slop;
+		T force, slop; /* force: what the push moves, but no more than what is near beside the smaller body */
+
+		Rules(T push, T radius, T rounding) : force(smaller(push, T(CONTACT_NEAR) * radius)), slop(rounding) {}
 
 		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
 	};
@@ -199,7 +201,7 @@ private:
 		Convex<T> a, b;
 		clusters.fill(a, clusters.slots[row], Trajectory<T>(clusters.slots[row]));
 		clusters.fill(b, clusters.slots[column], Trajectory<T>(clusters.slots[column]));
-		const Rules rules{larger(norm(a.a), norm(b.a)), pair_slop(a, b)};
+		const Rules rules(larger(norm(a.a), norm(b.a)), smaller(a.radius, b.radius), pair_slop(a, b));
 		const Vec<T> d = b.x - a.x;
 		if (!(rules.force > 0) || norm(d) - (a.radius + b.radius) > rules.force)
 			return;
@@ -233,7 +235,7 @@ private:
 			return;
 		Convex<T> body;
 		clusters.fill(body, slot, way);
-		const Rules rules{norm(body.a), wall_slop(body)};
+		const Rules rules(norm(body.a), body.radius, wall_slop(body));
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
 			wall(body, friction, rules, k);
 	}
