@@ -225,20 +225,20 @@ void contact_face(VERTICES_IN, body a, body b, pose p, axis k, float slop, conta
 		end = s;
 	}
 	float2 low = u, high = v;
-	if (start < 0.0f && end > 0.0f) {
+	if (start < 0.0f && end >= 0.0f) {
 		float part = -start / (end - start);
 		low = (float2)(u.x + part * (v.x - u.x), u.y + part * (v.y - u.y));
 	}
-	if (end > width && start < width) {
+	if (end > width && start <= width) {
 		float part = (width - start) / (end - start);
 		high = (float2)(u.x + part * (v.x - u.x), u.y + part * (v.y - u.y));
 	}
 	float low_gap = inner(k.n, low) - k.offset, high_gap = inner(k.n, high) - k.offset;
 	float limit = k.gap + slop;
-	bool apart = end < 0.0f || start > width;
-	if (!apart && low_gap <= limit)
+	/* of one that lies beside the face only the end that is nearer to it */
+	if (!(end < 0.0f) && low_gap <= limit)
 		contact_add_point(c, p, low);
-	if (!apart && high_gap <= limit)
+	if (!(start > width) && high_gap <= limit)
 		contact_add_point(c, p, high);
 	if (c->count == 0) {
 		float2 point = turn(relative, middle);
@@ -318,4 +318,74 @@ threshold threshold_of(float gap, float slop, float stillness, float part)
 bool contact_is_hit(contact c, float most)
 {
 	return c.rate[0] < most || (c.count > 1 && c.rate[1] < most);
+}
+
+/* Of the faster point. */
+float rate_of(contact c)
+{
+	return c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
+}
+
+/* Are all points of a contact where the reference's face ends, or beyond; or is it one of a corner? */
+bool contact_is_at_corner(VERTICES_IN, body a, body b, pose p, axis k, contact c, float near)
+{
+	if (k.corner)
+		return true;
+	body ref = k.swapped ? b : a;
+	float2 tangent = (float2)(-c.n.y, c.n.x), rotation = k.swapped ? p.rb : p.ra;
+	float begin = inner(tangent, turn(rotation, vertex_load(VERTICES, ref.first, k.face))) + near;
+	float end = inner(tangent, turn(rotation, vertex_load(VERTICES, ref.first, k.face + 1 < ref.count ? k.face + 1 : 0))) - near;
+	float first = inner(tangent, c.ref[0]), second = c.count > 1 ? inner(tangent, c.ref[1]) : first;
+	return (first <= begin && second <= begin) || (first >= end && second >= end);
+}
+
+/* The way along which the bodies approach the most slowly, of `*way` and those faces of a along which they touch, or are less than `deep` in each other; `*rate` is how fast. */
+void way_seek(VERTICES_IN, body a, body b, pose p, float2 n, float alike, float slop, float deep, bool swapped, axis *way, float *rate)
+{
+	float2 d = turn_back(p.ra, p.d), relative = relative_rotation(p);
+	for (int e = 0; e < a.count; e++) {
+		axis k;
+		k.n = normal_load(VERTICES, a.first, e, vertex_load(VERTICES, a.first, e + 1 < a.count ? e + 1 : 0));
+		k.offset = inner(k.n, vertex_load(VERTICES, a.first, e));
+		k.gap = (inner(k.n, d) - k.offset) + lowest(VERTICES, b, turn_back(relative, k.n), &k.deepest);
+		if (k.gap < -deep || magnitude(inner(turn(p.ra, k.n), n)) > alike)
+			continue;
+		k.face = e;
+		k.corner = k.swapped = false;
+		float other = rate_of(contact_at(VERTICES, a, b, p, k, slop));
+		k.swapped = swapped;
+		if (other > *rate) {
+			*rate = other;
+			*way = k;
+		}
+	}
+}
+
+/* Where corners meet rounding alone says which way out is the least deep, and what slides over a flush seam would hit the side of the next body: there the way counts along which
+ * the bodies approach the most slowly, if that is less than half as fast. */
+axis corner_way(VERTICES_IN, body a, body b, pose p, axis k, contact c, float slop)
+{
+	float deep = CORNER_DEEP * slop, rate = CORNER_PART * rate_of(c), alike = k.corner ? 2.0f : CORNER_ALIKE;
+	axis way = k;
+	if (a.count == 1 || b.count == 1 || !(rate < 0.0f) || k.gap < -deep || !contact_is_at_corner(VERTICES, a, b, p, k, c, CORNER_NEAR * deep))
+		return k;
+	way_seek(VERTICES, a, b, p, c.n, alike, slop, deep, false, &way, &rate);
+	way_seek(VERTICES, b, a, pose_swapped(p), c.n, alike, slop, deep, true, &way, &rate);
+	return way;
+}
+
+/* Do bodies that hit along k also hit along that way out of the corner? */
+bool way_hits(VERTICES_IN, body a, body b, pose p, axis k, axis way, float slop, float stillness, float part)
+{
+	if (way.corner == k.corner && way.face == k.face && way.swapped == k.swapped)
+		return true;
+	return contact_is_hit(contact_at(VERTICES, a, b, p, way, slop), threshold_of(way.gap, slop, stillness, part).rate);
+}
+
+/* Along which a hit of two bodies is answered: not along a way on which there is nothing to answer, for that is one only now, by rounding. */
+axis hit_axis(VERTICES_IN, body a, body b, pose p, float slop, float stillness, float part)
+{
+	axis k = best_axis(VERTICES, a, b, p);
+	axis way = corner_way(VERTICES, a, b, p, k, contact_at(VERTICES, a, b, p, k, slop), slop);
+	return way_hits(VERTICES, a, b, p, k, way, slop, stillness, part) ? way : k;
 }

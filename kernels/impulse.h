@@ -42,12 +42,6 @@ typedef struct impact {
 	bool ruled;  /* its rules made something else of it than its restitution would */
 } impact;
 
-/* Of the faster point. */
-float rate_of(contact c)
-{
-	return c.count > 1 ? smaller(c.rate[0], c.rate[1]) : c.rate[0];
-}
-
 /* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step: what falls on a
  * body at rest, which is in many rapid hits, is no collapse. */
 float restitution_of(rules_of_hit rules, contact c, float micro)
@@ -133,7 +127,7 @@ SELDOM float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules
 {
 	pose p = pose_at(a, b, t);
 	float slop = pair_slop(a, b), still = pair_stillness(a, b);
-	axis k = best_axis(VERTICES, a, b, p);
+	axis k = hit_axis(VERTICES, a, b, p, slop, still, rules.part);
 	contact c = contact_at(VERTICES, a, b, p, k, slop);
 	threshold h = threshold_of(k.gap, slop, still, rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);

@@ -554,6 +554,10 @@
 #define STALL_LENGTH 9.5367431640625e-7f /* 2^-20 of the time step: a step that lasts less did not get on */
 #define STALL_LIMIT 4096                 /* of those in a row, and 16 a body, are a stall */
 #define STALL_LIMIT_BODY 16
+#define CORNER_ALIKE 0.9f              /* of two unit vectors: they are no two ways out of a corner */
+#define CORNER_DEEP 2.0f               /* slops: so deep bodies touch along a way out of a corner, for what rests is sunk by one now and then */
+#define CORNER_NEAR 4.0f               /* times that: a contact so near a face's end is at a corner */
+#define CORNER_PART 0.5f               /* of an approach: along another way it is slower than that */
 #define SINGULAR 2.384185791015625e-7f /* 2^-22: two contacts nearer to one another than this, by the determinant, count as one */
 
 /* Sine and cosine: pi/2 in three parts, and minimax polynomials on [-pi/4, pi/4] (Cephes) */

@@ -108,6 +108,7 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	float slop = pair_slop(a, b);
 	if (k.gap > force || k.gap < -(SUNK_MOST * slop))
 		return;
+	k = corner_way(VERTICES, a, b, p, k, contact_at(VERTICES, a, b, p, k, force - k.gap), slop);
 	contact c = contact_at(VERTICES, a, b, p, k, force - k.gap);
 	bool is_incident = is_row == c.swapped;
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);

@@ -75,6 +75,15 @@ float circles_meet(body a, body b, float slop)
 	return centres_near(a, b, ((a.radius + b.radius) + slop) + 0.5f * norm((float2)(b.a.x - a.a.x, b.a.y - a.a.y)));
 }
 
+/* Do two bodies that touch hit each other? */
+bool axis_hits(VERTICES_IN, body a, body b, pose p, axis k, float slop, float stillness)
+{
+	contact c = contact_at(VERTICES, a, b, p, k, slop);
+	if (!contact_is_hit(c, threshold_of(k.gap, slop, stillness, 1.0f).rate))
+		return false;
+	return way_hits(VERTICES, a, b, p, k, corner_way(VERTICES, a, b, p, k, c, slop), slop, stillness, 1.0f);
+}
+
 /* Conservative advancement: from one time at which the bodies are surely still apart to the next, until they touch, or that is not asked for any more. */
 SELDOM float4 search_separating(VERTICES_IN, body a, body b, float until)
 {
@@ -94,7 +103,7 @@ SELDOM float4 search_separating(VERTICES_IN, body a, body b, float until)
 		pose p = pose_at(a, b, t);
 		axis k = best_axis(VERTICES, a, b, p);
 		bool touching = k.gap <= slop;
-		if (touching && contact_is_hit(contact_at(VERTICES, a, b, p, k, slop), threshold_of(k.gap, slop, stillness, 1.0f).rate))
+		if (touching && axis_hits(VERTICES, a, b, p, k, slop, stillness))
 			return hit_at(t);
 		float safe = safe_time(VERTICES, a, b, p, k, t, (touching ? -MARGIN : MARGIN) * slop);
 		if (touching)

@@ -81,9 +81,9 @@ template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const
 {
 	const HeldConvex<T> a = shapes.convex(hit.row), b = shapes.convex(hit.column);
 	const Pose<T> at_hit = pose(a, b, hit.time);
-	const Axis<T> axis = best_axis(a, b, at_hit);
-	const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
 	const T slop = pair_slop(a, b);
+	const Axis<T> axis = hit_axis(a, b, at_hit, slop, pair_stillness(a, b), T(0));
+	const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
 	Collision<T> collision{contact_at(a, b, at_hit, axis, slop), {axis.gap, slop, pair_stillness(a, b)},
 		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
 		inc.inverse_inertia};

@@ -315,9 +315,9 @@ private:
 		clusters.fill(a, slots[row], row_way);
 		clusters.fill(b, slots[column], column_way);
 		const Pose<T> at = pose(a, b, T(0));
-		const Axis<T> axis = best_axis(a, b, at);
-		const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
 		const T slop = pair_slop(a, b), stillness = pair_stillness(a, b);
+		const Axis<T> axis = hit_axis(a, b, at, slop, stillness, found_loose);
+		const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
 		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, stillness, found_loose}, 1, ref.inverse_mass, inc.inverse_mass,
 			ref.inverse_inertia, inc.inverse_inertia};
 		const Vec<T> between = inc.a - ref.a;

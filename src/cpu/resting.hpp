@@ -206,9 +206,10 @@ private:
 		if (!(rules.force > 0) || norm(d) - (a.radius + b.radius) > rules.force)
 			return;
 		const Pose<T> at = pose(a, b, T(0));
-		const Axis<T> axis = best_axis(a, b, at);
-		if (axis.gap > rules.force || axis.gap < -(T(SUNK_MOST) * rules.slop))
+		const Axis<T> best = best_axis(a, b, at);
+		if (best.gap > rules.force || best.gap < -(T(SUNK_MOST) * rules.slop))
 			return;
+		const Axis<T> axis = corner_way(a, b, at, best, contact_at(a, b, at, best, rules.force - best.gap), rules.slop);
 		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);

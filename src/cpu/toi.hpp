@@ -44,7 +44,10 @@ template <typename T> struct Pair {
 	bool are_circles() const { return a.is_circle() && b.is_circle(); }
 	bool is_hit(const Pose<T> &pose, const Axis<T> &axis) const
 	{
-		return contact_at(a, b, pose, axis, slop).is_below(Threshold<T>(axis.gap, slop, stillness).rate);
+		const Contact<T> contact = contact_at(a, b, pose, axis, slop);
+		if (!contact.is_below(Threshold<T>(axis.gap, slop, stillness).rate))
+			return false;
+		return way_is_hit(a, b, pose, axis, corner_way(a, b, pose, axis, contact, slop), slop, stillness, T(0));
 	}
 };
 
