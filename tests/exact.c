@@ -68,6 +68,16 @@ double exact_distance(const exact_body *a, const exact_body *b, double t)
 	return (apart ? sqrt(fmin(nearest_edge(&p, &q), nearest_edge(&q, &p))) : face) - a->radius - b->radius;
 }
 
+double exact_corners(const exact_body *a, const exact_body *b, double t)
+{
+	const placed p = place(a, t), q = place(b, t);
+	double least = INFINITY;
+	for (uint32_t i = 0; p.count > 1 && q.count > 1 && i < p.count; i++)
+		for (uint32_t k = 0; k < q.count; k++)
+			least = fmin(least, hypot(q.corners[k].x - p.corners[i].x, q.corners[k].y - p.corners[i].y));
+	return least;
+}
+
 double exact_fastest(const exact_body *a, const exact_body *b)
 {
 	const double speed = hypot(b->vx - a->vx, b->vy - a->vy) + hypot(b->ax - a->ax, b->ay - a->ay);

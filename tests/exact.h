@@ -25,6 +25,9 @@ double exact_distance(const exact_body *a, const exact_body *b, double t);
 /* No point of one moves faster against a point of the other, in metres a step. */
 double exact_fastest(const exact_body *a, const exact_body *b);
 
+/* How near a corner of the one is to a corner of the other at t; infinite where one is a circle. */
+double exact_corners(const exact_body *a, const exact_body *b, double t);
+
 typedef struct exact_contact {
 	double least; /* the least distance seen; where it is below `band`, the least there is within a quarter of `band` */
 	double near;  /* time at which they first are within `band`; infinite if they never are, like the next ones */

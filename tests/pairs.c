@@ -38,6 +38,7 @@ static void fill(carom_world *world, const carom_body_def *bodies, size_t count)
 {
 	carom_error error;
 	world->bodies.used = world->vertices.used = world->names.used = world->linear.used = world->rotational.used = 0;
+	memset(world->notes, 0, sizeof world->notes);
 	world->body_count = 0;
 	scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);
 	scenery_check(carom_textures_update(world, &error), &error);

@@ -17,6 +17,7 @@ typedef struct truth {
 	double slop;    /* m: bodies this far apart touch, says the contract */
 	double fastest; /* m a step */
 	exact_contact contact;
+	bool at_corners; /* it begins there: what is only so deep that it may be rounding's work may be let pass */
 } truth;
 
 /* Bands, in parts of the slop or of the size, that an answer has to keep to. */
@@ -28,7 +29,8 @@ typedef struct bands {
 } bands;
 
 static const bands single_bands = {1.25, -0.5, 1.25, 1e-6, 1e-6}, double_bands = {1.0001, -0.01, 1.0001, 1e-12, 1e-9};
-#define BAND 4.0 /* slops: of the search, which knows least distances to a quarter of it */
+#define CORNER_ROOM ((double)CORNER_DEEP + 0.5) /* slops: deeper than that nothing is at a corner without a hit */
+#define BAND 4.0                                /* slops: of the search, which knows least distances to a quarter of it */
 
 /* The worst that was seen. */
 typedef struct tally {
@@ -44,6 +46,7 @@ static truth truth_of(carom_world *world, uint32_t first)
 	t.slop = ldexp(t.size, -20);
 	t.fastest = exact_fastest(&t.a, &t.b);
 	t.contact = exact_search(&t.a, &t.b, BAND * t.slop, 1.0);
+	t.at_corners = isfinite(t.contact.time) && exact_corners(&t.a, &t.b, t.contact.time) <= 2.0 * (double)(CORNER_NEAR * CORNER_DEEP) * t.slop;
 	return t;
 }
 
@@ -62,9 +65,11 @@ static void judge_late(const truth *t, const pairs_hit *hit, const bands *within
 {
 	if (hit->time <= t->contact.time)
 		return;
-	const double depth = -exact_search(&t->a, &t->b, within->penetration * t->size, hit->time).least / t->size;
-	sum->penetration = fmax(sum->penetration, depth);
-	if (depth >= within->penetration)
+	const double most = within->penetration + (t->at_corners ? CORNER_ROOM * t->slop / t->size : 0.0);
+	const double depth = -exact_search(&t->a, &t->b, most * t->size, hit->time).least / t->size;
+	if (!t->at_corners)
+		sum->penetration = fmax(sum->penetration, depth);
+	if (depth >= most)
 		fail_pair(t, hit, "a hit that is too late");
 }
 
@@ -79,7 +84,7 @@ static void judge_hit(const truth *t, const pairs_hit *hit, const bands *within,
 		fail_pair(t, hit, "a hit where there is none");
 	if (apart > within->early)
 		fail_pair(t, hit, "a hit that is too early");
-	if (approach > 0.02 * t->fastest && t->contact.time - t->contact.near < 8.0 * t->slop / approach) {
+	if (!t->at_corners && approach > 0.02 * t->fastest && t->contact.time - t->contact.near < 8.0 * t->slop / approach) {
 		const double off = fabs(hit->time - t->contact.time) - within->early * t->slop / approach;
 		sum->time = fmax(sum->time, off);
 		if (off > within->time)
@@ -100,7 +105,7 @@ static void judge(const truth *t, const pairs_hit *hit, const bands *within, tal
 		sum->misses++;
 		if (t->contact.least <= 0.0)
 			sum->grazing_least = fmin(sum->grazing_least, t->contact.least / t->slop);
-		if (t->contact.least < within->missed * t->slop)
+		if (t->contact.least < (t->at_corners ? -CORNER_ROOM : within->missed) * t->slop)
 			fail_pair(t, hit, "a hit that was missed");
 	}
 }
