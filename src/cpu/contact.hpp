@@ -94,14 +94,10 @@ void add_face_points(Contact<T> &contact, const Convex<T> &reference, const Conv
 		add_point<T>(contact, pose, ref, ref - pose.d);
 	};
 	const auto is_near = [&](const Vec<T> &p) { return inner(axis.n, p) - axis.offset <= axis.gap + slop; };
-	if (edge.before && is_near(edge.high)) /* of one beside it the end that is nearer to it */
-		add(edge.high);
-	else if (edge.behind && is_near(edge.low))
+	if (!edge.before && is_near(edge.low)) /* of one beside it only the end that is nearer to it */
 		add(edge.low);
-	for (const Vec<T> &p : {edge.low, edge.high}) {
-		if (!edge.before && !edge.behind && is_near(p))
-			add(p);
-	}
+	if (!edge.behind && is_near(edge.high))
+		add(edge.high);
 	if (contact.count == 0)
 		add(pose.to_a(incident.vertex(axis.deepest)));
 }
