@@ -105,7 +105,8 @@ static void a_run_ends_where_floats_do(void **unused)
 	static const struct {
 		float gravity;
 		const char *said;
-	} falls[] = {{-1e8f, "body 0: its place, or how far a step brings it, is too large"}, {-1e10f, "body 0: its speed, or what a step of so much push adds to it, is"}};
+	} falls[] = {{-1e8f, "body 0: its place, or how far a step brings it, is too large"},
+		{-1e10f, "body 0: its speed, or what a step of so much push adds to it, is"}};
 	for (int i = 0; i < 2; i++) {
 		uint64_t first = 0;
 		SCENERY_EACH_DEVICE(device) {
