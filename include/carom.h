@@ -330,7 +330,7 @@ typedef struct carom_report {
 
 /** Runs `steps` steps of the pipeline. A step of events lasts `time_step` and answers all its hits; one of contacts does, too, but bodies that
  * rest on each other, of a restitution below 1 or with friction, push each other and are not hit, and where they are about to meet at less than four times the speed
- * that their pushes make in a step (or, of what is small or in a long step, four times a quarter of the smaller radius a step) they are stopped, without a bounce; where they rub they are held against each other, too; one of first_impact lasts until the first hit and at most
+ * that their pushes make in a step (of what is small, or in a long step: at less than the smaller radius a step) they are stopped, without a bounce; where they rub they are held against each other, too; one of first_impact lasts until the first hit and at most
  * `time_step` [2.2].
  * `report` may be NULL; on failure it tells what was done before. CAROM_STALLED (first_impact alone): time can't get on, and the
  * state is the one at which it stood still. CAROM_LIMIT: places, sizes or speeds are, or in the next step come, above 1e9 (m, m/s, rad/s), where floats overflow, a body would
