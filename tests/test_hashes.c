@@ -18,10 +18,10 @@ static const struct {
 	{"scenes/billiard_break.json", 0x67a2d3b09229d3f4, 0xbe6530f293e25062, 0},
 	{"scenes/circles_1024.json", 0xb407392652c0fb4a, 0xaa3285fdc8f4d50f, 0},
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343, 0},
-	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x78861c24a5d7c41e, 0x4e92c6b1ce460554},
+	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x8fb479cfae22ea7b, 0x4e92c6b1ce460554},
 	{"scenes/mixed.json", 0xcc24b0a3369bcac1, 0xdca5a4f981ed5756, 0},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
-	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0x7593f2c6b4a10426, 0xc87c4993116e12cb},
+	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0x35a33d8713b8d35d, 0xc87c4993116e12cb},
 	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0xdd27dd88bbe84178, 0},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x675a5d8b2f725e89, 0},
 	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f, 0},
@@ -54,9 +54,9 @@ static const struct {
 	uint64_t contacts;                  /* after RESTING_STEPS */
 } random_worlds[] = {
 	{1, SCENERY_MIXED, 49, 1.0f, 0.0f, 0.0f, STEPS, {0xa64955af05d36bab}, {0xad78a91f2deaa6da}, 0xf7a0d8c272c38439},
-	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, 0.0f, RESTING_STEPS, {0x204a7b0f1af35cc7, 0x0fbb8a31c55fd95b}, {0x674ea8787045d4d8, 0x4e5aae8ccca37fda},
+	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, 0.0f, RESTING_STEPS, {0x204a7b0f1af35cc7, 0x0fbb8a31c55fd95b}, {0x674ea8787045d4d8, 0xb9bbb426954f20c5},
 		0xbe9ec0b5b0f8cebd},
-	{3, SCENERY_POLYGONS, 64, 0.5f, -1.0f, 0.0f, RESTING_STEPS, {0x8a1cd3f3d3a0750a, 0x82a7e1836c0a4ac7}, {0xbdb0b024236a9200, 0x25402183e8503b4c},
+	{3, SCENERY_POLYGONS, 64, 0.5f, -1.0f, 0.0f, RESTING_STEPS, {0x8a1cd3f3d3a0750a, 0x82a7e1836c0a4ac7}, {0xbdb0b024236a9200, 0xf146e9155540a074},
 		0x3b57868b9d9e2723},
 	{4, SCENERY_CIRCLES, 196, 0.875f, -3.0f, 0.0f, RESTING_STEPS, {0x2c0cb69fffe63f90, 0xb62125c1a5365cac}, {0x5222fe046872010e, 0x6131f8ab1255f382},
 		0x073b3d85ed167c2b},
@@ -65,10 +65,10 @@ static const struct {
 	{7, SCENERY_MIXED, 16, 0.75f, -9.81f, 0.0f, STEPS, {0x2a045b40c01e7a4d}, {0x81be46c0d9046a34}, 0x9e192e7e527ef75d},
 	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, 0.0f, STEPS, {0xed03ece2bc91b620}, {0xa0aabf753fd56931}, 0x596bd0e5a062364b},
 	{9, SCENERY_CIRCLES, 36, 0.875f, -3.0f, 0.0f, STEPS, {0x050b36b217d5ff67}, {0x88a992790e483f1c}, 0x2c1d02d5e04ef672},
-	{10, SCENERY_MIXED, 49, 0.5f, -9.81f, 0.5f, RESTING_STEPS, {0x0c3ead4c230722ec, 0x32e4659c5f1d96f6}, {0x5b1f8406ca4b71d8, 0x7a35235cdc5dfcb6},
+	{10, SCENERY_MIXED, 49, 0.5f, -9.81f, 0.5f, RESTING_STEPS, {0x0c3ead4c230722ec, 0x32e4659c5f1d96f6}, {0x5b1f8406ca4b71d8, 0x88b52be9cdc0e967},
 		0x02c227e604643d21},
 	{11, SCENERY_POLYGONS, 25, 0.75f, -3.0f, 1000.0f, RESTING_STEPS, {0x0adc6a3a146a038a, 0x420d9e63c030fdeb},
-		{0xa91b88da53d08f0c, 0x3050c20de6e2b720}, 0x738bd60bde7c72a8},
+		{0xa91b88da53d08f0c, 0xc58c8625893bbc92}, 0x738bd60bde7c72a8},
 	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xb0af4e0886036521}, {0xdb0ea15d092cc348}, 0x18db110f8cf79b12},
 };
 
