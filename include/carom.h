@@ -235,14 +235,13 @@ typedef enum carom_storage {
 
 /** What a world is made from. Start from carom_default_world_def(). */
 typedef struct carom_world_def {
-	float
-		time_step; /**< s, >= 1.17549435e-38: how long a step of events or contacts lasts, the longest of first_impact (the last one before an end: see carom_world_advance); default 1/60 */
-	carom_vec2 gravity; /**< m/s^2; default (0, 0) */
-	float restitution;  /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
-	float friction;     /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
-	bool
-		has_room; /**< four walls that nothing passes; default none. Centres of mass must start inside, or outside by no more than a thousandth of it; what of a body is
-	                          beyond a wall at the start may stay there, but gets no farther */
+	float time_step;         /**< s, >= 1.17549435e-38: how long a step of events or contacts lasts, the longest of first_impact; default 1/60.
+	                          The last one before an end: see carom_world_advance */
+	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
+	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
+	float friction;          /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
+	bool has_room;           /**< four walls that nothing passes; default none. Centres of mass must start inside, or outside by no more than
+	                          a thousandth of it; what of a body is beyond a wall at the start may stay there, but gets no farther */
 	carom_vec2 room_min;     /**< m, the lower left corner */
 	carom_vec2 room_max;     /**< m, the upper right corner: above room_min in both */
 	float epsilon;           /**< part of a step, 2^-22..0.5: the accuracy of toi bisection [2.1]; default 2^-18 */

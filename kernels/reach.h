@@ -205,8 +205,8 @@ int group_sum(__local int *wanted)
 /* Room for `count` ints in Neighbours; -1 if there is not enough. */
 int neighbours_take(LIST_OUT(status), int count)
 {
-	int crowds = count / THRONG;
-	bool too_many = crowds > 0 && atomic_add(&status[STATUS_THRONGS], crowds) > THRONGS_MOST - crowds;
+	int throngs = count / THRONG;
+	bool too_many = throngs > 0 && atomic_add(&status[STATUS_THRONGS], throngs) > THRONGS_MOST - throngs;
 	int start = too_many ? INT_MAX : atomic_add(&status[STATUS_NEIGHBOURS], count);
 	if (start <= status[STATUS_ROOM] - count)
 		return start;

@@ -7,11 +7,10 @@
 #include "status.h"
 #include "world.h"
 
-#define MOST 1e9         /* m, m/s, rad/s: four factors of that size are below the largest float, 3.4e38 */
-#define MOST_TRAVEL 1e18 /* m, rad: what a step may add to a place */
-#define MOST_ROOMS \
-	4294967296.0 /* so often may a step go through the room: floats tell ways from times, and where these differ by too little walls don't hold */
-#define MOST_MOMENTUM 1e36 /* kg m/s, kg m^2/s */
+#define MOST 1e9                /* m, m/s, rad/s: four factors of that size are below the largest float, 3.4e38 */
+#define MOST_TRAVEL 1e18        /* m, rad: what a step may add to a place */
+#define MOST_ROOMS 4294967296.0 /* of ways in a step: in more, times that floats can't tell from each other lie on both sides of a wall */
+#define MOST_MOMENTUM 1e36      /* kg m/s, kg m^2/s */
 
 /* What a body may be at the end of a step, if nothing is in its way: turning counts as speed at the rim. */
 typedef struct reached {

@@ -47,7 +47,7 @@ static carom_status unload(carom_world *world, carom_error *error)
 {
 	TRY(release(world, 1, error));
 	if (world->events.within)
-		world->events.since = UINT32_MAX / 2;
+		carom_events_drop_lists(world);
 	return carom_events_unload(world, error);
 }
 

@@ -60,6 +60,11 @@ int32_t carom_events_movers(const carom_world *world)
 	return (int32_t)movers_of(world->capacity);
 }
 
+void carom_events_drop_lists(carom_world *world)
+{
+	world->events.since = UINT32_MAX / 2;
+}
+
 bool carom_events_lists_are_due(const carom_world *world)
 {
 	return world->events.since >= world->events.steps_a_list;
@@ -155,7 +160,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	}
 	world->events.ahead = world->events.loaded; /* not yet, but a batch follows */
 	if (world->events.in_batch)
-		world->events.since = UINT32_MAX / 2;
+		carom_events_drop_lists(world);
 	world->events.in_batch = true;
 	if (world->events.loaded)
 		return CAROM_OK;
@@ -170,7 +175,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	carom_swap(world, ROLE_NEED);
 	world->events.loaded = true;
 	world->events.ahead = true;
-	world->events.since = UINT32_MAX / 2;
+	carom_events_drop_lists(world);
 	world->events.round = world->events.iteration = 0;
 	return CAROM_OK;
 }
@@ -199,7 +204,7 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 		TRY(carom_events_create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
 		status[STATUS_NODE_ROOM] = (int32_t)events->node_room;
 	}
-	events->since = UINT32_MAX / 2;
+	carom_events_drop_lists(world);
 	world->prepared = true;
 	return CAROM_OK;
 }
@@ -210,7 +215,7 @@ static void adapt_reach(carom_world *world, const int32_t *status)
 	carom_events *events = &world->events;
 	if (status[STATUS_STEPS] > 0) {
 		if (events->doublings > 0)
-			events->since = UINT32_MAX / 2; /* those lists are too long for other steps */
+			carom_events_drop_lists(world); /* those lists are too long for other steps */
 		events->stale = events->doublings = 0;
 	} else if (status[STATUS_STALE]) {
 		const bool more = ++events->stale > PATIENCE && events->doublings < MOST_DOUBLINGS;
@@ -253,7 +258,7 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 	else
 		TRY(adapt(world, status, error));
 	if (status[STATUS_STALE])
-		world->events.since = UINT32_MAX / 2;
+		carom_events_drop_lists(world);
 	world->events.in_batch = false;
 	world->events.within = status[STATUS_PASS] > 0;
 	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;

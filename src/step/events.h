@@ -11,6 +11,8 @@ carom_status carom_events_finish(carom_world *world, carom_error *error);
 carom_status carom_events_unload(carom_world *world, carom_error *error);
 uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count);
 
+/* The next step begins with new lists of neighbours. */
+void carom_events_drop_lists(carom_world *world);
 /* A step's two halves: makes new lists of neighbours where it is time, and answers the hits. */
 bool carom_events_lists_are_due(const carom_world *world);
 carom_status carom_events_find_neighbours(carom_world *world, carom_error *error);

@@ -159,8 +159,8 @@ private:
 /* Where so many more begin in Neighbours; -1 if there is no room for them. */
 static int32_t take_room(int32_t *status, int32_t many)
 {
-	const int32_t crowds = many / THRONG;
-	const bool is_counted = crowds == 0 || fetch_add(&status[STATUS_THRONGS], crowds) <= THRONGS_MOST - crowds;
+	const int32_t throngs = many / THRONG;
+	const bool is_counted = throngs == 0 || fetch_add(&status[STATUS_THRONGS], throngs) <= THRONGS_MOST - throngs;
 	const int32_t start = is_counted ? fetch_add(&status[STATUS_NEIGHBOURS], many) : 0;
 	if (is_counted && start <= status[STATUS_ROOM] - many)
 		return start;
