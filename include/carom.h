@@ -251,6 +251,7 @@ typedef struct carom_world_def {
 	                          the environment's CAROM_DEVICE, else auto */
 	carom_storage storage;   /**< default CAROM_STORAGE_AUTO; of an OpenCL device, the CPU fallback has its own */
 	uint32_t threads;        /**< of the CPU fallback, 256 at most; 0 (the default) for one a core */
+	bool keep_hits;          /**< keep each hit of a call, for carom_world_get_hits; default false */
 	bool profile;            /**< measure each kernel, for carom_world_profile; default false, since it takes time itself */
 } carom_world_def;
 
@@ -342,6 +343,24 @@ CAROM_API carom_status carom_world_advance(carom_world *world, double seconds, c
 /** The same up to the simulated time `time` (s, not before carom_world_time, up to 1.2676506e30), but at most `most_steps` steps. Calls for the same
  * time go on where the one before ended: cutting the way into several calls changes no bit. */
 CAROM_API carom_status carom_world_advance_to(carom_world *world, double time, uint64_t most_steps, carom_report *report, carom_error *error);
+
+/** A hit, with what it did. */
+typedef struct carom_hit {
+	double time;        /**< s, simulated: when */
+	uint32_t body;      /**< its index */
+	int32_t other;      /**< the index of a body before it, or a carom_wall */
+	carom_vec2 point;   /**< m, where they touched; along a face, where the impulse acts */
+	carom_vec2 normal;  /**< 1 long, from `other` to `body` */
+	carom_vec2 impulse; /**< N s, on `body`, friction too; the opposite acts on `other` */
+	bool is_ruled;      /**< counted in carom_report.ruled */
+} carom_hit;
+
+/** How many hits the last carom_world_step or _advance answered, or in its progress callback, this one so far; 0 in a world that was made without
+ * `keep_hits`. They are those that its report counts, unless it failed for want of memory. */
+CAROM_API size_t carom_world_hit_count(const carom_world *world);
+/** Reads `count` of them from number `first` on, in the order of time; of several at the same time each comes after those that led to it. They are kept until
+ * the next such call: many short calls need less memory than a long one, and have the same hits. On all exact devices they have the same bits. */
+CAROM_API carom_status carom_world_get_hits(const carom_world *world, size_t first, size_t count, carom_hit *hits, carom_error *error);
 
 /** Called now and then during a step or advance, after as many steps as take about a tenth of a second, but 256 at most, on the calling thread, with what the call has done so far; returning false
  * ends the call early (with CAROM_OK: the report tells how far it got). How often it is called changes no result, while

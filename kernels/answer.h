@@ -9,6 +9,7 @@ void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, in
 	work[WORK_WIDTH * id + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
 	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_STUCK)] = 0;
 	members[MEMBER(id, MEMBER_HITS)] = members[MEMBER(id, MEMBER_RULED)] = 0;
+	members[MEMBER(id, MEMBER_KEPT)] = -1;
 }
 
 /* The box of the way grows by that to where the body would be at the step's end; false if it leaves its reach. */
@@ -103,17 +104,34 @@ rules_of_hit event_rules(float restitution, float friction, bool rapid, int even
 	return rules;
 }
 
+/* Keeps a hit, where hits are kept, as one of the member's; false if there is no room. */
+bool hit_keep(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(hits), int id, float4 next, int order, float4 j, impact hit)
+{
+	if (status[STATUS_KEPT_ROOM] == 0)
+		return true;
+	int k = atomic_inc(&status[STATUS_KEPT]);
+	if (k >= status[STATUS_KEPT_ROOM])
+		return false;
+	__global float4 *to = hits + HITS_WIDTH * k;
+	to[HITS_WHO] = (float4)(CHANNEL(next, NEXT_TIME), CHANNEL(next, NEXT_ROW), CHANNEL(next, NEXT_COLUMN), (float)order);
+	to[HITS_WHERE] = hit.where;
+	to[HITS_WHAT] = (float4)(CHANNEL(j, IMPULSE_X), CHANNEL(j, IMPULSE_Y), hit.ruled ? 1.0f : 0.0f, (float)members[MEMBER(id, MEMBER_KEPT)]);
+	to[HITS_WHEN] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	members[MEMBER(id, MEMBER_KEPT)] = k;
+	return true;
+}
+
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. If a body leaves its reach the step begins again, but
  * goes on as long as it tells what others need, too. */
 void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_OUT(work), LIST_OUT(need), LIST_IN(touching), float4 rules, int s, int id, int other_id, float4 next, float length)
+	RECORD_OUT(work), LIST_OUT(need), LIST_IN(touching), RECORD_OUT(hits), float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
 	bool borne = is_borne(status, touching, s, other);
 	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
 	float weight = norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
 	float u = CHANNEL(next, NEXT_TIME);
-	impact hit = {0.0f, false, false};
+	impact hit = {0.0f, false, false, (float4)(0.0f, 0.0f, 0.0f, 0.0f)};
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
 	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
 	float4 j = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
@@ -141,12 +159,13 @@ void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 	if (hit.total > 0.0f) {
 		members[MEMBER(id, MEMBER_HITS)]++;
 		members[MEMBER(id, MEMBER_RULED)] += hit.ruled ? 1 : 0;
+		stays = hit_keep(status, members, hits, id, next, events, j, hit);
 	}
 	if (can_change(slots, s, was)) {
 		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), rapid,
 			borne, hit);
 		work_store(work, id, k);
-		stays = way_grow(slots, reach, work, need, s, id, k, length);
+		stays = way_grow(slots, reach, work, need, s, id, k, length) && stays;
 	}
 	if (!wall && can_change(slots, other, other_was)) {
 		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A),

@@ -40,6 +40,7 @@ typedef struct impact {
 	float total; /* impulse of the two points together */
 	bool slow;   /* it was lossy, and slow by its rules */
 	bool ruled;  /* its rules made something else of it than its restitution would */
+	float4 where; /* as in IMPULSE_WHERE */
 } impact;
 
 /* What is rapid again and again is elastic, but where a push brings the bodies together only up to the speed that it makes in a step: what falls on a
@@ -72,7 +73,7 @@ rules_of_hit first_impact_rules(float restitution, float friction)
 impact impact_of(rules_of_hit rules, contact c, float push, float restitution, float least, float2 j)
 {
 	impact hit = {j.x + j.y, is_lossy(rules.restitution, rules.friction) && -rate_of(c) < rules.slow * larger(push, rules.weight),
-		restitution != rules.restitution || -rate_of(c) < least};
+		restitution != rules.restitution || -rate_of(c) < least, (float4)(0.0f, 0.0f, 0.0f, 0.0f)};
 	return hit;
 }
 
@@ -84,6 +85,14 @@ float2 push_lever(body k, contact c, float2 lever0, float2 lever1, float part, f
 	if (c.count == 1)
 		return lever0;
 	return (float2)(lever0.x + part * (lever1.x - lever0.x), lever0.y + part * (lever1.y - lever0.y));
+}
+
+/* Where impulses j act at time t on the incident body, and the normal towards A, which is incident where `sign` is 1, else -1. */
+float4 contact_place(body incident, contact c, float2 j, float t, float sign)
+{
+	float total = j.x + j.y, part = total > 0.0f ? j.y / total : 0.0f;
+	float2 from = place(incident.x, incident.v, incident.a, t), lever = push_lever(incident, c, c.inc[0], c.inc[1], part, -1.0f);
+	return (float4)(from.x + lever.x, from.y + lever.y, sign * c.n.x, sign * c.n.y);
 }
 
 /* What the impulses j along the normal do to the incident body (x, y, torque) and about the reference's centre, and what friction does then: it takes
@@ -117,6 +126,7 @@ SELDOM float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rul
 	float restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, norm(k.a), still);
 	float2 j = contact_impulses(walls, k, c, restitution, h.rate, larger(least, h.mended), rules.event);
 	*hit = impact_of(rules, c, norm(k.a), restitution, least, j);
+	hit->where = contact_place(k, c, j, t, 1.0f);
 	float2 v = (float2)(k.v.x + t * k.a.x, k.v.y + t * k.a.y);
 	float4 push = contact_push(walls, k, c, v, 0.0f, k.w + t * k.b, j, rules.friction);
 	return (float4)(push.x / length, push.y / length, push.z / length, 0.0f);
@@ -137,24 +147,24 @@ SELDOM float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules
 	pose seen = c.swapped ? pose_swapped(p) : p;
 	float2 j = contact_impulses(ref, inc, c, restitution, h.rate, parting, rules.event);
 	*hit = impact_of(rules, c, push, restitution, least, j);
+	hit->where = contact_place(inc, c, j, t, c.swapped ? 1.0f : -1.0f);
 	float4 done = contact_push(ref, inc, c, seen.v, seen.wa, seen.wb, j, rules.friction);
 	float2 along = (float2)(done.x / length, done.y / length);
 	return c.swapped ? (float4)(along.x, along.y, done.z / length, done.w / length) : (float4)(-along.x, -along.y, done.w / length, done.z / length);
 }
 
 #ifndef CAROM_OUTLINES /* first_impact alone has it */
-float4 hit_push(STATE_IN, VERTICES_IN, TEX_IN(friction), float4 hit, float length)
+float4 hit_push(STATE_IN, VERTICES_IN, TEX_IN(friction), float4 hit, float length, impact *done)
 {
 	int row = (int)CHANNEL(hit, HIT_ROW), column = (int)CHANNEL(hit, HIT_COLUMN);
 	float t = CHANNEL(hit, HIT_TIME), rub = friction_of(TEX(uniforms), TEX(friction), row, max(column, -1));
-	impact done;
 	body a = body_load(STATE, row, length);
 	if (column >= 0) {
 		body b = body_load(STATE, column, length);
-		return pair_push(VERTICES, a, b, t, first_impact_rules(larger(a.restitution, b.restitution), rub), length, &done);
+		return pair_push(VERTICES, a, b, t, first_impact_rules(larger(a.restitution, b.restitution), rub), length, done);
 	}
 	return wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), a, -1 - column, t,
-		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION)), rub), length, &done);
+		first_impact_rules(larger(a.restitution, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RULES, 0), RULES_RESTITUTION)), rub), length, done);
 }
 
 __kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_IN(friction), TEX_OUT(impulse), int4 domain)
@@ -165,8 +175,10 @@ __kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_IN(friction), TE
 	float4 hit = TEX_LOAD(clock, CLOCK_HIT, 0);
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	float4 result = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+	impact done = {0.0f, false, false, result};
 	if (CHANNEL(hit, HIT_TIME) <= 1.0f && CHANNEL(hit, HIT_DONE) > 0.0f)
-		result = hit_push(STATE, VERTICES, TEX(friction), hit, length);
-	TEX_STORE(impulse, 0, 0, result);
+		result = hit_push(STATE, VERTICES, TEX(friction), hit, length, &done);
+	TEX_STORE(impulse, IMPULSE_PUSH, 0, result);
+	TEX_STORE(impulse, IMPULSE_WHERE, 0, done.where);
 }
 #endif

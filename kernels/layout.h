@@ -134,11 +134,18 @@
 #define WALLS_WALL 2 /* 0: x = min, 1: y = min, 2: x = max, 3: y = max */
 #define WALLS_DONE 3
 
-/* Impulse [2.3]: of the first hit; +J acts on A, -J on B */
-#define IMPULSE_X 0 /* N s */
+/* Impulse [2.3]: of the first hit; two texels in a row */
+#define IMPULSE_WIDTH 2
+#define IMPULSE_PUSH 0 /* texel; +J acts on A, -J on B */
+#define IMPULSE_X 0    /* N s */
 #define IMPULSE_Y 1
 #define IMPULSE_TORQUE_A 2 /* N m s about A's centre of mass */
 #define IMPULSE_TORQUE_B 3 /* of -J about B's */
+#define IMPULSE_WHERE 1    /* texel */
+#define WHERE_X 0          /* m, of the contact */
+#define WHERE_Y 1
+#define WHERE_NORMAL_X 2 /* towards A, 1 long */
+#define WHERE_NORMAL_Y 3
 
 /* ---- The step events. Bodies are kept in slots sorted by place; records are lists of four floats, lists are of ints. */
 
@@ -196,8 +203,8 @@
 #define SPREAD_ROUND 2
 #define SPREAD_EVENTS 16
 
-/* Members: thirteen ints a number */
-#define MEMBER_WIDTH 13
+/* Members: fourteen ints a number */
+#define MEMBER_WIDTH 14
 #define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
 #define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
@@ -211,6 +218,7 @@
 #define MEMBER_SIBLING 10 /* the next of those it belongs to, */
 #define MEMBER_BEFORE 11  /* and the one before, or for the first the one above */
 #define MEMBER_RULED 12   /* of its hits: those that were answered otherwise than by their restitution */
+#define MEMBER_KEPT 13    /* the first of its hits in Hits, -1 for none */
 
 /* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 
@@ -234,6 +242,26 @@
 #define WAKE_NEXT 1    /* the step in which to look again: before, it has no hit with what it watches, nor with a wall */
 #define HORIZON 6      /* steps that one look is good for; 1 where a BUSY-th of the bodies or more are in clusters: it would not pay */
 #define BUSY 6
+
+/* Hits: four records a hit, where hits are kept, in any order; also some that did not come to pass, of steps or clusters that began again */
+#define HITS_WIDTH 4
+#define HITS_MOST (1 << 24) /* as many as a float can count */
+#define HITS_WHO 0          /* record */
+#define WHO_TIME 0          /* part of the step */
+#define WHO_ROW 1           /* bodies, as in NEXT_ROW */
+#define WHO_COLUMN 2
+#define WHO_ORDER 3  /* the larger number of events that a party had before in the step: of hits at the same time, what leads to another has less */
+#define HITS_WHERE 1 /* record: as IMPULSE_WHERE; A is the row body */
+#define HITS_WHAT 2      /* record */
+#define WHAT_IMPULSE_X 0 /* N s, on the row body; the other gets the opposite */
+#define WHAT_IMPULSE_Y 1
+#define WHAT_RULED 2 /* 1: it counts in STATUS_RULED */
+#define WHAT_LINK 3  /* the next hit of the member, -1 for none */
+#define HITS_WHEN 3  /* record, of those that came to pass: the clock's TIME_ELAPSED after the step, */
+#define WHEN_ELAPSED 0
+#define WHEN_ELAPSED_LOW 1
+#define WHEN_LENGTH 2 /* s, of the step, */
+#define WHEN_STEP 3   /* and COUNTS_STEPS with it; 0: it did not */
 
 /* Cells: three ints a cell. Each level has rows of its own, half as many as the level before, and one at least. */
 #define CELL_WIDTH 3
@@ -320,7 +348,7 @@
 /* Status: ints, and some floats in their bits */
 #define STATUS_WIDTH 64
 #define STATUS_STALE 0     /* 1: the lists of neighbours are to be made anew before the next step */
-#define STATUS_SMALL 1     /* 1: Neighbours or Nodes has too little room for them */
+#define STATUS_SMALL 1     /* 1: Neighbours, Nodes or Hits has too little room */
 #define STATUS_UNDER_WAY 2 /* 1: a step is, with clusters to do again */
 #define STATUS_COMMIT 3    /* 1: the step is done */
 #define STATUS_LEFT 4      /* 1: a body would leave its reach: the step begins again, with other lists */
@@ -370,6 +398,10 @@
 #define NODES_MOST (1 << 29)   /* likewise */
 #define STATUS_TOUCHING 41     /* slots with contacts */
 #define STATUS_RULED 42        /* of the step's hits */
+#define STATUS_KEPT 44         /* hits wanted in Hits since the host asked; above the room the step begins again, and none begins until the host made room */
+#define STATUS_KEPT_BEFORE 45  /* of these, when the last step was done: those behind are of one that is under way, or began again */
+/* What nobody changes but the host. */
+#define STATUS_KEPT_ROOM 48 /* hits there are room for in Hits; 0: none are kept */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.

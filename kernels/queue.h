@@ -239,7 +239,7 @@ bool goes_on(RECORD_OUT(work), int first)
 /* Answers the first event of a cluster. Who is to look then: both parties, whom it changed, or the one whose event was not known; nobody where
  * the cluster is given up. */
 int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), float4 rules, int leader, int head, int round, float length, int *first)
+	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), float4 rules, int leader, int head, int round, float length, int *first)
 {
 	int id = *first, other_id = -1;
 	float4 next = work[WORK_WIDTH * id + WORK_NEXT];
@@ -253,14 +253,14 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	}
 	if (!is_known)
 		return (int2)(id, LOOKS_NOT);
-	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, rules, active[id], id, other_id, next,
-		length);
+	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, hits, rules, active[id], id, other_id,
+		next, length);
 	return (int2)(id, other_id);
 }
 
 /* Runs the clusters of `all`. A team's first lane does what is done one after the other; all look. */
 void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), int round, int lanes, float length, SHARED crew *all)
+	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), int round, int lanes, float length, SHARED crew *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	int lane = GROUP_LANE % lanes, teams = GROUP_LANES / lanes, each = max(lanes / 2, 1); /* lanes for one that looks */
@@ -286,7 +286,7 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 		if (lane == 0) {
 			int2 who = (int2)(LOOKS_NO_MORE, LOOKS_NOT);
 			if (first >= 0)
-				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, rules,
+				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, hits, rules,
 					leader, head, round, length, &first);
 			if (who.x == LOOKS_LATER)
 				first = -1;

@@ -14,7 +14,8 @@
 /* Lists begin of so many slots. */
 void status_begin(LIST_OUT(status), int count)
 {
-	status[STATUS_STALE] = status[STATUS_SMALL] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
+	status[STATUS_SMALL] = status[STATUS_KEPT] > status[STATUS_KEPT_ROOM];
+	status[STATUS_STALE] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
 	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = status[STATUS_RULED] = status[STATUS_THRONGS] = 0;
 	status[STATUS_LITTERED] = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
@@ -153,7 +154,7 @@ int cell_index(int2 cell, int level, int columns, int rows)
 void member_reset(LIST_OUT(members), int id)
 {
 	__global int *m = members + MEMBER(id, 0);
-	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = -1;
+	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = m[MEMBER_KEPT] = -1;
 	m[MEMBER_EVENTS] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = m[MEMBER_RULED] = 0;
 }
 

@@ -56,8 +56,8 @@ static carom_status stalled(const carom_world *world, float *clock, carom_error 
 		world->time, (double)texel(clock, CLOCK_STEP)[STEP_STALLED], a, b, world->step->name);
 }
 
-/* What the clock says now; `start` is the world's time when it was started. */
-static carom_status read_clock(carom_world *world, double start, carom_report *report, carom_error *error)
+/* What the clock says now. */
+static carom_status read_clock(carom_world *world, carom_report *report, carom_error *error)
 {
 	clock_texels clock;
 	carom_status status = world->device->kind->download(world->device, world->textures[ROLE_CLOCK].front, 1, clock, error);
@@ -68,7 +68,7 @@ static carom_status read_clock(carom_world *world, double start, carom_report *r
 	report->ruled = (uint64_t)sum_at(clock, CLOCK_RULED, RULED_HITS, RULED_HITS_LOW);
 	report->held = (uint64_t)texel(clock, CLOCK_COUNTS)[COUNTS_HELD];
 	report->advanced = sum_at(clock, CLOCK_TIME, TIME_ELAPSED, TIME_ELAPSED_LOW);
-	world->time = start + report->advanced;
+	world->time = world->begun + report->advanced;
 	world->remaining[0] = texel(clock, CLOCK_TIME)[TIME_REMAINING];
 	world->remaining[1] = texel(clock, CLOCK_TIME)[TIME_REMAINING_LOW];
 	world->stalled = texel(clock, CLOCK_STEP)[STEP_STALLED];
@@ -78,8 +78,10 @@ static carom_status read_clock(carom_world *world, double start, carom_report *r
 static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *error)
 {
 	carom_status status = CAROM_OK;
+	bool begun;
 	if (world->step->begin)
 		status = world->step->begin(world, error);
+	begun = !status;
 	world->host_current = false;
 	if (!status)
 		world->contacts_current = false; /* not before: what is not sent the host alone has */
@@ -87,6 +89,10 @@ static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *e
 		status = world->step->run(world, error);
 	if (!status)
 		status = world->device->kind->flush(world->device, error);
+	if (begun && world->def.keep_hits) {
+		const carom_status taken = world->step->take_hits(world, status ? NULL : error); /* where something failed, of what was done before */
+		status = status ? status : taken;
+	}
 	return status || !world->step->finish ? status : world->step->finish(world, error);
 }
 
@@ -97,6 +103,8 @@ static uint64_t batch_size(const carom_world *world, uint64_t steps_left, const 
 	double step = report->steps && report->advanced > 0.0 ? report->advanced / (double)report->steps : (double)world->def.time_step;
 	double wanted = ceil((double)world->remaining[0] / step);
 	uint64_t size = wanted < (double)world->batch ? (uint64_t)wanted : world->batch;
+	if (world->def.keep_hits && world->step->keeps_last_hit)
+		return 1;
 	if (size < 1)
 		size = 1;
 	return size < steps_left ? size : steps_left;
@@ -123,30 +131,30 @@ static bool is_over(const carom_world *world)
 	return !(world->remaining[0] >= LEAST_STEP);
 }
 
-/* Hands a batch over and counts what came of it: `done` is since the clock was started at `start`. What was done before something
+/* Hands a batch over and counts what came of it: `done` is since the clock was started. What was done before something
  * failed is in the state, and so it counts, too; the step makes its own textures anew, for who knows what is in them. */
-static carom_status count_batch(carom_world *world, uint64_t steps, double start, carom_report *done, carom_error *error)
+static carom_status count_batch(carom_world *world, uint64_t steps, carom_report *done, carom_error *error)
 {
 	carom_status status = run_batch(world, steps, error);
 	if (!status)
-		status = read_clock(world, start, done, error);
+		status = read_clock(world, done, error);
 	if (status && status != CAROM_STALLED) {
 		world->prepared = false;
-		read_clock(world, start, done, NULL);
+		read_clock(world, done, NULL);
 	}
 	return status;
 }
 
 static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *report, bool *go_on, carom_error *error)
 {
-	const double start = world->time;
 	const carom_report sum = *report;
 	carom_report done = {0};
 	carom_status status = start_clock(world, error);
+	world->begun = world->time;
 	while (!status && *go_on && done.steps < steps && !is_over(world)) {
 		const double begun = seconds_now();
 		const uint64_t batch = batch_size(world, steps - done.steps, &done);
-		status = count_batch(world, batch, start, &done, error);
+		status = count_batch(world, batch, &done, error);
 		adapt_batch(world, batch, seconds_now() - begun);
 		report->steps = sum.steps + done.steps;
 		report->hits = sum.hits + done.hits;
@@ -187,6 +195,7 @@ static carom_status run_all(carom_world *world, uint64_t steps, carom_report *re
 	bool go_on = true;
 	carom_status status = CAROM_OK;
 	world->in_call = true;
+	world->hits.used = 0;
 	while (!status && go_on && world->body_count > 0 && done.steps < steps && !is_over(world)) {
 		const double before = done.advanced;
 		status = get_ready(world, error);

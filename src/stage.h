@@ -27,7 +27,7 @@ typedef enum carom_role {
 	ROLE_TILE_HITS,      /* N / TILE x N / TILE */
 	ROLE_WALLS,          /* one texel WALLS_GROUP bodies */
 	ROLE_REDUCED,        /* pair: the level before and the level to make */
-	ROLE_IMPULSE,        /* 1 x 1 */
+	ROLE_IMPULSE,        /* IMPULSE_WIDTH x 1 */
 	/* of the step events: records and lists, which a kernel may change in place wherever they stand */
 	ROLE_OUTLINES,   /* records, one a vertex of polygons */
 	ROLE_SLOTS,      /* pair of records, SLOT_WIDTH a slot: a slot is a body, sorted by place */
@@ -46,6 +46,7 @@ typedef enum carom_role {
 	ROLE_WAKE,       /* list, WAKE_WIDTH a slot */
 	ROLE_CELLS,      /* list, CELL_WIDTH a cell */
 	ROLE_STATUS,     /* list, STATUS_WIDTH */
+	ROLE_HITS,       /* records, HITS_WIDTH a hit; one alone where none are kept */
 	/* of the step contacts, likewise */
 	ROLE_GRIPS,      /* records, CONTACTS_MOST of GRIP_WIDTH a slot; of one alone where nothing rubs */
 	ROLE_CONTACTS,   /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */

@@ -87,6 +87,7 @@ void carom_world_destroy(carom_world *world)
 	free(world->linear.items);
 	free(world->rotational.items);
 	free(world->contacts.items);
+	free(world->hits.items);
 	free(world);
 }
 

@@ -47,6 +47,8 @@ typedef struct carom_events {
 	bool loaded;              /* the slots have the state, or are ahead of the textures */
 	bool ahead;               /* the textures of the state are older than the slots */
 	uint32_t room, node_room; /* ints of Neighbours, nodes of Nodes */
+	uint32_t hit_room;        /* hits of Hits; 0: none are kept */
+	uint32_t hits_taken;      /* of those in Hits, which has some of a step that is under way */
 	uint32_t columns, rows;   /* of cells */
 	uint32_t steps_a_list;    /* steps handed over between two makings of the lists */
 	uint32_t rounds;          /* handed over a step, */
@@ -87,6 +89,7 @@ struct carom_world {
 	carom_array names;
 	carom_array linear, rotational; /* four floats a body */
 	carom_array contacts;           /* carom_contact, in order */
+	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count;
 	bool rubs;                            /* a body has friction */
 	bool bodies_current;                  /* the device's constant textures are those of the bodies */
@@ -104,6 +107,7 @@ struct carom_world {
 	carom_canvas canvas;
 	float stalled;      /* steps in a row that did not get on */
 	double time;        /* s */
+	double begun;       /* s: when the clock was started */
 	double good_for;    /* s: the time in which no body leaves what the floats can hold */
 	double target;      /* s: where the clock was set to end; NAN for nowhere */
 	float remaining[2]; /* s, until then, as the clock has it: a sum of two */
@@ -155,6 +159,10 @@ uint32_t carom_friction_texels(uint32_t capacity);
 /* contacts.c: what the step contacts keeps of the last step, to the device before a batch, and back */
 carom_status carom_contacts_send(carom_world *world, carom_error *error);
 carom_status carom_contacts_fetch(carom_world *world, carom_error *error);
+/* hits.c: takes those of Hits from number `first` on, in order */
+carom_status carom_hits_take(carom_world *world, uint32_t first, uint32_t end, carom_error *error);
+/* Room for one more, with error where there is none. */
+carom_hit *carom_hits_add(carom_world *world, carom_error *error);
 /* textures_send.c: what bodies are, as the device has it */
 carom_status carom_textures_send(carom_world *world, carom_error *error);
 /* Is the world's device one that runs many work-items at once, and slowly each? */

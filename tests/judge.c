@@ -85,7 +85,7 @@ static texels extent(carom_role role, int level)
 	case ROLE_TILE_HITS: t.width = t.rows = capacity / TILE; break;
 	case ROLE_WALLS: t.width = capacity / WALLS_GROUP; break;
 	case ROLE_CLOCK: t.width = CLOCK_WIDTH; break;
-	case ROLE_IMPULSE: t.width = 1; break;
+	case ROLE_IMPULSE: t.width = IMPULSE_WIDTH; break;
 	case ROLE_REDUCED: t.width = t.rows = level_size(capacity, level); break;
 	default: t.width = capacity; break;
 	}

@@ -10,7 +10,7 @@ __kernel void forward_collision(STATE_IN, TEX_IN(clock), TEX_IN(impulse), TEX_OU
 	body_forward(STATE, i, CHANNEL(hit, HIT_TIME), length, &l, &r);
 	float sign = i == (int)CHANNEL(hit, HIT_ROW) ? 1.0f : i == (int)CHANNEL(hit, HIT_COLUMN) ? -1.0f : 0.0f;
 	if (sign != 0.0f) {
-		float4 j = TEX_LOAD(impulse, 0, 0), g = ROW_LOAD(geometry, i);
+		float4 j = TEX_LOAD(impulse, IMPULSE_PUSH, 0), g = ROW_LOAD(geometry, i);
 		float inverse_mass = 1.0f / CHANNEL(g, GEOMETRY_MASS), inverse_inertia = 1.0f / CHANNEL(g, GEOMETRY_INERTIA);
 		float torque = sign > 0.0f ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B);
 		CHANNEL(l, LINEAR_VX) += (sign * CHANNEL(j, IMPULSE_X)) * inverse_mass;

@@ -1,7 +1,14 @@
 /* The end of a step of events: every body moves there from its last event, or from the step's beginning. */
 
+/* The member's hits came to pass, in the step that the clock has counted last. */
+void hits_confirm(LIST_IN(members), RECORD_OUT(hits), int id, float4 time, float length, float step)
+{
+	for (int k = members[MEMBER(id, MEMBER_KEPT)]; k >= 0; k = (int)CHANNEL(hits[HITS_WIDTH * k + HITS_WHAT], WHAT_LINK))
+		hits[HITS_WIDTH * k + HITS_WHEN] = (float4)(CHANNEL(time, TIME_ELAPSED), CHANNEL(time, TIME_ELAPSED_LOW), length, step);
+}
+
 __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(spans), LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
+	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(spans), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(hits), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))
@@ -18,6 +25,8 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 		reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, domain.z);
 	}
 	if (id >= 0) {
+		if (status[STATUS_COMMIT])
+			hits_confirm(members, hits, id, TEX_LOAD(clock, CLOCK_TIME, 0), length, CHANNEL(TEX_LOAD(clock, CLOCK_COUNTS, 0), COUNTS_STEPS));
 		/* one that no event changed has not looked how it goes on */
 		wakes[WAKE(s, members[MEMBER(id, MEMBER_EVENTS)] > 0 ? WAKE_CHANGED : WAKE_NEXT)] = status[STATUS_AGE];
 		member_reset(members, id);

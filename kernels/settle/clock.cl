@@ -24,6 +24,7 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 		ruled.xy = add_exactly((float2)(CHANNEL(ruled, RULED_HITS), CHANNEL(ruled, RULED_HITS_LOW)), (float)status[STATUS_RULED]);
 		status[STATUS_STEPS]++;
 		status[STATUS_BUSTLE] = status[STATUS_HITS];
+		status[STATUS_KEPT_BEFORE] = status[STATUS_KEPT];
 		bool busy = status[STATUS_ACTIVE] > domain.w / BUSY;
 		status[STATUS_AGE] = busy || status[STATUS_AHEAD] == 0 ? 0 : status[STATUS_AGE] + 1;
 		status[STATUS_AHEAD] = busy ? 0 : HORIZON - 1;

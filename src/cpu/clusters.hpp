@@ -14,6 +14,7 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 	work.box[0] = work.box[2] = slot.place[LINEAR_X];
 	work.box[1] = work.box[3] = slot.place[LINEAR_Y];
 	member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
+	member.kept = -1;
 }
 
 /* What the threads that run clusters share. A number belongs to one cluster; only its thread changes what it numbers, but for what is

@@ -25,6 +25,7 @@ template <typename T> struct Collision {
 	bool slow = false;                              /* slower than what a push makes in a step, and lossy */
 	bool ruled = false;                             /* answered otherwise than by its restitution */
 	Slide<T> slide{};
+	Vec<T> centre{0, 0}; /* of the incident body */
 
 	/* How fast the points' parting at i grows by an impulse of 1 at k. */
 	T coupling(int i, int k) const
@@ -74,6 +75,7 @@ template <typename T> Collision<T> wall_collision(const Shapes<T> &shapes, const
 	Collision<T> collision{wall_contact(body, wall, hit.time, slop), {wall_gap(body, wall, hit.time), slop, wall_stillness(body)}, restitution, 0,
 		body.inverse_mass, 0, body.inverse_inertia};
 	collision.slide = wall_slide<T>(body, rubs.at_wall(hit.row), hit.time);
+	collision.centre = body.place_at(hit.time);
 	return collision;
 }
 
@@ -88,6 +90,7 @@ template <typename T> Collision<T> pair_collision(const Shapes<T> &shapes, const
 		larger(shapes.restitution(hit.row), shapes.restitution(hit.column)), ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
 		inc.inverse_inertia};
 	collision.slide = pair_slide<T>(a, b, at_hit, axis.from_b, rubs.between(hit.row, hit.column));
+	collision.centre = inc.place_at(hit.time);
 	return collision;
 }
 
@@ -109,6 +112,14 @@ template <typename T> Vec<T> middle(const Contact<T> &contact, const Vec<T> leve
 	return contact.count > 1 ? Vec<T>(levers[0] + part * (levers[1] - levers[0])) : levers[0];
 }
 
+/* From the incident body's centre to there; the rim of a circle. */
+template <typename T> Vec<T> inc_lever(const Collision<T> &collision, T part)
+{
+	const Contact<T> &c = collision.contact;
+	const T rim = collision.slide.inc_rim;
+	return rim > 0 ? Vec<T>(-(rim * c.n)) : middle(c, c.inc, part);
+}
+
 /* Against the sliding that the impulses along the normal leave: all of it, or as much as friction can. */
 template <typename T> void rub(const Collision<T> &collision, const Impulses<T> &j, Blow<T> &blow)
 {
@@ -117,7 +128,7 @@ template <typename T> void rub(const Collision<T> &collision, const Impulses<T> 
 	const T sum = j.at[0] + j.at[1], part = j.at[1] / sum, most = slide.friction * sum;
 	const Vec<T> along(-c.n.y(), c.n.x());
 	const Vec<T> ref = slide.ref_rim > 0 ? Vec<T>(slide.ref_rim * c.n) : middle(c, c.ref, part);
-	const Vec<T> inc = slide.inc_rim > 0 ? Vec<T>(-(slide.inc_rim * c.n)) : middle(c, c.inc, part);
+	const Vec<T> inc = inc_lever(collision, part);
 	const T ref_spin = slide.ref_spin + collision.ref_inertia * blow.on_ref, inc_spin = slide.inc_spin + collision.inc_inertia * blow.on_inc;
 	const T slip = (inner(along, slide.v) + ref_spin * cross(along, ref)) - inc_spin * cross(along, inc);
 	const T ref_arm = cross(ref, along), inc_arm = cross(inc, along);
@@ -140,14 +151,28 @@ template <typename T> Blow<T> blow_of(const Collision<T> &collision, const Impul
 	return blow;
 }
 
+/* Where a hit is, and its normal towards A. */
+template <typename T> struct Where {
+	Vec<T> point{0, 0}, normal{0, 0};
+};
+
+template <typename T> Where<T> where(const Collision<T> &collision, const Impulses<T> &j)
+{
+	const T sum = j.at[0] + j.at[1], part = sum > 0 ? j.at[1] / sum : T(0);
+	const Vec<T> &n = collision.contact.n;
+	return {collision.centre + inc_lever(collision, part), collision.contact.from_b ? n : Vec<T>(-n)};
+}
+
 template <typename T> void put_impulse(const Texels<T> &impulse, const Collision<T> &collision, const Impulses<T> &j, T length)
 {
 	const Blow<T> blow = blow_of(collision, j);
 	const T push_x = blow.x / length, push_y = blow.y / length, on_inc = blow.on_inc / length, on_ref = blow.on_ref / length;
 	if (collision.contact.from_b)
-		impulse.set(0, 0, push_x, push_y, on_inc, on_ref);
+		impulse.set(IMPULSE_PUSH, 0, push_x, push_y, on_inc, on_ref);
 	else
-		impulse.set(0, 0, -push_x, -push_y, on_ref, on_inc);
+		impulse.set(IMPULSE_PUSH, 0, -push_x, -push_y, on_ref, on_inc);
+	const Where<T> at = where(collision, j);
+	impulse.set(IMPULSE_WHERE, 0, at.point.x(), at.point.y(), at.normal.x(), at.normal.y());
 }
 
 /* Runs the slot: `resolve(collision)` gives the impulses at the points. */
@@ -156,7 +181,8 @@ template <typename T, typename Resolve> void find_impulse(const Job<T> &job, Res
 	const Texels<T> impulse = job.texels(STATE_COUNT + 3);
 	const FirstHit<T> hit(job.texels(STATE_COUNT + 1));
 	if (!hit.in_step() || !hit.done) {
-		impulse.set(0, 0, 0, 0, 0, 0);
+		impulse.set(IMPULSE_PUSH, 0, 0, 0, 0, 0);
+		impulse.set(IMPULSE_WHERE, 0, 0, 0, 0, 0);
 		return;
 	}
 	const Shapes<T> shapes(job, hit.length);
@@ -164,7 +190,7 @@ template <typename T, typename Resolve> void find_impulse(const Job<T> &job, Res
 	Collision<T> collision = hit.at_wall() ? wall_collision(shapes, rubs, hit) : pair_collision(shapes, rubs, hit);
 	put_impulse(impulse, collision, resolve(collision), hit.length);
 	if (hit.at_wall())
-		impulse.fact(0, IMPULSE_TORQUE_B) = 0;
+		impulse.fact(IMPULSE_PUSH, IMPULSE_TORQUE_B) = 0;
 }
 
 }

@@ -4,7 +4,8 @@
 
 #include "cpu/clusters.hpp"
 #include "cpu/heap.hpp"
-#include "cpu/rules.hpp"
+#include "cpu/hits.hpp"
+#include "cpu/impact.hpp"
 #include "cpu/sieve.hpp"
 
 #include <optional>
@@ -27,8 +28,8 @@ template <typename T> class Queue
 {
 public:
 	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, const int32_t *touching_counts,
-		int32_t number, int32_t in_round, std::vector<int32_t> &room)
-		: clusters(all), rubs(friction), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs),
+		const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
+		: clusters(all), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs),
 		  heap(all.members, work_of, room), leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)),
 		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr)
 	{
@@ -250,10 +251,10 @@ private:
 		bool other_rapid = false;
 		Past<T> past{rapid && had_enough(id), members[id].events, is_borne(s) && (other < 0 || is_borne(other))};
 		clusters.move(slots[s], way, u);
-		Impact hit{};
+		Impact<T> hit{};
 		if (other < 0) {
 			if (!pause)
-				hit = wall_impact(s, way, -1 - other, past);
+				hit = impacts.at_wall(s, way, -1 - other, past);
 		} else {
 			Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
 			const bool other_changes = other_id >= 0 && !(other_way.held > 0);
@@ -263,7 +264,7 @@ private:
 			clusters.move(slots[other], other_way, u);
 			const bool is_row = slots[s].body() > slots[other].body();
 			if (!pause)
-				hit = is_row ? pair_impact(s, way, other, other_way, past) : pair_impact(other, other_way, s, way, past);
+				hit = is_row ? impacts.of_pair(s, way, other, other_way, past) : impacts.of_pair(other, other_way, s, way, past);
 			if (other_changes)
 				push(other, other_id, other_way, hit, !is_row, other_rapid, past.borne);
 			if (changes)
@@ -271,63 +272,21 @@ private:
 		}
 		if (other < 0 && changes)
 			push(s, id, way, hit, true, rapid, past.borne);
-		members[id].hits += hit.total > 0;
-		members[id].ruled += hit.total > 0 && hit.ruled;
+		if (hit.total > 0)
+			count_hit(id, hit, past.events);
 	}
 
-	static constexpr T found_loose = T(0.5);
-
-	/* What the row body gets; the column body gets the impulse's opposite. */
-	struct Impact {
-		T x, y, row_torque, column_torque, total;
-		bool slow, ruled;
-	};
-
-	Impact impact(const Collision<T> &collision) const
+	void count_hit(int32_t id, const Impact<T> &hit, int32_t order)
 	{
-		const Contact<T> &c = collision.contact;
-		const Impulses<T> j = clusters.functions.impulses(collision);
-		const Blow<T> blow = blow_of(collision, j);
-		const T total = j.at[0] + j.at[1], length = clusters.length, x = blow.x / length, y = blow.y / length;
-		const T on_inc = blow.on_inc / length, on_ref = blow.on_ref / length;
-		if (c.from_b)
-			return {x, y, on_inc, on_ref, total, collision.slow, collision.ruled};
-		return {-x, -y, on_ref, on_inc, total, collision.slow, collision.ruled};
+		const T *next = work[id].next;
+		members[id].hits++;
+		members[id].ruled += hit.ruled;
+		if (hits.are_kept())
+			hits.keep(members[id], {next[NEXT_TIME], next[NEXT_ROW], next[NEXT_COLUMN], static_cast<T>(order), hit.at.point.x(), hit.at.point.y(),
+				hit.at.normal.x(), hit.at.normal.y(), hit.x, hit.y, T(hit.ruled), 0, 0, 0, 0, 0});
 	}
 
-	Impact wall_impact(int32_t s, const Trajectory<T> &way, int32_t k, const Past<T> &past) const
-	{
-		Convex<T> body;
-		clusters.fill(body, slots[s], way);
-		const Wall<T> wall = clusters.wall(k);
-		const T slop = wall_slop(body), stillness = wall_stillness(body);
-		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, stillness, found_loose}, 1, 0,
-			body.inverse_mass, 0, body.inverse_inertia};
-		collision.slide = wall_slide<T>(body, rubs.at_wall(slots[s].body()), T(0));
-		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), inner(wall.n, body.a),
-			larger(norm(body.a), clusters.weight()), stillness, past);
-		return impact(collision);
-	}
-
-	Impact pair_impact(int32_t row, const Trajectory<T> &row_way, int32_t column, const Trajectory<T> &column_way, const Past<T> &past) const
-	{
-		Convex<T> a, b;
-		clusters.fill(a, slots[row], row_way);
-		clusters.fill(b, slots[column], column_way);
-		const Pose<T> at = pose(a, b, T(0));
-		const T slop = pair_slop(a, b), stillness = pair_stillness(a, b);
-		const Axis<T> axis = hit_axis(a, b, at, slop, stillness, found_loose);
-		const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
-		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, stillness, found_loose}, 1, ref.inverse_mass, inc.inverse_mass,
-			ref.inverse_inertia, inc.inverse_inertia};
-		const Vec<T> between = inc.a - ref.a;
-		collision.slide = pair_slide<T>(a, b, at, axis.from_b, rubs.between(slots[row].body(), slots[column].body()));
-		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
-			inner(collision.contact.n, between), larger(larger(norm(a.a), norm(b.a)), clusters.weight()), stillness, past);
-		return impact(collision);
-	}
-
-	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact &hit, bool is_row, bool rapid, bool borne)
+	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact<T> &hit, bool is_row, bool rapid, bool borne)
 	{
 		const T sign = is_row ? T(1) : T(-1);
 		way.place[LINEAR_VX] += (sign * hit.x) * slots[s].mass[MASS_INVERSE];
@@ -380,7 +339,8 @@ private:
 	}
 
 	const Clusters<T> &clusters;
-	const Rubs<T> &rubs;
+	const Impacts<T> impacts;
+	const Hits<T> &hits;
 	const Slot<T> *const slots;
 	Member *const members;
 	Work<T> *const work;

@@ -87,4 +87,4 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	return carom_events_create_list(world, ROLE_WARM_COUNT, false, n, error);
 }
 
-const carom_step carom_step_contacts = {"contacts", false, prepare, run, begin, carom_events_finish, unload, memory};
+const carom_step carom_step_contacts = {"contacts", false, prepare, run, begin, carom_events_finish, unload, carom_events_take_hits, false, memory};

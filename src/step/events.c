@@ -12,6 +12,8 @@
 #include "status.h"
 
 #define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
+#define FIRST_HITS 4096     /* or one a body, if that is more; likewise */
+#define MANY_HITS (1 << 20) /* then there are more only where one step alone has more */
 #define MOST_ROUNDS 64
 #define LAST_NUMBER (1 << 30) /* of a round, or of an iteration of the step contacts */
 #define MOST_IDLE 256         /* batches that end no step: something is wrong */
@@ -167,6 +169,8 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	status[STATUS_ROOM] = (int32_t)world->events.room;
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
 	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
+	world->events.hits_taken = 0;
+	status[STATUS_KEPT_ROOM] = (int32_t)world->events.hit_room;
 	status[STATUS_NUMBERS] = status[STATUS_ACTIVE] = (int32_t)numbers_of(world->capacity); /* all are to be reset */
 	TRY(send_status(world, status, error));
 	TRY(carom_outlines_send(world, error));
@@ -183,6 +187,20 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 static uint32_t enough(int32_t wanted)
 {
 	return (uint32_t)wanted + (uint32_t)wanted / 4;
+}
+
+/* Hits that had no room have it now that the others are taken, but for more in one step than that. */
+static carom_status grow_hits(carom_world *world, int32_t *status, carom_error *error)
+{
+	carom_events *events = &world->events;
+	if (status[STATUS_KEPT] <= status[STATUS_KEPT_ROOM] || (events->hit_room >= MANY_HITS && status[STATUS_STEPS] > 0))
+		return CAROM_OK;
+	if (events->hit_room >= HITS_MOST)
+		return carom_fail(error, CAROM_LIMIT, "a step has more than %d hits, which are not kept all at once", HITS_MOST);
+	events->hit_room = enough(status[STATUS_KEPT]) < HITS_MOST / 2 ? 2 * enough(status[STATUS_KEPT]) : HITS_MOST;
+	TRY(carom_events_create_list(world, ROLE_HITS, false, HITS_WIDTH * (uint64_t)events->hit_room, error));
+	status[STATUS_KEPT_ROOM] = (int32_t)events->hit_room;
+	return CAROM_OK;
 }
 
 /* Lists that were too small grow; the work is done again. */
@@ -204,6 +222,7 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 		TRY(carom_events_create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
 		status[STATUS_NODE_ROOM] = (int32_t)events->node_room;
 	}
+	TRY(grow_hits(world, status, error));
 	carom_events_drop_lists(world);
 	world->prepared = true;
 	return CAROM_OK;
@@ -253,7 +272,7 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH];
 	TRY(world->device->kind->download(world->device, world->textures[ROLE_STATUS].front, 1, status, error));
-	if (status[STATUS_SMALL])
+	if (status[STATUS_SMALL] || status[STATUS_KEPT] > status[STATUS_KEPT_ROOM])
 		TRY(grow(world, status, error));
 	else
 		TRY(adapt(world, status, error));
@@ -261,8 +280,24 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 		carom_events_drop_lists(world);
 	world->events.in_batch = false;
 	world->events.within = status[STATUS_PASS] > 0;
+	if (!status[STATUS_UNDER_WAY])
+		status[STATUS_KEPT] = status[STATUS_KEPT_BEFORE] = (int32_t)(world->events.hits_taken = 0);
 	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;
 	return send_status(world, status, error);
+}
+
+carom_status carom_events_take_hits(carom_world *world, carom_error *error)
+{
+	int32_t status[STATUS_WIDTH];
+	const uint32_t first = world->events.hits_taken;
+	TRY(world->device->kind->download(world->device, world->textures[ROLE_STATUS].front, 1, status, error));
+	world->events.hits_taken = (uint32_t)status[STATUS_KEPT_BEFORE];
+	return carom_hits_take(world, first, world->events.hits_taken, error);
+}
+
+static uint64_t first_hits(const carom_world_def *def, uint64_t capacity)
+{
+	return !def->keep_hits ? 0 : capacity > FIRST_HITS ? capacity : FIRST_HITS;
 }
 
 /* Twice as many cells of the lowest level as bodies, in rows of a power of two. */
@@ -284,10 +319,9 @@ uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_d
 				   lists = 2 + 2 + WAKE_WIDTH + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
 	carom_events cells = {0};
 	(void)pipeline;
-	(void)def;
 	const uint64_t corners = vertex_count > body_count ? 2 * (uint64_t)carom_capacity((vertex_count + body_count) / 2) : 1;
 	choose_cells(&cells, (uint32_t)n);
-	return 16 * corners + n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
+	return 16 * (corners + HITS_WIDTH * first_hits(def, n)) + n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
 		+ 4 * (extra_of(n) + movers_of((uint32_t)n) + CELL_WIDTH * (uint64_t)cells.columns * CELL_ROWS(cells.rows) + STATUS_WIDTH);
 }
 
@@ -295,7 +329,7 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
-	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .steps_a_list = 6, .rounds = 2};
+	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .hit_room = (uint32_t)first_hits(&world->def, n), .steps_a_list = 6, .rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(carom_events_create_list(world, ROLE_OUTLINES, false, world->polygon_capacity ? 2 * (uint64_t)world->polygon_capacity : 1, error));
 	TRY(carom_events_create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
@@ -313,9 +347,11 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_MOVERS, false, movers_of(world->capacity), error));
 	TRY(carom_events_create_list(world, ROLE_WAKE, false, WAKE_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * CELL_ROWS(events->rows), error));
+	TRY(carom_events_create_list(world, ROLE_HITS, false, events->hit_room ? HITS_WIDTH * (uint64_t)events->hit_room : 1, error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, 1, error)); /* that of contacts is in its place */
 	return carom_events_create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }
 
 const carom_step carom_step_events = {
-	"events", false, carom_events_prepare, run, carom_events_begin, carom_events_finish, carom_events_unload, carom_events_memory};
+	"events", false, carom_events_prepare, run, carom_events_begin, carom_events_finish, carom_events_unload, carom_events_take_hits, false,
+	carom_events_memory};

@@ -9,6 +9,7 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error);
 carom_status carom_events_begin(carom_world *world, carom_error *error);
 carom_status carom_events_finish(carom_world *world, carom_error *error);
 carom_status carom_events_unload(carom_world *world, carom_error *error);
+carom_status carom_events_take_hits(carom_world *world, carom_error *error);
 uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count);
 
 /* The next step begins with new lists of neighbours. */

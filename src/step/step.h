@@ -18,6 +18,9 @@ typedef struct carom_step {
 	carom_status (*finish)(struct carom_world *world, carom_error *error);
 	/* Brings the textures of the state up to date, of a step that keeps the state elsewhere (world->events.ahead). */
 	carom_status (*unload)(struct carom_world *world, carom_error *error);
+	/* Where the world's def has hits kept: takes those of the runs since begin, before finish is called. */
+	carom_status (*take_hits)(struct carom_world *world, carom_error *error);
+	bool keeps_last_hit; /* and no other one: each run is a batch of its own then */
 	/* Bytes of what prepare creates. */
 	uint64_t (*memory)(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count);
 } carom_step;

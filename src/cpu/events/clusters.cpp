@@ -212,6 +212,7 @@ template <typename T> static void resolve(const Job<T> &job)
 		return;
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(12));
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(13));
+	const Hits<T> hits(job.records(19), job.list(6));
 	const int32_t count = clusters.status[STATUS_SEEDS];
 	job.pool.run(count, 64, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<int32_t> room;
@@ -221,7 +222,7 @@ template <typename T> static void resolve(const Job<T> &job)
 			if (count >= many_active)
 				fetch_active(clusters, boxes, id, count);
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
-				tally += Queue<T>(clusters, rubs, work, boxes, job.list(14), job.list(18), id, round, room).run();
+				tally += Queue<T>(clusters, rubs, work, boxes, job.list(14), job.list(18), hits, id, round, room).run();
 		}
 		if (tally.hits > 0)
 			fetch_add(&clusters.status[STATUS_HITS], tally.hits);

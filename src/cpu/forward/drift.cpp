@@ -1,4 +1,4 @@
-#include "cpu/reach.hpp"
+#include "cpu/hits.hpp"
 
 namespace carom::cpu {
 
@@ -9,8 +9,8 @@ public:
 	explicit Drift(const Job<T> &job)
 		: slots(reinterpret_cast<Slot<T> *>(job.records(2))), status(job.list(4)), members(reinterpret_cast<Member *>(job.list(5))),
 		  work(reinterpret_cast<const Work<T> *>(job.records(6))), owners(job.list(7)), parents(job.list(8)),
-		  spans(reinterpret_cast<Span *>(job.list(9))), wakes(reinterpret_cast<Wake *>(job.list(10))),
-		  mover(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH)),
+		  spans(reinterpret_cast<Span *>(job.list(9))), wakes(reinterpret_cast<Wake *>(job.list(10))), clock(job.texels(1)),
+		  hits(job.records(12), status), mover(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH)),
 		  keeper(slots, job.records(3), status, job.list(10), job.list(11), job.domain[2], job.texels(0))
 	{
 	}
@@ -46,8 +46,10 @@ private:
 	void finish(int32_t s, bool commits) const
 	{
 		const int32_t id = owners[s];
-		if (commits)
+		if (commits) {
 			move(s, work[id].trajectory(slots[s]));
+			hits.confirm(members[id], clock);
+		}
 		/* one that no event changed has not looked how it goes on */
 		(members[id].events > 0 ? wakes[s].changed : wakes[s].next) = status[STATUS_AGE];
 		members[id].reset();
@@ -102,6 +104,8 @@ private:
 	int32_t *const owners, *const parents;
 	Span *const spans;
 	Wake *const wakes;
+	const Texels<T> clock;
+	const Hits<T> hits;
 	const Mover<T> mover;
 	const ReachKeeper<T> keeper;
 };

@@ -35,6 +35,7 @@ template <typename T> static void settle(const Job<T> &job)
 	if (done) { /* numbers given, by now, are of bodies in clusters */
 		const bool busy = status[STATUS_ACTIVE] > job.domain[3] / BUSY;
 		status[STATUS_BUSTLE] = status[STATUS_HITS];
+		status[STATUS_KEPT_BEFORE] = status[STATUS_KEPT];
 		status[STATUS_AGE] = busy || status[STATUS_AHEAD] == 0 ? 0 : status[STATUS_AGE] + 1;
 		status[STATUS_AHEAD] = busy ? 0 : HORIZON - 1;
 	}
