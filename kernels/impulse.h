@@ -37,9 +37,9 @@ typedef struct rules_of_hit {
 
 /* What a hit did. */
 typedef struct impact {
-	float total; /* impulse of the two points together */
-	bool slow;   /* it was lossy, and slow by its rules */
-	bool ruled;  /* its rules made something else of it than its restitution would */
+	float total;  /* impulse of the two points together */
+	bool slow;    /* it was lossy, and slow by its rules */
+	bool ruled;   /* its rules made something else of it than its restitution would */
 	float4 where; /* as in IMPULSE_WHERE */
 } impact;
 

@@ -253,8 +253,8 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	}
 	if (!is_known)
 		return (int2)(id, LOOKS_NOT);
-	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, hits, rules, active[id], id, other_id,
-		next, length);
+	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, hits, rules, active[id], id, other_id, next,
+		length);
 	return (int2)(id, other_id);
 }
 

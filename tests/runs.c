@@ -103,6 +103,16 @@ uint64_t runs_hash_after(carom_world *world, uint64_t steps, uint64_t calls)
 	return hash;
 }
 
+carom_hit *runs_hits(carom_world *world, size_t *count)
+{
+	carom_error error;
+	*count = carom_world_hit_count(world);
+	carom_hit *hits = calloc(*count + 1, sizeof *hits);
+	assert_non_null(hits);
+	scenery_check(carom_world_get_hits(world, 0, *count, hits, &error), &error);
+	return hits;
+}
+
 void runs_near(double found, double expected, double tolerance)
 {
 	if (!(fabs(found - expected) <= tolerance))

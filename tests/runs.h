@@ -23,6 +23,8 @@ carom_report runs_advance(carom_world *world, double seconds);
 carom_body_state runs_state(carom_world *world, uint32_t index);
 carom_measure runs_measure(carom_world *world);
 uint64_t runs_hash(carom_world *world);
+/* The hits of the last call, to be given to free. */
+carom_hit *runs_hits(carom_world *world, size_t *count);
 /* The hash after so many steps, in so many calls; destroys the world. */
 uint64_t runs_hash_after(carom_world *world, uint64_t steps, uint64_t calls);
 

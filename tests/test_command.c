@@ -176,6 +176,28 @@ static void standard_output_is_gone_on_with(void **state)
 	check("rm $D/l $D/t $D/h $D/s", 0, "");
 }
 
+/* A row a hit: when, of whom with whom, where and how. Calls, frames, rows of the steps change none. */
+static void hits_are_told(void **state)
+{
+	(void)state;
+	check("$C run scenes/newtons_cradle.json --time 1.5 --hits - --quiet --device cpu | cut -d, -f2-3,6-10", 0, "");
+	assert_string_equal(call.out,
+		"body,other,normal_x,normal_y,impulse_x_ns,impulse_y_ns,ruled\n1,0,1,-0,0.0628318563,-0,0\n2,1,1,-0,0.0628318563,-0,0\n"
+		"3,2,1,-0,0.0628318563,-0,0\n4,3,1,-0,0.0628318563,-0,0\n5,4,1,-0,0.0628318563,-0,0\n5,right,-1,0,-0.125663713,0,0\n");
+	check("$C run scenes/mixed.json --steps 600 --hits $D/h --device cpu", 0, "h\n");
+	check("$C run scenes/mixed.json --steps 600 --hits $D/i --stats $D/t --frames $D/frames --fps 1 --size 64x36 --quiet --device cpu; cut -d, -f2- "
+		  "$D/h >$D/s; "
+		  "cut -d, -f2- $D/i | cmp - $D/s && sed 1d $D/h | wc -l; cut -d, -f4 $D/t | awk '{ n += $1 } END { print n }'",
+		0, "");
+	const unsigned long rows = strtoul(call.out, NULL, 10);
+	assert_true(rows > 500 && strtoul(strchr(call.out, '\n'), NULL, 10) == rows);
+	check("$C run scenes/mixed.json --steps 1 --hits - --stats /dev/stdout", 2, "--stats and --hits: both tables go to /dev/stdout");
+	check("$C run scenes/mixed.json --steps 1 --hits $D/t --stats $D/t", 2, "two of --out, --png, --stats, --hits and --frames write there");
+	check("cp scenes/mixed.json $D/i; $C run $D/i --steps 1 --hits $D/i", 2, "--hits would replace the scene");
+	check("$C run scenes/mixed.json --steps 60 --hits /dev/full --device cpu", 1, "/dev/full: can't be written");
+	check("rm -r $D/frames $D/h $D/i $D/t $D/s", 0, "");
+}
+
 /* The scene that is read may be where the state goes. */
 static void a_state_may_replace_its_scene(void **state)
 {
@@ -278,7 +300,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {cmocka_unit_test(devices_and_stages_are_listed), cmocka_unit_test(outputs_are_written_on_the_cpu),
 		cmocka_unit_test(outputs_are_written_on_opencl), cmocka_unit_test(frames_are_at_equal_times), cmocka_unit_test(what_was_held_is_said),
 		cmocka_unit_test(the_cpu_needs_no_driver), cmocka_unit_test(a_film_has_one_camera), cmocka_unit_test(an_inset_outside_the_picture_is_told),
-		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file),
+		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file), cmocka_unit_test(hits_are_told),
 		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_state_may_replace_its_scene),
 		cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),
 		cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),

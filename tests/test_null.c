@@ -80,6 +80,7 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	carom_body_info info;
 	carom_body_state state;
 	carom_contact contact;
+	carom_hit hit;
 	carom_device_info device;
 	carom_measure measure;
 	size_t count = 9;
@@ -99,6 +100,8 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	REFUSE("count", carom_world_contact_count(world, NULL, &error));
 	REFUSE("world", carom_world_get_contacts(NULL, 0, 0, &contact, &error));
 	REFUSE("contacts", carom_world_get_contacts(world, 0, 1, NULL, &error));
+	REFUSE("world", carom_world_get_hits(NULL, 0, 0, &hit, &error));
+	REFUSE("hits", carom_world_get_hits(world, 0, 1, NULL, &error));
 	REFUSE("world", carom_world_set_contacts(NULL, 0, NULL, &error));
 	REFUSE("contacts", carom_world_set_contacts(world, 1, NULL, &error));
 	REFUSE("world", carom_world_step(NULL, 1, NULL, &error));
@@ -171,6 +174,8 @@ static void what_need_not_be_given(void **unused)
 	assert_int_equal(carom_world_get_states(world, 1, 0, NULL, NULL), CAROM_OK);
 	assert_int_equal(carom_world_set_states(world, 1, 0, NULL, NULL), CAROM_OK);
 	assert_int_equal(carom_world_get_contacts(world, 0, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_get_hits(world, 0, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_hit_count(NULL), 0);
 	assert_int_equal(carom_world_set_contacts(world, 0, NULL, NULL), CAROM_OK);
 	carom_world_set_progress(NULL, NULL, NULL);
 	assert_int_equal(carom_world_body_count(NULL), 0);

@@ -1,4 +1,4 @@
-/* What `carom run` writes: states, pictures, frames, the table of the steps.
+/* What `carom run` writes: states, pictures, frames, the tables of the steps and of the hits.
  * SPDX-License-Identifier: MIT */
 #include "carom_run.h"
 
@@ -70,6 +70,10 @@ carom_status prepare_outputs(struct run *run, carom_error *error)
 	if (run->stats)
 		fputs("step,time_s,advanced_s,hits,kinetic_energy_j,potential_energy_j,momentum_x,momentum_y,angular_momentum,max_penetration_m,held,ruled\n",
 			run->stats);
+	if (status == CAROM_OK && options->hits)
+		status = carom_file_create(options->hits, &run->hits_file, &run->hits, error);
+	if (run->hits)
+		fputs("time_s,body,other,x_m,y_m,normal_x,normal_y,impulse_x_ns,impulse_y_ns,ruled\n", run->hits);
 	return status;
 }
 
@@ -136,6 +140,33 @@ carom_status write_row(struct run *run, const carom_report *step, carom_error *e
 	return CAROM_OK;
 }
 
+static void write_hit(FILE *file, const carom_hit *hit)
+{
+	static const char *const walls[] = {"left", "bottom", "right", "top"};
+	fprintf(file, "%.17g,%u,", hit->time, hit->body);
+	if (hit->other < 0)
+		fputs(walls[CAROM_WALL_LEFT - hit->other], file);
+	else
+		fprintf(file, "%d", (int)hit->other);
+	fprintf(file, ",%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", (double)hit->point.x, (double)hit->point.y, (double)hit->normal.x, (double)hit->normal.y,
+		(double)hit->impulse.x, (double)hit->impulse.y, hit->is_ruled);
+}
+
+carom_status write_hits(struct run *run, carom_error *error)
+{
+	carom_hit hits[256];
+	const size_t count = carom_world_hit_count(run->world), most = sizeof hits / sizeof *hits;
+	for (size_t first = 0; first < count; first += most) {
+		const size_t some = count - first < most ? count - first : most;
+		const carom_status status = carom_world_get_hits(run->world, first, some, hits, error);
+		if (status != CAROM_OK)
+			return status;
+		for (size_t k = 0; k < some; k++)
+			write_hit(run->hits, &hits[k]);
+	}
+	return CAROM_OK;
+}
+
 /* ---- After the run ---- */
 
 static int tell(const struct run *run, carom_status status, const char *path, const carom_error *error)
@@ -171,6 +202,10 @@ int write_outputs(struct run *run)
 		code = tell(run, carom_file_commit(run->stats_file, &error), options->stats, &error);
 		run->stats_file = NULL;
 	}
+	if (run->hits_file) {
+		code = worse(code, tell(run, carom_file_commit(run->hits_file, &error), options->hits, &error));
+		run->hits_file = NULL;
+	}
 	if (run->frames_done > 0)
 		tell_frames(run);
 	if (options->png)
@@ -185,6 +220,7 @@ int write_outputs(struct run *run)
 void destroy_outputs(struct run *run)
 {
 	carom_file_destroy(run->stats_file);
+	carom_file_destroy(run->hits_file);
 	film_destroy(run->film);
 	free(run->pixels);
 }

@@ -75,6 +75,13 @@ static bool is_stream(const char *name)
 	return strncmp(name, "/dev/std", 8) == 0 || strncmp(name, "/dev/fd/", 8) == 0 || strncmp(name, "/proc/self/fd/", 14) == 0;
 }
 
+bool are_one_stream(const char *a, const char *b)
+{
+	struct stat there, other;
+	return is_stream(a) && is_stream(b) && stat(a, &there) == 0 && stat(b, &other) == 0 && there.st_dev == other.st_dev
+		&& there.st_ino == other.st_ino;
+}
+
 bool are_one_file(const char *a, const char *b)
 {
 	char first[PATH_MAX], second[PATH_MAX];

@@ -95,6 +95,8 @@ static const struct option options_table[] = {
 	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames for a simulated second, at most 1000000; default 30"},
 	{"stats", "FILE.csv", read_output, offsetof(struct run_options, stats),
 		"write a table with a row a step: time, hits, energy, momenta, deepest penetration"},
+	{"hits", "FILE.csv", read_output, offsetof(struct run_options, hits),
+		"write a table with a row a hit: when, of what with what, where, the normal and the impulse"},
 	{"hash", NULL, NULL, offsetof(struct run_options, hash), "print a 64-bit hash of the last state, 16 hexadecimal digits"},
 	{"size", "WxH", read_size, offsetof(struct run_options, size), "pixels of the pictures; default 1280x720"},
 	{"inset", "X,Y,W,H", read_inset, 0,
@@ -115,14 +117,16 @@ static bool is_frame(const char *path, const char *frames)
 /* Two outputs in one file: the first would be lost. */
 static carom_status check_paths(const struct run_options *options, carom_error *error)
 {
-	const char *const paths[] = {options->out, options->png, options->stats, options->frames};
+	const char *const paths[] = {options->out, options->png, options->stats, options->hits, options->frames};
 	for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
 		bool taken = paths[k] && options->frames && is_frame(paths[k], options->frames);
 		for (size_t i = 0; paths[k] && i < k; i++)
 			taken = taken || (paths[i] && are_one_file(paths[i], paths[k]));
 		if (taken)
-			return wrong(error, "%s: two of --out, --png, --stats and --frames write there; give each a name of its own", paths[k]);
+			return wrong(error, "%s: two of --out, --png, --stats, --hits and --frames write there; give each a name of its own", paths[k]);
 	}
+	if (options->stats && options->hits && are_one_stream(options->stats, options->hits))
+		return wrong(error, "--stats and --hits: both tables go to %s, row by row, where their rows would mix; write one to a file", options->stats);
 	return CAROM_OK;
 }
 
@@ -132,6 +136,7 @@ static carom_status check_scene_stays(const struct run_options *options, carom_e
 	const char *scene = options->common.arguments[0];
 	const char *option = options->png && are_one_file(scene, options->png) ? "--png"
 		: options->stats && are_one_file(scene, options->stats)            ? "--stats"
+		: options->hits && are_one_file(scene, options->hits)              ? "--hits"
 		: options->frames && is_frame(scene, options->frames)              ? "--frames"
 																		   : NULL;
 	return option ? wrong(error, "%s: %s would replace the scene; only --out may, which writes one", scene, option) : CAROM_OK;
@@ -255,6 +260,7 @@ static int run_scene(const struct run_options *options, carom_scene *scene)
 	carom_error error;
 	int code;
 	carom_status status = apply_options(common, &scene->world, &error);
+	scene->world.keep_hits = options->hits != NULL;
 	if (status == CAROM_OK)
 		status = prepare_outputs(&run, &error);
 	if (status == CAROM_OK) {
@@ -298,8 +304,8 @@ const struct command run_command = {
 	.most_arguments = 1,
 	.summary = "Simulates a scene and writes states, pictures and tables",
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
-			   "As --out, --png or --stats, - is standard output.\n"
-			   "What several write there follows each other: the table, the picture, the state, and the hash as the last line.\n"
+			   "As --out, --png, --stats or --hits, - is standard output.\n"
+			   "What several write there follows each other: the table (one of the two), the picture, the state, and the hash as the last line.\n"
 			   "--out may write over SCENE.json: the state takes its place. No other output may, and each has a file of its own.\n"
 			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first\n"
 			   "hit, so --steps counts those, and --time counts simulated seconds. With --time, the step before the end\n"

@@ -7,10 +7,10 @@
 
 struct run_options {
 	struct common_options common;
-	uint64_t steps;                         /* NO_STEPS if not given */
-	double time;                            /* s; below 0 if not given */
-	const char *out, *png, *stats, *frames; /* paths; NULL if not asked for */
-	double fps;                             /* 0 if not given */
+	uint64_t steps;                                /* NO_STEPS if not given */
+	double time;                                   /* s; below 0 if not given */
+	const char *out, *png, *stats, *hits, *frames; /* paths; NULL if not asked for */
+	double fps;                                    /* 0 if not given */
 	bool hash;
 	uint32_t size[2]; /* pixels; 0 if not given */
 	bool has_inset;
@@ -32,10 +32,10 @@ struct run {
 	carom_camera camera;
 	carom_world *world;
 	carom_render_def render;
-	struct film *film;      /* NULL if no frames are asked for */
-	uint8_t *pixels;        /* NULL if no picture of the end is asked for */
-	carom_file *stats_file; /* NULL if no table is asked for */
-	FILE *stats;
+	struct film *film;                  /* NULL if no frames are asked for */
+	uint8_t *pixels;                    /* NULL if no picture of the end is asked for */
+	carom_file *stats_file, *hits_file; /* NULL if no such table is asked for */
+	FILE *stats, *hits;
 	uint64_t frames_done; /* drawn, and when the simulation has ended, written */
 	carom_report total;
 	bool interrupted;
@@ -52,7 +52,7 @@ carom_status simulate(struct run *run, carom_error *error);
 
 /* Memory for a picture, to be given to free. */
 carom_status allocate_pixels(const carom_render_def *render, uint8_t **pixels, carom_error *error);
-/* Fails where an output could not be written in the end, before hours are spent on it, and opens the table. */
+/* Fails where an output could not be written in the end, before hours are spent on it, and opens the tables. */
 carom_status prepare_outputs(struct run *run, carom_error *error);
 /* The camera of a film, which the world decides where the scene does not. Says so where the enlarged part is not in the picture. */
 carom_status prepare_camera(struct run *run, carom_error *error);
@@ -61,7 +61,9 @@ double next_frame(const struct run *run);
 carom_status write_frame(struct run *run, carom_error *error);
 /* A row for the step just done. */
 carom_status write_row(struct run *run, const carom_report *step, carom_error *error);
-/* The last state, the picture, the table. Tries each even if one fails; the exit code. */
+/* A row for each hit of the last call. */
+carom_status write_hits(struct run *run, carom_error *error);
+/* The last state, the picture, the tables. Tries each even if one fails; the exit code. */
 int write_outputs(struct run *run);
 void destroy_outputs(struct run *run);
 

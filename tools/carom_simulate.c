@@ -30,6 +30,10 @@ static carom_status account(struct run *run, const carom_report *done, carom_sta
 	run->total.held += done->held;
 	run->total.advanced += done->advanced;
 	go_on(run, &nothing);
+	if (run->hits && done->steps > 0) { /* also of a call that failed in the end */
+		const carom_status written = write_hits(run, status == CAROM_OK ? error : NULL);
+		status = status == CAROM_OK ? written : status;
+	}
 	if (status == CAROM_OK && run->stats && done->steps > 0)
 		status = write_row(run, done, error);
 	return status;
@@ -42,13 +46,19 @@ static carom_status step(struct run *run, uint64_t steps, carom_error *error)
 	return account(run, &done, status, error);
 }
 
-/* --time: ends at `until` exactly, with --stats step by step. */
+/* Steps that one call makes at most: a row of --stats needs each by itself, and the hits of a call are in memory until they are written. */
+static uint64_t most_at_once(const struct run *run)
+{
+	return run->stats ? 1 : run->hits ? 256 : UINT64_MAX;
+}
+
+/* --time: ends at `until` exactly. */
 static carom_status run_until(struct run *run, double until, carom_error *error)
 {
 	carom_status status = CAROM_OK;
 	while (status == CAROM_OK && !run->interrupted && carom_world_time(run->world) < until) {
 		carom_report done = {0};
-		status = carom_world_advance_to(run->world, until, run->stats ? 1 : UINT64_MAX, &done, error);
+		status = carom_world_advance_to(run->world, until, most_at_once(run), &done, error);
 		status = account(run, &done, status, error);
 		if (done.steps == 0) /* a world without bodies */
 			break;
@@ -86,7 +96,7 @@ static uint64_t whole_steps(const struct run *run, double until)
 /* How many steps to take at once: up to the row or the frame that is next. */
 static uint64_t steps_at_once(const struct run *run, uint64_t left)
 {
-	uint64_t most = run->stats ? 1 : left;
+	uint64_t most = most_at_once(run) < left ? most_at_once(run) : left;
 	uint64_t before_frame = run->options->frames ? whole_steps(run, next_frame(run)) : NO_STEPS;
 	if (before_frame < most)
 		most = before_frame > 0 ? before_frame : 1;

@@ -75,6 +75,8 @@ read_option read_path;   /* the same where standard output can't be meant */
 carom_status try_path(const char *path, carom_error *error);
 /* Would what is in one be lost by writing to the other? Names are followed to where they lead, and a file may have several. */
 bool are_one_file(const char *a, const char *b);
+/* Are both the same open descriptor, in which what is written to them at once would mix? */
+bool are_one_stream(const char *a, const char *b);
 
 /* ---- carom_interrupt.c */
 

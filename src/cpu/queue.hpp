@@ -273,17 +273,18 @@ private:
 		if (other < 0 && changes)
 			push(s, id, way, hit, true, rapid, past.borne);
 		if (hit.total > 0)
-			count_hit(id, hit, past.events);
+			count_hit(id, other_id, hit);
 	}
 
-	void count_hit(int32_t id, const Impact<T> &hit, int32_t order)
+	void count_hit(int32_t id, int32_t other_id, const Impact<T> &hit)
 	{
 		const T *next = work[id].next;
 		members[id].hits++;
 		members[id].ruled += hit.ruled;
 		if (hits.are_kept())
-			hits.keep(members[id], {next[NEXT_TIME], next[NEXT_ROW], next[NEXT_COLUMN], static_cast<T>(order), hit.at.point.x(), hit.at.point.y(),
-				hit.at.normal.x(), hit.at.normal.y(), hit.x, hit.y, T(hit.ruled), 0, 0, 0, 0, 0});
+			hits.keep(members[id], other_id >= 0 ? &members[other_id] : nullptr,
+				{next[NEXT_TIME], next[NEXT_ROW], next[NEXT_COLUMN], 0, hit.at.point.x(), hit.at.point.y(), hit.at.normal.x(), hit.at.normal.y(),
+					hit.x, hit.y, T(hit.ruled), 0, 0, 0, 0, 0});
 	}
 
 	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact<T> &hit, bool is_row, bool rapid, bool borne)

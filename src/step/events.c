@@ -321,7 +321,8 @@ uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_d
 	(void)pipeline;
 	const uint64_t corners = vertex_count > body_count ? 2 * (uint64_t)carom_capacity((vertex_count + body_count) / 2) : 1;
 	choose_cells(&cells, (uint32_t)n);
-	return 16 * (corners + HITS_WIDTH * first_hits(def, n)) + n * (16 * records + 4 * lists) + numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
+	return 16 * (corners + HITS_WIDTH * first_hits(def, n)) + n * (16 * records + 4 * lists)
+		+ numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
 		+ 4 * (extra_of(n) + movers_of((uint32_t)n) + CELL_WIDTH * (uint64_t)cells.columns * CELL_ROWS(cells.rows) + STATUS_WIDTH);
 }
 
@@ -329,7 +330,11 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
-	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n, .node_room = (uint32_t)n / 2 + 1, .hit_room = (uint32_t)first_hits(&world->def, n), .steps_a_list = 6, .rounds = 2};
+	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n,
+		.node_room = (uint32_t)n / 2 + 1,
+		.hit_room = (uint32_t)first_hits(&world->def, n),
+		.steps_a_list = 6,
+		.rounds = 2};
 	choose_cells(events, world->capacity);
 	TRY(carom_events_create_list(world, ROLE_OUTLINES, false, world->polygon_capacity ? 2 * (uint64_t)world->polygon_capacity : 1, error));
 	TRY(carom_events_create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
@@ -352,6 +357,5 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	return carom_events_create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }
 
-const carom_step carom_step_events = {
-	"events", false, carom_events_prepare, run, carom_events_begin, carom_events_finish, carom_events_unload, carom_events_take_hits, false,
-	carom_events_memory};
+const carom_step carom_step_events = {"events", false, carom_events_prepare, run, carom_events_begin, carom_events_finish, carom_events_unload,
+	carom_events_take_hits, false, carom_events_memory};
