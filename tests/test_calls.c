@@ -86,7 +86,7 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C run scenes/mixed.json --out ''", "--out: found nothing; allowed: a text that is not empty"},
 		{"$C run scenes/mixed.json --out $D/a --png $D/a", "/a: two of --out, --png, --stats, --hits and --frames write there"},
 		{"$C run scenes/mixed.json --out $D/a --png $D/./a", "/a: two of --out, --png, --stats, --hits and --frames write there"},
-		{"ln -s a $D/l; $C run scenes/mixed.json --stats $D/a --png $D/l; code=$?; rm $D/l; exit $code", "/a: two of --out, --png, --stats and"},
+		{"ln -s a $D/l; $C run scenes/mixed.json --stats $D/a --png $D/l; code=$?; rm $D/l; exit $code", "/a: two of --out, --png, --stats, --hits and"},
 		{"ln -s a $D/l; touch $D/a; $C run scenes/mixed.json --out $D/l --png $D/a; code=$?; rm $D/a $D/l; exit $code", "/a: two of --out, "},
 		{"mkdir $D/f; $C run scenes/mixed.json --png $D/f/frame_000001.png --frames $D/./f; code=$?; rmdir $D/f; exit $code", "_000001.png: two of"},
 		{"$C run scenes/mixed.json --out /dev/stdout --png $D/out", "two of --out, --png, --stats, --hits and --frames write there"},
