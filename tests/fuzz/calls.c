@@ -55,6 +55,7 @@ static void create(calls *c)
 	carom_world_def def = bytes_world_def(&c->bytes);
 	carom_error error = fuzz_blank();
 	def.threads = c->threads;
+	def.keep_hits = true;
 	if (!calls_judge(c, carom_world_create(&def, &world, &error), &error)) {
 		FUZZ_EXPECT(world == (carom_world *)c && !c->bytes.tame);
 		return;

@@ -63,6 +63,27 @@ static void judge_states(calls *c, bool began_apart)
 	}
 }
 
+/* As many as the report has, one after the other, or none, in a world of a scene. */
+static void judge_hits(calls *c, double begun, const carom_report *report)
+{
+	const int32_t bodies = (int32_t)carom_world_body_count(*c->slot);
+	const size_t count = carom_world_hit_count(*c->slot);
+	carom_hit hit;
+	double before = begun;
+	FUZZ_EXPECT(count == (carom_world_get_def(*c->slot)->keep_hits ? report->hits : 0));
+	FUZZ_EXPECT(carom_world_get_hits(*c->slot, count, 1, &hit, NULL) == CAROM_INVALID_ARGUMENT);
+	for (size_t k = 0; k < count; k++, before = hit.time) {
+		FUZZ_EXPECT(carom_world_get_hits(*c->slot, k, 1, &hit, NULL) == CAROM_OK);
+		FUZZ_EXPECT((int32_t)hit.body < bodies && hit.other < (int32_t)hit.body && hit.other >= CAROM_WALL_TOP);
+		FUZZ_EXPECT(hit.time >= before - 1e-9 * before && hit.time <= (begun + report->advanced) * (1 + 1e-9));
+		FUZZ_EXPECT(fabsf(hypotf(hit.normal.x, hit.normal.y) - 1) < 1e-5f);
+		FUZZ_EXPECT(isfinite(hit.point.x) && isfinite(hit.point.y) && isfinite(hit.impulse.x) && isfinite(hit.impulse.y));
+		calls_note(c, &hit.time, sizeof hit.time);
+		calls_note(c, &hit.point, sizeof hit.point);
+		calls_note(c, &hit.impulse, sizeof hit.impulse);
+	}
+}
+
 /* ---- Time passes */
 
 typedef struct passing {
@@ -95,6 +116,7 @@ static void end(calls *c, const passing *p, carom_status status)
 	spend(c, report->steps + report->hits / HITS_A_STEP);
 	calls_note(c, report, sizeof *report);
 	calls_look(c);
+	judge_hits(c, p->time, report);
 	judge_states(c, p->before.max_penetration == 0);
 	const carom_measure after = measured(c);
 	const double gain = p->before.kinetic_energy * (GAIN + GAIN_A_HIT * (double)report->hits);
