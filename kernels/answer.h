@@ -8,7 +8,7 @@ void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, in
 	work[WORK_WIDTH * id + WORK_NEXT] = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	work[WORK_WIDTH * id + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
 	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_STUCK)] = 0;
-	members[MEMBER(id, MEMBER_HITS)] = members[MEMBER(id, MEMBER_RULED)] = members[MEMBER(id, MEMBER_ORDER)] = 0;
+	members[MEMBER(id, MEMBER_HITS)] = members[MEMBER(id, MEMBER_RULED)] = 0;
 	members[MEMBER(id, MEMBER_KEPT)] = -1;
 }
 
@@ -105,20 +105,15 @@ rules_of_hit event_rules(float restitution, float friction, bool rapid, int even
 }
 
 /* Keeps a hit, where hits are kept, as one of the member's; false if there is no room. */
-bool hit_keep(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(hits), int id, int other_id, float4 next, float4 j, impact hit)
+bool hit_keep(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(hits), int id, float4 next, float4 j, impact hit)
 {
 	if (status[STATUS_KEPT_ROOM] == 0)
 		return true;
-	int k = atomic_inc(&status[STATUS_KEPT]), order = members[MEMBER(id, MEMBER_ORDER)];
+	int k = atomic_inc(&status[STATUS_KEPT]);
 	if (k >= status[STATUS_KEPT_ROOM])
 		return false;
-	if (other_id >= 0) {
-		order = max(order, members[MEMBER(other_id, MEMBER_ORDER)]);
-		members[MEMBER(other_id, MEMBER_ORDER)] = order + 1;
-	}
-	members[MEMBER(id, MEMBER_ORDER)] = order + 1;
 	__global float4 *to = hits + HITS_WIDTH * k;
-	to[HITS_WHO] = (float4)(CHANNEL(next, NEXT_TIME), CHANNEL(next, NEXT_ROW), CHANNEL(next, NEXT_COLUMN), (float)order);
+	to[HITS_WHO] = (float4)(CHANNEL(next, NEXT_TIME), CHANNEL(next, NEXT_ROW), CHANNEL(next, NEXT_COLUMN), 0.0f);
 	to[HITS_WHERE] = hit.where;
 	to[HITS_WHAT] = (float4)(CHANNEL(j, IMPULSE_X), CHANNEL(j, IMPULSE_Y), hit.ruled ? 1.0f : 0.0f, (float)members[MEMBER(id, MEMBER_KEPT)]);
 	to[HITS_WHEN] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
@@ -164,7 +159,7 @@ void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 	if (hit.total > 0.0f) {
 		members[MEMBER(id, MEMBER_HITS)]++;
 		members[MEMBER(id, MEMBER_RULED)] += hit.ruled ? 1 : 0;
-		stays = hit_keep(status, members, hits, id, other_id, next, j, hit);
+		stays = hit_keep(status, members, hits, id, next, j, hit);
 	}
 	if (can_change(slots, s, was)) {
 		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), rapid,

@@ -203,8 +203,8 @@
 #define SPREAD_ROUND 2
 #define SPREAD_EVENTS 16
 
-/* Members: fifteen ints a number */
-#define MEMBER_WIDTH 15
+/* Members: fourteen ints a number */
+#define MEMBER_WIDTH 14
 #define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
 #define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
@@ -219,7 +219,6 @@
 #define MEMBER_BEFORE 11  /* and the one before, or for the first the one above */
 #define MEMBER_RULED 12   /* of its hits: those that were answered otherwise than by their restitution */
 #define MEMBER_KEPT 13    /* the first of its hits in Hits, -1 for none */
-#define MEMBER_ORDER 14   /* WHO_ORDER of the next hit that is kept, at least */
 
 /* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 
@@ -244,16 +243,16 @@
 #define HORIZON 6      /* steps that one look is good for; 1 where a BUSY-th of the bodies or more are in clusters: it would not pay */
 #define BUSY 6
 
-/* Hits: four records a hit, where hits are kept, in any order; also some that did not come to pass, of steps or clusters that began again */
+/* Hits: four records a hit, where hits are kept: those of a cluster as they were answered, one after the other, but between them those of others; also some that did
+ * not come to pass, of steps or clusters that began again */
 #define HITS_WIDTH 4
 #define HITS_MOST (1 << 24) /* as many as a float can count */
 #define HITS_WHO 0          /* record */
 #define WHO_TIME 0          /* part of the step */
 #define WHO_ROW 1           /* bodies, as in NEXT_ROW */
 #define WHO_COLUMN 2
-#define WHO_ORDER 3  /* more than that of each hit before in the step that a party was in: of hits at the same time, what leads to another has less */
-#define HITS_WHERE 1 /* record: as IMPULSE_WHERE; A is the row body */
-#define HITS_WHAT 2  /* record */
+#define HITS_WHERE 1     /* record: as IMPULSE_WHERE; A is the row body */
+#define HITS_WHAT 2      /* record */
 #define WHAT_IMPULSE_X 0 /* N s, on the row body; the other gets the opposite */
 #define WHAT_IMPULSE_Y 1
 #define WHAT_RULED 2 /* 1: it counts in STATUS_RULED */

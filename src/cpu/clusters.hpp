@@ -13,7 +13,7 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 	work.next[NEXT_TIME] = NO_HIT;
 	work.box[0] = work.box[2] = slot.place[LINEAR_X];
 	work.box[1] = work.box[3] = slot.place[LINEAR_Y];
-	member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = member.order = 0;
+	member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
 	member.kept = -1;
 }
 

@@ -4,13 +4,11 @@
 
 #include "cpu/reach.hpp"
 
-#include <algorithm>
-
 namespace carom::cpu {
 
 /* The records of a hit, as they lie in memory. */
 template <typename T> struct KeptHit {
-	T time, row, column, order;
+	T time, row, column, unused;
 	T x, y, normal_x, normal_y;
 	T impulse_x, impulse_y, ruled, link;
 	T elapsed, elapsed_low, length, step;
@@ -27,19 +25,14 @@ public:
 
 	bool are_kept() const { return status[STATUS_KEPT_ROOM] > 0; }
 
-	/* As one of the member's; the other party has a number or not. Where there is no room the step begins again, but goes on as long as it tells how much is needed. */
-	void keep(Member &member, Member *other, KeptHit<T> hit) const
+	/* As one of the member's. Where there is no room the step begins again, but goes on as long as it tells how much is needed. */
+	void keep(Member &member, KeptHit<T> hit) const
 	{
-		const int32_t order = other ? std::max(member.order, other->order) : member.order;
 		const int32_t k = fetch_add(&status[STATUS_KEPT], 1);
 		if (k >= status[STATUS_KEPT_ROOM]) {
 			__atomic_store_n(&status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
 			return;
 		}
-		member.order = order + 1;
-		if (other)
-			other->order = order + 1;
-		hit.order = static_cast<T>(order);
 		hit.link = static_cast<T>(member.kept);
 		hit.step = 0;
 		hits[k] = hit;

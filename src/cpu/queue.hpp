@@ -273,16 +273,16 @@ private:
 		if (other < 0 && changes)
 			push(s, id, way, hit, true, rapid, past.borne);
 		if (hit.total > 0)
-			count_hit(id, other_id, hit);
+			count_hit(id, hit);
 	}
 
-	void count_hit(int32_t id, int32_t other_id, const Impact<T> &hit)
+	void count_hit(int32_t id, const Impact<T> &hit)
 	{
 		const T *next = work[id].next;
 		members[id].hits++;
 		members[id].ruled += hit.ruled;
 		if (hits.are_kept())
-			hits.keep(members[id], other_id >= 0 ? &members[other_id] : nullptr,
+			hits.keep(members[id],
 				{next[NEXT_TIME], next[NEXT_ROW], next[NEXT_COLUMN], 0, hit.at.point.x(), hit.at.point.y(), hit.at.normal.x(), hit.at.normal.y(),
 					hit.x, hit.y, T(hit.ruled), 0, 0, 0, 0, 0});
 	}
