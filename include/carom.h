@@ -137,7 +137,7 @@ typedef struct carom_body_state {
 } carom_body_state;
 
 /** What a body is: everything of it that does not move. The pointers live as long as the world and its bodies do:
- * until the next carom_world_add or carom_world_destroy. */
+ * until the next carom_world_add, carom_world_remove or carom_world_destroy. */
 typedef struct carom_body_info {
 	carom_shape shape;          /**< as it was given */
 	float radius;               /**< m, of a circle or a regular polygon, else of the circle about the centre of mass that holds the body */
@@ -276,7 +276,11 @@ CAROM_API void carom_world_destroy(carom_world *world);
  * 4,194,304 bodies and 25,165,824 vertices of polygons at most; equal polygons mostly share theirs. */
 CAROM_API carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error);
 
-/** How many were added. */
+/** Removes the bodies of these indices, all or none; those behind them get lower indices, in the same order. So the world goes on as one would that never had them, with the
+ * others' contacts; the hits of the last call are forgotten. CAROM_INVALID_ARGUMENT names what is no body, or is there twice (as `indices[k]`). */
+CAROM_API carom_status carom_world_remove(carom_world *world, const uint32_t *indices, size_t count, carom_error *error);
+
+/** How many there are. */
 CAROM_API size_t carom_world_body_count(const carom_world *world);
 /** What a body is. CAROM_INVALID_ARGUMENT if there is no body of that index. */
 CAROM_API carom_status carom_world_get_body(const carom_world *world, uint32_t index, carom_body_info *info, carom_error *error);
@@ -289,6 +293,11 @@ CAROM_API carom_status carom_world_get_states(carom_world *world, uint32_t first
 CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error);
 /** A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none: for it anything but 0 is CAROM_INVALID_ARGUMENT. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
+
+/** Gravity (m/s^2, finite) from now on; carom_world_get_def has it, too. */
+CAROM_API carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, carom_error *error);
+/** The time step (s) from now on, as in carom_world_def; carom_world_get_def has it, too. */
+CAROM_API carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error);
 
 #define CAROM_MAX_CONTACTS 12 /**< of a body that moves, in the step contacts; one with more is not borne, but hit */
 
@@ -372,7 +381,7 @@ CAROM_API void carom_world_set_progress(carom_world *world, carom_progress progr
 
 /** Simulated seconds since the world was created. */
 CAROM_API double carom_world_time(const carom_world *world);
-/** What the world was made from; it lives as long as the world. */
+/** What the world was made from, with what was changed since; it lives as long as the world. */
 CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 /** The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);

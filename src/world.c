@@ -148,14 +148,14 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	return CAROM_OK;
 }
 
-/* Once something rubs the step may need more. */
-static void look_for_friction(carom_world *world, size_t first)
+void carom_look_for_friction(carom_world *world, size_t first)
 {
 	const carom_body *bodies = carom_world_bodies(world);
-	for (size_t i = first; i < world->body_count && !world->rubs; i++) {
+	const bool rubbed = world->rubs;
+	world->rubs = rubbed && first > 0;
+	for (size_t i = first; i < world->body_count && !world->rubs; i++)
 		world->rubs = bodies[i].friction > 0.0f;
-		world->prepared = world->prepared && !world->rubs;
-	}
+	world->prepared = world->prepared && world->rubs == rubbed;
 }
 
 carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error)
@@ -183,10 +183,10 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 		world->body_count = before;
 		return status;
 	}
-	look_for_friction(world, before);
+	carom_look_for_friction(world, before);
 	if (first)
 		*first = (uint32_t)before;
-	world->bodies_current = world->device_current = false;
+	world->bodies_current = world->device_current = world->contacts_sent = false; /* where others were before, the device still has their contacts */
 	return CAROM_OK;
 }
 
@@ -232,7 +232,7 @@ bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *ti
 	return true;
 }
 
-static carom_status check_range(const carom_world *world, uint32_t first, size_t count, carom_error *error)
+carom_status carom_check_bodies(const carom_world *world, uint32_t first, size_t count, carom_error *error)
 {
 	if (first > world->body_count || count > world->body_count - first)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies %u to %zu: the world has %zu", first,
@@ -245,7 +245,7 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 	const carom_body *body;
 	GIVEN(world, error);
 	GIVEN(info, error);
-	TRY(check_range(world, index, 1, error));
+	TRY(carom_check_bodies(world, index, 1, error));
 	body = &carom_world_bodies(world)[index];
 	*info = (carom_body_info){
 		.shape = body->shape,
@@ -272,7 +272,7 @@ carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t c
 	GIVEN(world, error);
 	if (count > 0)
 		GIVEN(states, error);
-	TRY(check_range(world, first, count, error));
+	TRY(carom_check_bodies(world, first, count, error));
 	TRY(carom_textures_fetch(world, error));
 	for (size_t i = 0; i < count; i++) {
 		const float *l = (const float *)world->linear.items + 4 * (first + i), *r = (const float *)world->rotational.items + 4 * (first + i);
@@ -299,7 +299,7 @@ carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t c
 	TRY(carom_check_idle(world, error));
 	if (count > 0)
 		GIVEN(states, error);
-	TRY(check_range(world, first, count, error));
+	TRY(carom_check_bodies(world, first, count, error));
 	for (size_t i = 0; i < count; i++)
 		TRY(check_state(world, first + (uint32_t)i, &states[i], error));
 	TRY(carom_textures_fetch(world, error));
@@ -313,23 +313,6 @@ carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t c
 		r[ROTATIONAL_VELOCITY] = states[i].angular_velocity;
 	}
 	world->device_current = false;
-	return CAROM_OK;
-}
-
-carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error)
-{
-	carom_body *body;
-	GIVEN(world, error);
-	TRY(carom_check_idle(world, error));
-	TRY(check_range(world, index, 1, error));
-	body = &carom_world_bodies(world)[index];
-	if (!carom_is_finite(force) || !isfinite(torque))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
-	if (body->is_static && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and feels no force", index);
-	body->force = force;
-	body->torque = torque;
-	world->bodies_current = false;
 	return CAROM_OK;
 }
 

@@ -121,6 +121,10 @@ struct carom_world {
 carom_status carom_body_make(const carom_body_def *def, const carom_world *world, size_t index, carom_body *body, carom_vec2 *vertices,
 	carom_error *error);
 carom_body *carom_world_bodies(const carom_world *world);
+/* world.c: are there so many bodies from that index on? */
+carom_status carom_check_bodies(const carom_world *world, uint32_t first, size_t count, carom_error *error);
+/* Once something rubs, or nothing does any more, the step needs other textures: of bodies from that index on that are new, or of all from 0. */
+void carom_look_for_friction(carom_world *world, size_t first);
 
 /* outlines.c. Has the world room for so many vertices more? */
 #define CAROM_MOST_VERTICES (6u << 22) /* with those of circles they take 2^24 texels at most, and so do the indices of these */

@@ -81,6 +81,7 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	carom_body_state state;
 	carom_contact contact;
 	carom_hit hit;
+	uint32_t index = 0;
 	carom_device_info device;
 	carom_measure measure;
 	size_t count = 9;
@@ -96,6 +97,10 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	REFUSE("world", carom_world_set_states(NULL, 0, 1, &state, &error));
 	REFUSE("states", carom_world_set_states(world, 0, 1, NULL, &error));
 	REFUSE("world", carom_world_set_force(NULL, 0, none, 0.0f, &error));
+	REFUSE("world", carom_world_set_gravity(NULL, none, &error));
+	REFUSE("world", carom_world_set_time_step(NULL, 0.1f, &error));
+	REFUSE("world", carom_world_remove(NULL, &index, 1, &error));
+	REFUSE("indices", carom_world_remove(world, NULL, 1, &error));
 	REFUSE("world", carom_world_contact_count(NULL, &count, &error));
 	REFUSE("count", carom_world_contact_count(world, NULL, &error));
 	REFUSE("world", carom_world_get_contacts(NULL, 0, 0, &contact, &error));
@@ -175,6 +180,7 @@ static void what_need_not_be_given(void **unused)
 	assert_int_equal(carom_world_set_states(world, 1, 0, NULL, NULL), CAROM_OK);
 	assert_int_equal(carom_world_get_contacts(world, 0, 0, NULL, NULL), CAROM_OK);
 	assert_int_equal(carom_world_get_hits(world, 0, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_remove(world, NULL, 0, NULL), CAROM_OK);
 	assert_int_equal(carom_world_hit_count(NULL), 0);
 	assert_int_equal(carom_world_set_contacts(world, 0, NULL, NULL), CAROM_OK);
 	carom_world_set_progress(NULL, NULL, NULL);

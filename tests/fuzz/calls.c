@@ -256,6 +256,35 @@ static void ask(calls *c)
 	FUZZ_EXPECT(*carom_version());
 }
 
+/* Any bodies, now and then one that is not there, or one twice. */
+static void remove_some(calls *c)
+{
+	uint32_t indices[4];
+	carom_error error = fuzz_blank();
+	const size_t count = bytes_below(&c->bytes, COUNT(indices) + 1);
+	const snapshot before = calls_look(c);
+	for (size_t k = 0; k < count; k++)
+		indices[k] = any_index(c);
+	if (!calls_judge(c, carom_world_remove(*c->slot, indices, count, &error), &error)) {
+		FUZZ_EXPECT(strncmp(error.text, "indices[", 8) == 0);
+		calls_same(c, before);
+		return;
+	}
+	FUZZ_EXPECT(calls_look(c).count == before.count - count);
+	FUZZ_EXPECT(count == 0 || carom_world_hit_count(*c->slot) == 0);
+}
+
+static void change(calls *c)
+{
+	const carom_world_def def = bytes_world_def(&c->bytes);
+	carom_error error = fuzz_blank();
+	if (calls_judge(c, carom_world_set_gravity(*c->slot, def.gravity, &error), &error))
+		FUZZ_EXPECT(carom_world_get_def(*c->slot)->gravity.x == def.gravity.x);
+	error = fuzz_blank();
+	if (calls_judge(c, carom_world_set_time_step(*c->slot, def.time_step, &error), &error))
+		FUZZ_EXPECT(carom_world_get_def(*c->slot)->time_step == def.time_step);
+}
+
 /* ---- Which call */
 
 typedef struct call {
@@ -267,7 +296,7 @@ static const call all[] = {{create, false}, {add, true}, {add, true}, {add, true
 	{calls_step, true}, {calls_advance, true}, {calls_advance_to, true}, {calls_break_off, true}, {get_body, true}, {get_states, true},
 	{set_states, true}, {set_force, true}, {measure, true}, {calls_render, true}, {calls_scene, true}, {destroy, true}, {add_too_many, true},
 	{calls_parse, false}, {calls_png, false}, {calls_file, false}, {set_pipeline, false}, {list, false}, {ask, false}, {set_contacts, true},
-	{get_contacts, true}};
+	{get_contacts, true}, {remove_some, true}, {change, true}};
 
 void calls_make(calls *c)
 {

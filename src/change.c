@@ -1,0 +1,173 @@
+/* What may be changed of a world once it is made: what pushes its bodies, how long its steps are, and which bodies there are. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "status.h"
+#include "world.h"
+
+carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error)
+{
+	carom_body *body;
+	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_bodies(world, index, 1, error));
+	body = &carom_world_bodies(world)[index];
+	if (!carom_is_finite(force) || !isfinite(torque))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
+	if (body->is_static && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and feels no force", index);
+	body->force = force;
+	body->torque = torque;
+	world->bodies_current = false;
+	return CAROM_OK;
+}
+
+/* What the def says from now on, if that is allowed. */
+static carom_status change_def(carom_world *world, const carom_world_def *def, carom_error *error)
+{
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_world_def(def, error));
+	world->def = *def;
+	world->bodies_current = false;
+	return CAROM_OK;
+}
+
+carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, carom_error *error)
+{
+	GIVEN(world, error);
+	carom_world_def def = world->def;
+	def.gravity = gravity;
+	return change_def(world, &def, error);
+}
+
+carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error)
+{
+	GIVEN(world, error);
+	carom_world_def def = world->def;
+	def.time_step = time_step;
+	return change_def(world, &def, error);
+}
+
+/* ---- Bodies that go ---- */
+
+#define GONE UINT32_MAX
+
+/* The new index of each body, or GONE. */
+static carom_status number_anew(const carom_world *world, const uint32_t *indices, size_t count, uint32_t *numbers, carom_error *error)
+{
+	uint32_t next = 0;
+	memset(numbers, 0, world->body_count * sizeof *numbers);
+	for (size_t k = 0; k < count; k++) {
+		if (indices[k] >= world->body_count)
+			return carom_fail(error, CAROM_INVALID_ARGUMENT, "indices[%zu]: found %u, the world has %zu bodies", k, indices[k], world->body_count);
+		if (numbers[indices[k]] == GONE)
+			return carom_fail(error, CAROM_INVALID_ARGUMENT, "indices[%zu]: body %u is there twice", k, indices[k]);
+		numbers[indices[k]] = GONE;
+	}
+	for (size_t i = 0; i < world->body_count; i++)
+		numbers[i] = numbers[i] == GONE ? GONE : next++;
+	return CAROM_OK;
+}
+
+/* The outlines and names of the bodies that stay, in a new world's arrays. False if there is no memory. */
+static bool keep_body(carom_world *to, const carom_world *from, size_t index)
+{
+	carom_body body = carom_world_bodies(from)[index];
+	const char *name = body.name ? (const char *)from->names.items + body.name - 1 : NULL;
+	carom_body *kept = carom_array_grow(&to->bodies, sizeof *kept);
+	if (!kept || (body.vertex_count > 1 && !carom_outlines_add(to, &body, (const carom_vec2 *)from->vertices.items + body.vertex_first)))
+		return false;
+	if (name) {
+		const size_t size = strlen(name) + 1;
+		char *copy = carom_array_grow(&to->names, size);
+		if (!copy)
+			return false;
+		memcpy(copy, name, size);
+		body.name = to->names.used - size + 1;
+	}
+	*kept = body;
+	return true;
+}
+
+/* The others' states move up, in place. */
+static void close_ranks(carom_world *world, const uint32_t *numbers)
+{
+	float *linear = world->linear.items, *rotational = world->rotational.items;
+	carom_contact *contacts = world->contacts.items;
+	const size_t count = world->contacts.used / sizeof *contacts;
+	size_t left = 0;
+	for (size_t i = 0; i < world->body_count; i++) {
+		if (numbers[i] == GONE)
+			continue;
+		memmove(linear + 4 * (size_t)numbers[i], linear + 4 * i, 4 * sizeof *linear);
+		memmove(rotational + 4 * (size_t)numbers[i], rotational + 4 * i, 4 * sizeof *rotational);
+	}
+	for (size_t k = 0; k < count; k++) {
+		carom_contact contact = contacts[k];
+		if (numbers[contact.body] == GONE || (contact.other >= 0 && numbers[contact.other] == GONE))
+			continue;
+		contact.body = numbers[contact.body];
+		contact.other = contact.other < 0 ? contact.other : (int32_t)numbers[contact.other];
+		contacts[left++] = contact;
+	}
+	world->contacts.used = left * sizeof *contacts;
+	world->contacts_sent = false;
+}
+
+static void swap_arrays(carom_array *a, carom_array *b)
+{
+	const carom_array kept = *a;
+	*a = *b;
+	*b = kept;
+}
+
+static carom_status remove_bodies(carom_world *world, const uint32_t *numbers, size_t count, carom_error *error)
+{
+	carom_world *kept = calloc(1, sizeof *kept); /* of which there is no more than what the host knows of bodies */
+	bool fits = kept != NULL;
+	for (size_t i = 0; fits && i < world->body_count; i++)
+		fits = numbers[i] == GONE || keep_body(kept, world, i);
+	if (fits) {
+		close_ranks(world, numbers);
+		swap_arrays(&world->bodies, &kept->bodies);
+		swap_arrays(&world->vertices, &kept->vertices);
+		swap_arrays(&world->names, &kept->names);
+		memcpy(world->notes, kept->notes, sizeof world->notes);
+		world->body_count -= count;
+		world->linear.used = world->rotational.used = world->body_count * 4 * sizeof(float);
+	}
+	if (kept) {
+		free(kept->bodies.items);
+		free(kept->vertices.items);
+		free(kept->names.items);
+		free(kept);
+	}
+	return fits ? CAROM_OK : carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to remove %zu bodies", count);
+}
+
+carom_status carom_world_remove(carom_world *world, const uint32_t *indices, size_t count, carom_error *error)
+{
+	uint32_t *numbers;
+	carom_status status;
+	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
+	if (count == 0)
+		return CAROM_OK;
+	GIVEN(indices, error);
+	TRY(carom_textures_fetch(world, error));
+	TRY(carom_contacts_fetch(world, error));
+	numbers = malloc((world->body_count + 1) * sizeof *numbers);
+	if (!numbers)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to remove %zu bodies", count);
+	status = number_anew(world, indices, count, numbers, error);
+	if (!status)
+		status = remove_bodies(world, numbers, count, error);
+	free(numbers);
+	if (status)
+		return status;
+	carom_look_for_friction(world, 0);
+	world->hits.used = 0; /* which were of other indices */
+	world->canvas.body_count = SIZE_MAX;
+	world->bodies_current = world->device_current = false;
+	return CAROM_OK;
+}
