@@ -453,6 +453,11 @@ CAROM_API carom_status carom_scene_create_world(const carom_scene *scene, carom_
  * whole or, on failure, as it was before. CAROM_INVALID_ARGUMENT: a camera that is not finite, or of no height. */
 CAROM_API carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error);
 
+/** The same as a text in memory, which ends in a NUL that does not count in *length (which may be NULL): carom_scene_parse reads it. */
+CAROM_API carom_status carom_scene_text_create(carom_world *world, const carom_camera *camera, char **text, size_t *length, carom_error *error);
+/** Releases the text. */
+CAROM_API void carom_scene_text_destroy(char *text);
+
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
 /** A part of the picture drawn again, enlarged, in a corner [figure 5]. */

@@ -293,27 +293,64 @@ static carom_status check_camera(const carom_camera *camera, carom_error *error)
 		(double)x, (double)y, (double)height);
 }
 
-carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error)
+static carom_status put_scene(carom_world *world, const carom_camera *camera, FILE *stream, carom_error *error)
 {
 	const carom_world_def defaults = carom_default_world_def();
-	carom_file *file = NULL;
-	GIVEN(world, error);
-	GIVEN(path, error);
-	struct writer writer = {NULL, carom_world_get_def(world), &defaults, carom_default_body_def()};
-	carom_status status = camera ? check_camera(camera, error) : CAROM_OK;
-	if (status == CAROM_OK)
-		status = carom_file_create(path, &file, &writer.stream, error);
-	if (status != CAROM_OK)
-		return status;
-	put_world(&writer, camera);
+	const struct writer writer = {stream, carom_world_get_def(world), &defaults, carom_default_body_def()};
 	carom_contact *contacts = NULL;
 	size_t contact_count = 0;
-	status = get_contacts(world, &contacts, &contact_count, error);
+	put_world(&writer, camera);
+	carom_status status = get_contacts(world, &contacts, &contact_count, error);
 	if (status == CAROM_OK)
 		status = put_bodies(&writer, world, contacts, contact_count, error);
 	free(contacts);
+	return status;
+}
+
+carom_status carom_world_write_scene(carom_world *world, const carom_camera *camera, const char *path, carom_error *error)
+{
+	carom_file *file = NULL;
+	FILE *stream = NULL;
+	GIVEN(world, error);
+	GIVEN(path, error);
+	carom_status status = camera ? check_camera(camera, error) : CAROM_OK;
+	if (status == CAROM_OK)
+		status = carom_file_create(path, &file, &stream, error);
+	if (status != CAROM_OK)
+		return status;
+	status = put_scene(world, camera, stream, error);
 	if (status == CAROM_OK)
 		return carom_file_commit(file, error);
 	carom_file_destroy(file);
 	return status;
+}
+
+carom_status carom_scene_text_create(carom_world *world, const carom_camera *camera, char **text, size_t *length, carom_error *error)
+{
+	char *written = NULL;
+	size_t size = 0;
+	GIVEN(world, error);
+	GIVEN(text, error);
+	if (camera)
+		TRY(check_camera(camera, error));
+	FILE *stream = open_memstream(&written, &size);
+	carom_status status = stream ? put_scene(world, camera, stream, error) : CAROM_OK;
+	const bool lost = !stream || ferror(stream); /* fclose may not say so again */
+	if ((stream && fclose(stream) != 0) || lost)
+		status = status != CAROM_OK
+			? status
+			: carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to write a scene of %zu bodies", carom_world_body_count(world));
+	if (status != CAROM_OK) {
+		free(written);
+		return status;
+	}
+	*text = written;
+	if (length)
+		*length = size;
+	return CAROM_OK;
+}
+
+void carom_scene_text_destroy(char *text)
+{
+	free(text);
 }

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "runs.h"
 
@@ -37,16 +36,14 @@ static carom_world *world_of(const char *step, const scenery_device *device)
 /* One made from what the world is now. */
 static carom_world *twin_of(carom_world *world, const scenery_device *device)
 {
-	char path[] = "/tmp/carom-change-XXXXXX";
 	carom_scene *scene;
 	carom_world *twin;
 	carom_error error;
-	const int file = mkstemp(path);
-	assert_true(file >= 0);
-	close(file);
-	scenery_check(carom_world_write_scene(world, NULL, path, &error), &error);
-	scenery_check(carom_scene_read(path, &scene, &error), &error);
-	unlink(path);
+	char *text;
+	size_t length;
+	scenery_check(carom_scene_text_create(world, NULL, &text, &length, &error), &error);
+	scenery_check(carom_scene_parse(text, length, NULL, &scene, &error), &error);
+	carom_scene_text_destroy(text);
 	scene->world.device = device->name;
 	scene->world.storage = device->storage;
 	scenery_check(carom_scene_create_world(scene, &twin, &error), &error);

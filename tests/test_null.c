@@ -12,6 +12,7 @@ static void null_is_released(void **unused)
 	carom_scene_destroy(NULL);
 	carom_device_list_destroy(NULL);
 	carom_file_destroy(NULL);
+	carom_scene_text_destroy(NULL);
 }
 
 /* Every error may be NULL, and success leaves the error alone. */
@@ -137,6 +138,7 @@ static void what_has_to_be_given_of_the_rest(void **unused)
 	carom_file *file = NULL;
 	FILE *stream = NULL;
 	size_t count;
+	char *text = NULL;
 	REFUSE("pipeline", carom_pipeline_set(NULL, "toi", "separating", &error));
 	REFUSE("slot", carom_pipeline_set(&pipeline, NULL, "separating", &error));
 	REFUSE("alternative", carom_pipeline_set(&pipeline, "toi", NULL, &error));
@@ -152,6 +154,8 @@ static void what_has_to_be_given_of_the_rest(void **unused)
 	carom_scene_destroy(scene);
 	REFUSE("world", carom_world_write_scene(NULL, NULL, "nowhere/scene.json", &error));
 	REFUSE("path", carom_world_write_scene(world, NULL, NULL, &error));
+	REFUSE("world", carom_scene_text_create(NULL, NULL, &text, NULL, &error));
+	REFUSE("text", carom_scene_text_create(world, NULL, NULL, NULL, &error));
 	REFUSE("world", carom_world_render(NULL, &render, pixels, &error));
 	REFUSE("def", carom_world_render(world, NULL, pixels, &error));
 	REFUSE("pixels", carom_world_render(world, &render, NULL, &error));

@@ -61,6 +61,13 @@ static carom_world *there_and_back(carom_world *world, const carom_camera *camer
 		fail_msg("%s", error.text);
 	if (carom_scene_read(in_folder("there.json"), scene, &error) != CAROM_OK)
 		fail_msg("%s", error.text);
+	char *text = NULL;
+	size_t length = 0;
+	if (carom_scene_text_create(world, camera, &text, &length, &error) != CAROM_OK)
+		fail_msg("%s", error.text);
+	assert_int_equal(length, strlen(text));
+	assert_string_equal(text, read_text(in_folder("there.json")));
+	carom_scene_text_destroy(text);
 	return world_of(*scene);
 }
 
@@ -283,6 +290,9 @@ static void a_wrong_camera_is_not_written(void **state)
 		carom_error error = {0};
 		assert_int_equal(carom_world_write_scene(world, &cameras[k], in_folder("there.json"), &error), CAROM_INVALID_ARGUMENT);
 		assert_true(error.status == CAROM_INVALID_ARGUMENT && strstr(error.text, "camera: found center ("));
+		char *text = NULL;
+		assert_int_equal(carom_scene_text_create(world, &cameras[k], &text, NULL, NULL), CAROM_INVALID_ARGUMENT);
+		assert_null(text);
 		assert_string_equal(read_text(in_folder("there.json")), before);
 	}
 	free(before);
