@@ -133,9 +133,92 @@ static void bodies_are_added_all_or_none(void **unused)
 	assert_true(n > 4);
 }
 
+static carom_world *crowd_that_ran(carom_scene **scene, bool keep_hits)
+{
+	carom_world *world = scenery_crowd(&scenery_devices[0], 3, 1);
+	carom_world *again;
+	carom_error error;
+	char *text;
+	scenery_check(carom_scene_text_create(world, NULL, &text, NULL, &error), &error);
+	carom_world_destroy(world);
+	scenery_check(carom_scene_parse(text, strlen(text), NULL, scene, &error), &error);
+	carom_scene_text_destroy(text);
+	(*scene)->world.keep_hits = keep_hits;
+	(*scene)->world.device = scenery_devices[0].name;
+	(*scene)->world.threads = 1;
+	scenery_check(carom_scene_create_world(*scene, &again, &error), &error);
+	runs_step(again, 2);
+	return again;
+}
+
+/* Then it is written, too. */
+static void bodies_are_removed_all_or_none(void **unused)
+{
+	(void)unused;
+	const uint32_t gone[] = {7, 3, 12};
+	const char *failed = "";
+	uint64_t n, first = 0;
+	for (n = 1; failed; n++) {
+		carom_scene *scene;
+		carom_world *world = crowd_that_ran(&scene, false);
+		carom_error error;
+		char *text = NULL;
+		const uint64_t hash = runs_hash(world);
+		faults_arm(FAULTS_MEMORY, n, 0);
+		carom_status status = carom_world_remove(world, gone, 3, &error);
+		if (!status)
+			status = carom_scene_text_create(world, NULL, &text, NULL, &error);
+		failed = faults_disarm();
+		if (failed) {
+			there_is_no_memory(failed, status, &error);
+			assert_true(status && !text);
+			if (carom_world_body_count(world) == SCENERY_CROWD) {
+				assert_true(runs_hash(world) == hash);
+				scenery_check(carom_world_remove(world, gone, 3, &error), &error);
+			}
+		}
+		carom_scene_text_destroy(text);
+		assert_int_equal(carom_world_body_count(world), SCENERY_CROWD - 3);
+		runs_step(world, 3);
+		runs_same_hash(&first, runs_hash(world), &scenery_devices[0]);
+		carom_world_destroy(world);
+		carom_scene_destroy(scene);
+	}
+	assert_true(n > 5);
+}
+
+/* A call that can't keep its hits tells how far it got, and the next one has its own. */
+static void hits_are_kept_or_it_is_told(void **unused)
+{
+	(void)unused;
+	enum { STEPS = 20 };
+	const char *failed = "";
+	uint64_t n, first = 0, told = 0;
+	for (n = 1; failed; n++) {
+		carom_scene *scene;
+		carom_world *world = crowd_that_ran(&scene, true);
+		carom_report report = {0};
+		carom_error error;
+		faults_arm(FAULTS_MEMORY, n, 0);
+		const carom_status status = carom_world_step(world, STEPS, &report, &error);
+		failed = faults_disarm();
+		if (failed && status) {
+			there_is_no_memory(failed, status, &error);
+			told += strstr(error.text, " hits") != NULL;
+			report = runs_step(world, STEPS - report.steps);
+		}
+		assert_int_equal(carom_world_hit_count(world), report.hits);
+		runs_same_hash(&first, runs_hash(world), &scenery_devices[0]);
+		carom_world_destroy(world);
+		carom_scene_destroy(scene);
+	}
+	assert_true(told >= 3); /* to read, to sort, to keep them */
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow),
-		cmocka_unit_test(threads_that_run_out), cmocka_unit_test(bodies_are_added_all_or_none)};
+		cmocka_unit_test(threads_that_run_out), cmocka_unit_test(bodies_are_added_all_or_none), cmocka_unit_test(bodies_are_removed_all_or_none),
+		cmocka_unit_test(hits_are_kept_or_it_is_told)};
 	return cmocka_run_group_tests_name("faults_memory", tests, walk_make_folder, walk_remove_folder);
 }
