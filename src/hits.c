@@ -124,7 +124,7 @@ carom_status carom_hits_take(carom_world *world, uint32_t first, uint32_t end, c
 	carom_status status;
 	if (first >= end)
 		return CAROM_OK;
-	kept = malloc((size_t)rows * width * 4 * sizeof(float));
+	kept = malloc((size_t)rows * (width / HITS_WIDTH) * sizeof *kept);
 	if (!kept)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to read %u hits", end - first);
 	status = world->device->kind->download(world->device, world->textures[ROLE_HITS].front, rows, kept, error);

@@ -25,8 +25,9 @@ static carom_hit *collect(carom_world *world, uint64_t steps, uint64_t calls, si
 		size_t more;
 		runs_step(world, steps / calls);
 		carom_hit *hits = runs_hits(world, &more);
-		all = realloc(all, (*count + more + 1) * sizeof *all);
-		assert_non_null(all);
+		carom_hit *grown = realloc(all, (*count + more + 1) * sizeof *all);
+		assert_non_null(grown);
+		all = grown;
 		memcpy(all + *count, hits, more * sizeof *all);
 		*count += more;
 		free(hits);

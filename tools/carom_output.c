@@ -156,13 +156,13 @@ carom_status write_hits(struct run *run, carom_error *error)
 {
 	carom_hit hits[256];
 	const size_t count = carom_world_hit_count(run->world), most = sizeof hits / sizeof *hits;
-	for (size_t first = 0; first < count; first += most) {
-		const size_t some = count - first < most ? count - first : most;
-		const carom_status status = carom_world_get_hits(run->world, first, some, hits, error);
-		if (status != CAROM_OK)
-			return status;
-		for (size_t k = 0; k < some; k++)
-			write_hit(run->hits, &hits[k]);
+	for (size_t k = 0; k < count; k++) {
+		if (k % most == 0) {
+			const carom_status status = carom_world_get_hits(run->world, k, count - k < most ? count - k : most, hits, error);
+			if (status != CAROM_OK)
+				return status;
+		}
+		write_hit(run->hits, &hits[k % most]);
 	}
 	return CAROM_OK;
 }
