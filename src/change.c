@@ -69,13 +69,25 @@ static carom_status number_anew(const carom_world *world, const uint32_t *indice
 	return CAROM_OK;
 }
 
-/* The outlines and names of the bodies that stay, in a new world's arrays. False if there is no memory. */
-static bool keep_body(carom_world *to, const carom_world *from, size_t index)
+/* Keeps its vertices. `moved`: of each texel of Vertices from which on an outline has been kept, where to, or GONE: what shared them goes on to. */
+static bool keep_outline(carom_world *to, const carom_world *from, carom_body *body, uint32_t *moved)
+{
+	uint32_t *first = &moved[body->vertex_first / 2];
+	if (*first == GONE && !carom_outlines_add(to, body, (const carom_vec2 *)from->vertices.items + body->vertex_first))
+		return false;
+	if (*first == GONE)
+		*first = body->vertex_first;
+	body->vertex_first = *first;
+	return true;
+}
+
+/* A body that stays, with its outline and its name, in a new world's arrays. False if there is no memory. */
+static bool keep_body(carom_world *to, const carom_world *from, size_t index, uint32_t *moved)
 {
 	carom_body body = carom_world_bodies(from)[index];
 	const char *name = body.name ? (const char *)from->names.items + body.name - 1 : NULL;
 	carom_body *kept = carom_array_grow(&to->bodies, sizeof *kept);
-	if (!kept || (body.vertex_count > 1 && !carom_outlines_add(to, &body, (const carom_vec2 *)from->vertices.items + body.vertex_first)))
+	if (!kept || (body.vertex_count > 1 && !keep_outline(to, from, &body, moved)))
 		return false;
 	if (name) {
 		const size_t size = strlen(name) + 1;
@@ -124,9 +136,14 @@ static void swap_arrays(carom_array *a, carom_array *b)
 static carom_status remove_bodies(carom_world *world, const uint32_t *numbers, size_t count, carom_error *error)
 {
 	carom_world *kept = calloc(1, sizeof *kept); /* of which there is no more than what the host knows of bodies */
-	bool fits = kept != NULL;
+	const size_t outlines = carom_polygon_texels(world) + 1;
+	uint32_t *moved = malloc(outlines * sizeof *moved);
+	bool fits = kept && moved;
+	if (moved)
+		memset(moved, 0xFF, outlines * sizeof *moved);
 	for (size_t i = 0; fits && i < world->body_count; i++)
-		fits = numbers[i] == GONE || keep_body(kept, world, i);
+		fits = numbers[i] == GONE || keep_body(kept, world, i, moved);
+	free(moved);
 	if (fits) {
 		close_ranks(world, numbers);
 		swap_arrays(&world->bodies, &kept->bodies);
