@@ -368,7 +368,8 @@ typedef struct carom_hit {
  * `keep_hits`. They are those that its report counts, unless it failed for want of memory. */
 CAROM_API size_t carom_world_hit_count(const carom_world *world);
 /** Reads `count` of them from number `first` on, in the order of time; of several at the same time each comes after those that led to it. They are kept until
- * the next such call: many short calls need less memory than a long one, and have the same hits. On all exact devices they have the same bits. */
+ * the next such call: many short calls need less memory than a long one, and have the same hits, but for the last bits of their times. On all exact devices they
+ * have the same bits. */
 CAROM_API carom_status carom_world_get_hits(const carom_world *world, size_t first, size_t count, carom_hit *hits, carom_error *error);
 
 /** Called now and then during a step or advance, after as many steps as take about a tenth of a second, but 256 at most, on the calling thread, with what the call has done so far; returning false
