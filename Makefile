@@ -323,6 +323,7 @@ pyramid        | --time 3                      | boxes that stand on each other,
 mixed          | --time 2                      | circles and polygons in one room after two seconds
 billiard_break | --time 1                      | a billiard break one second after the cue ball was struck
 newtons_cradle | --time 1                      | Newton's cradle after one second: what went in on one side went out on the other
+piston         | --time 18                     | a gas that a piston has pressed into half of its room
 thin_wall      | --time 1                      | fast circles that did not tunnel through a thin wall
 endef
 export DEMO

@@ -21,6 +21,8 @@ static const struct {
 	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x8fb479cfae22ea7b, 0x4e92c6b1ce460554},
 	{"scenes/mixed.json", 0xcc24b0a3369bcac1, 0xdca5a4f981ed5756, 0},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
+	{"scenes/pi.json", 0x9d624002521cac23, 0xd287219b381da045, 0},
+	{"scenes/piston.json", 0x2164404c393abf4d, 0x1a2d939507b78308, 0},
 	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0x35a33d8713b8d35d, 0xc87c4993116e12cb},
 	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0xdd27dd88bbe84178, 0},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x675a5d8b2f725e89, 0},
