@@ -77,19 +77,16 @@ static carom_status read_clock(carom_world *world, carom_report *report, carom_e
 
 static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *error)
 {
-	carom_status status = CAROM_OK;
-	bool begun;
-	if (world->step->begin)
-		status = world->step->begin(world, error);
-	begun = !status;
+	carom_status status = world->step->begin ? world->step->begin(world, error) : CAROM_OK;
 	world->host_current = false;
-	if (!status)
-		world->contacts_current = false; /* not before: what is not sent the host alone has */
+	if (status)
+		return status;
+	world->contacts_current = false; /* not before: what is not sent the host alone has */
 	for (uint64_t i = 0; !status && i < steps; i++)
 		status = world->step->run(world, error);
 	if (!status)
 		status = world->device->kind->flush(world->device, error);
-	if (begun && world->def.keep_hits) {
+	if (world->def.keep_hits) {
 		const carom_status taken = world->step->take_hits(world, status ? NULL : error); /* where something failed, of what was done before */
 		status = status ? status : taken;
 	}

@@ -168,9 +168,7 @@ carom_status carom_world_get_contacts(carom_world *world, size_t first, size_t c
 	if (count > 0)
 		GIVEN(contacts, error);
 	TRY(carom_contacts_fetch(world, error));
-	if (first > contact_count(world) || count > contact_count(world) - first)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts %zu to %zu: the world has %zu", first,
-			count > SIZE_MAX - first ? SIZE_MAX : first + count, contact_count(world));
+	TRY(carom_check_span("contacts", first, count, "the world has", contact_count(world), error));
 	if (count > 0)
 		memcpy(contacts, (const carom_contact *)world->contacts.items + first, count * sizeof *contacts);
 	return CAROM_OK;

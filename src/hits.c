@@ -81,20 +81,18 @@ static bool sort(const carom_world *world, kept_hit *hits, size_t count)
 	return true;
 }
 
-carom_hit *carom_hits_add(carom_world *world, carom_error *error)
+carom_status carom_hits_add(carom_world *world, const carom_hit *hit, carom_error *error)
 {
-	carom_hit *hit = carom_array_grow(&world->hits, sizeof *hit);
-	if (!hit)
-		carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for more than %zu hits; shorter calls have less", carom_world_hit_count(world));
-	return hit;
+	carom_hit *added = carom_array_grow(&world->hits, sizeof *added);
+	if (!added)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for more than %zu hits; shorter calls have less", carom_world_hit_count(world));
+	*added = *hit;
+	return CAROM_OK;
 }
 
 static carom_status add(carom_world *world, const kept_hit *kept, carom_error *error)
 {
-	carom_hit *hit = carom_hits_add(world, error);
-	if (!hit)
-		return CAROM_OUT_OF_MEMORY;
-	*hit = (carom_hit){
+	const carom_hit hit = {
 		.time = world->begun + ((double)kept->when[WHEN_ELAPSED] + (double)kept->when[WHEN_ELAPSED_LOW])
 			- (1.0 - (double)kept->who[WHO_TIME]) * (double)kept->when[WHEN_LENGTH],
 		.body = (uint32_t)kept->who[WHO_ROW],
@@ -104,7 +102,7 @@ static carom_status add(carom_world *world, const kept_hit *kept, carom_error *e
 		.impulse = {kept->what[WHAT_IMPULSE_X], kept->what[WHAT_IMPULSE_Y]},
 		.is_ruled = kept->what[WHAT_RULED] > 0.0f,
 	};
-	return CAROM_OK;
+	return carom_hits_add(world, &hit, error);
 }
 
 /* Leaves those that came to pass. */
@@ -146,14 +144,11 @@ size_t carom_world_hit_count(const carom_world *world)
 
 carom_status carom_world_get_hits(const carom_world *world, size_t first, size_t count, carom_hit *hits, carom_error *error)
 {
-	const size_t known = carom_world_hit_count(world);
 	GIVEN(world, error);
 	if (count > 0)
 		GIVEN(hits, error);
-	if (first > known || count > known - first)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "hits %zu to %zu: the last call had %zu%s", first,
-			count > SIZE_MAX - first ? SIZE_MAX : first + count, known,
-			world->def.keep_hits ? "" : " that were kept, for the world was made without `keep_hits`");
+	TRY(carom_check_span("hits", first, count, world->def.keep_hits ? "the last call had" : "without `keep_hits` in its def the world has",
+		carom_world_hit_count(world), error));
 	if (count > 0)
 		memcpy(hits, (const carom_hit *)world->hits.items + first, count * sizeof *hits);
 	return CAROM_OK;

@@ -335,11 +335,10 @@ carom_status carom_scene_text_create(carom_world *world, const carom_camera *cam
 		TRY(check_camera(camera, error));
 	FILE *stream = open_memstream(&written, &size);
 	carom_status status = stream ? put_scene(world, camera, stream, error) : CAROM_OK;
-	const bool lost = !stream || ferror(stream); /* fclose may not say so again */
-	if ((stream && fclose(stream) != 0) || lost)
-		status = status != CAROM_OK
-			? status
-			: carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to write a scene of %zu bodies", carom_world_body_count(world));
+	bool is_whole = stream && !ferror(stream); /* fclose may not say so again */
+	is_whole = (!stream || fclose(stream) == 0) && is_whole;
+	if (status == CAROM_OK && !is_whole)
+		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to write a scene of %zu bodies", carom_world_body_count(world));
 	if (status != CAROM_OK) {
 		free(written);
 		return status;

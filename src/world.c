@@ -232,12 +232,17 @@ bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *ti
 	return true;
 }
 
+carom_status carom_check_span(const char *things, size_t first, size_t count, const char *there_are, size_t known, carom_error *error)
+{
+	if (first <= known && count <= known - first)
+		return CAROM_OK;
+	return carom_fail(error, CAROM_INVALID_ARGUMENT, "%s %zu to %zu: %s %zu", things, first, count > SIZE_MAX - first ? SIZE_MAX : first + count,
+		there_are, known);
+}
+
 carom_status carom_check_bodies(const carom_world *world, uint32_t first, size_t count, carom_error *error)
 {
-	if (first > world->body_count || count > world->body_count - first)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies %u to %zu: the world has %zu", first,
-			count > SIZE_MAX - first ? SIZE_MAX : first + count, world->body_count);
-	return CAROM_OK;
+	return carom_check_span("bodies", first, count, "the world has", world->body_count, error);
 }
 
 carom_status carom_world_get_body(const carom_world *world, uint32_t index, carom_body_info *info, carom_error *error)

@@ -121,7 +121,8 @@ struct carom_world {
 carom_status carom_body_make(const carom_body_def *def, const carom_world *world, size_t index, carom_body *body, carom_vec2 *vertices,
 	carom_error *error);
 carom_body *carom_world_bodies(const carom_world *world);
-/* world.c: are there so many bodies from that index on? */
+/* world.c: are there so many things from number `first` on? If not, the error says what `there_are`. And of bodies: */
+carom_status carom_check_span(const char *things, size_t first, size_t count, const char *there_are, size_t known, carom_error *error);
 carom_status carom_check_bodies(const carom_world *world, uint32_t first, size_t count, carom_error *error);
 /* Once something rubs, or nothing does any more, the step needs other textures: of bodies from that index on that are new, or of all from 0. */
 void carom_look_for_friction(carom_world *world, size_t first);
@@ -165,8 +166,8 @@ carom_status carom_contacts_send(carom_world *world, carom_error *error);
 carom_status carom_contacts_fetch(carom_world *world, carom_error *error);
 /* hits.c: takes those of Hits from number `first` on, in order */
 carom_status carom_hits_take(carom_world *world, uint32_t first, uint32_t end, carom_error *error);
-/* Room for one more, with error where there is none. */
-carom_hit *carom_hits_add(carom_world *world, carom_error *error);
+/* One more. */
+carom_status carom_hits_add(carom_world *world, const carom_hit *hit, carom_error *error);
 /* textures_send.c: what bodies are, as the device has it */
 carom_status carom_textures_send(carom_world *world, carom_error *error);
 /* Is the world's device one that runs many work-items at once, and slowly each? */

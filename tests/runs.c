@@ -44,6 +44,21 @@ carom_world *runs_world(const carom_world_def *def, const scenery_device *device
 	return world;
 }
 
+carom_scene *runs_read(const char *path)
+{
+	carom_scene *scene;
+	carom_error error;
+	scenery_check(carom_scene_read(path, &scene, &error), &error);
+	return scene;
+}
+
+carom_world *runs_scene(carom_scene *scene, const scenery_device *device)
+{
+	carom_world *world = runs_world(&scene->world, device, scene->bodies, scene->body_count);
+	carom_scene_destroy(scene);
+	return world;
+}
+
 queue *runs_queue(const carom_world_def *def, const carom_body_def *bodies, size_t count)
 {
 	carom_world_def numbers = *def;

@@ -133,22 +133,17 @@ static void bodies_are_added_all_or_none(void **unused)
 	assert_true(n > 4);
 }
 
-static carom_world *crowd_that_ran(carom_scene **scene, bool keep_hits)
+static carom_world *crowd_that_ran(bool keep_hits)
 {
-	carom_world *world = scenery_crowd(&scenery_devices[0], 3, 1);
-	carom_world *again;
-	carom_error error;
-	char *text;
-	scenery_check(carom_scene_text_create(world, NULL, &text, NULL, &error), &error);
-	carom_world_destroy(world);
-	scenery_check(carom_scene_parse(text, strlen(text), NULL, scene, &error), &error);
-	carom_scene_text_destroy(text);
-	(*scene)->world.keep_hits = keep_hits;
-	(*scene)->world.device = scenery_devices[0].name;
-	(*scene)->world.threads = 1;
-	scenery_check(carom_scene_create_world(*scene, &again, &error), &error);
-	runs_step(again, 2);
-	return again;
+	carom_body_def bodies[SCENERY_CROWD];
+	carom_world_def def = runs_room(5.0f, 5.0f);
+	scenery_random random = {3};
+	scenery_bodies(&random, SCENERY_MIXED, SCENERY_CROWD, 1.25f, 3.0f, bodies);
+	def.threads = 1;
+	def.keep_hits = keep_hits;
+	carom_world *world = runs_world(&def, &scenery_devices[0], bodies, SCENERY_CROWD);
+	runs_step(world, 2);
+	return world;
 }
 
 /* Then it is written, too. */
@@ -159,8 +154,7 @@ static void bodies_are_removed_all_or_none(void **unused)
 	const char *failed = "";
 	uint64_t n, first = 0;
 	for (n = 1; failed; n++) {
-		carom_scene *scene;
-		carom_world *world = crowd_that_ran(&scene, false);
+		carom_world *world = crowd_that_ran(false);
 		carom_error error;
 		char *text = NULL;
 		const uint64_t hash = runs_hash(world);
@@ -182,7 +176,6 @@ static void bodies_are_removed_all_or_none(void **unused)
 		runs_step(world, 3);
 		runs_same_hash(&first, runs_hash(world), &scenery_devices[0]);
 		carom_world_destroy(world);
-		carom_scene_destroy(scene);
 	}
 	assert_true(n > 5);
 }
@@ -195,8 +188,7 @@ static void hits_are_kept_or_it_is_told(void **unused)
 	const char *failed = "";
 	uint64_t n, first = 0, told = 0;
 	for (n = 1; failed; n++) {
-		carom_scene *scene;
-		carom_world *world = crowd_that_ran(&scene, true);
+		carom_world *world = crowd_that_ran(true);
 		carom_report report = {0};
 		carom_error error;
 		faults_arm(FAULTS_MEMORY, n, 0);
@@ -210,7 +202,6 @@ static void hits_are_kept_or_it_is_told(void **unused)
 		assert_int_equal(carom_world_hit_count(world), report.hits);
 		runs_same_hash(&first, runs_hash(world), &scenery_devices[0]);
 		carom_world_destroy(world);
-		carom_scene_destroy(scene);
 	}
 	assert_true(told >= 3); /* to read, to sort, to keep them */
 }

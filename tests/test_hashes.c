@@ -31,18 +31,11 @@ static const struct {
 
 static carom_world *world_of(const char *path, const char *step, const scenery_device *device, uint32_t threads)
 {
-	carom_scene *scene = NULL;
-	carom_world *world;
-	carom_error error = {0};
-	scenery_check(carom_scene_read(path, &scene, &error), &error);
+	carom_scene *scene = runs_read(path);
 	scene->world.threads = threads;
 	if (step)
 		scene->world.pipeline.step = step;
-	world = scenery_world(&scene->world, device);
-	if (world)
-		scenery_check(carom_world_add(world, scene->bodies, scene->body_count, NULL, &error), &error);
-	carom_scene_destroy(scene);
-	return world;
+	return runs_scene(scene, device);
 }
 
 /* ---- Random worlds: seeds of scenery_bodies in a room with gravity, of all shapes, with static bodies, and lossy hits */

@@ -221,14 +221,11 @@ static void a_piston_does_work(void **unused)
 {
 	(void)unused;
 	SCENERY_EACH_DEVICE(device) {
-		carom_scene *scene;
-		carom_error error;
 		size_t count;
 		double work = 0.0;
-		scenery_check(carom_scene_read("scenes/piston.json", &scene, &error), &error);
+		carom_scene *scene = runs_read("scenes/piston.json");
 		scene->world.keep_hits = true;
-		carom_world *world = runs_world(&scene->world, device, scene->bodies, scene->body_count);
-		carom_scene_destroy(scene);
+		carom_world *world = runs_scene(scene, device);
 		if (!world)
 			continue;
 		const double before = runs_measure(world).kinetic_energy;

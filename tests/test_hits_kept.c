@@ -116,13 +116,10 @@ static void none_of_a_heap_is_lost(void **unused)
 {
 	(void)unused;
 	SCENERY_EACH_DEVICE(device) {
-		carom_scene *scene;
-		carom_error error;
 		uint64_t all = 0;
-		scenery_check(carom_scene_read("scenes/heap.json", &scene, &error), &error);
+		carom_scene *scene = runs_read("scenes/heap.json");
 		scene->world.keep_hits = true;
-		carom_world *world = runs_world(&scene->world, device, scene->bodies, scene->body_count);
-		carom_scene_destroy(scene);
+		carom_world *world = runs_scene(scene, device);
 		if (!world)
 			continue;
 		for (uint64_t i = 0; i < runs_affordable(100); i++) {

@@ -75,11 +75,15 @@ static bool is_stream(const char *name)
 	return strncmp(name, "/dev/std", 8) == 0 || strncmp(name, "/dev/fd/", 8) == 0 || strncmp(name, "/proc/self/fd/", 14) == 0;
 }
 
+static bool are_same(const struct stat *a, const struct stat *b)
+{
+	return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
 bool are_one_stream(const char *a, const char *b)
 {
 	struct stat there, other;
-	return is_stream(a) && is_stream(b) && stat(a, &there) == 0 && stat(b, &other) == 0 && there.st_dev == other.st_dev
-		&& there.st_ino == other.st_ino;
+	return is_stream(a) && is_stream(b) && stat(a, &there) == 0 && stat(b, &other) == 0 && are_same(&there, &other);
 }
 
 bool are_one_file(const char *a, const char *b)
@@ -89,6 +93,6 @@ bool are_one_file(const char *a, const char *b)
 	if (is_stream(a) && is_stream(b))
 		return false;
 	if (stat(a, &there) == 0 && stat(b, &other) == 0) /* terminals and /dev/null take what comes */
-		return there.st_dev == other.st_dev && there.st_ino == other.st_ino && !S_ISCHR(there.st_mode);
+		return are_same(&there, &other) && !S_ISCHR(there.st_mode);
 	return resolve(a, first) && resolve(b, second) && strcmp(first, second) == 0;
 }

@@ -1,9 +1,14 @@
 /* The end of a step of events: every body moves there from its last event, or from the step's beginning. */
 
 /* The member's hits came to pass, in the step that the clock has counted last. */
-void hits_confirm(LIST_IN(members), RECORD_OUT(hits), int id, float4 time, float length, float step)
+void hits_confirm(TEX_IN(clock), LIST_IN(members), RECORD_OUT(hits), int id, float length)
 {
-	for (int k = members[MEMBER(id, MEMBER_KEPT)]; k >= 0; k = (int)CHANNEL(hits[HITS_WIDTH * k + HITS_WHAT], WHAT_LINK))
+	int first = members[MEMBER(id, MEMBER_KEPT)];
+	if (first < 0)
+		return;
+	float4 time = TEX_LOAD(clock, CLOCK_TIME, 0);
+	float step = CHANNEL(TEX_LOAD(clock, CLOCK_COUNTS, 0), COUNTS_STEPS);
+	for (int k = first; k >= 0; k = (int)CHANNEL(hits[HITS_WIDTH * k + HITS_WHAT], WHAT_LINK))
 		hits[HITS_WIDTH * k + HITS_WHEN] = (float4)(CHANNEL(time, TIME_ELAPSED), CHANNEL(time, TIME_ELAPSED_LOW), length, step);
 }
 
@@ -26,7 +31,7 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 	}
 	if (id >= 0) {
 		if (status[STATUS_COMMIT])
-			hits_confirm(members, hits, id, TEX_LOAD(clock, CLOCK_TIME, 0), length, CHANNEL(TEX_LOAD(clock, CLOCK_COUNTS, 0), COUNTS_STEPS));
+			hits_confirm(TEX(clock), members, hits, id, length);
 		/* one that no event changed has not looked how it goes on */
 		wakes[WAKE(s, members[MEMBER(id, MEMBER_EVENTS)] > 0 ? WAKE_CHANGED : WAKE_NEXT)] = status[STATUS_AGE];
 		member_reset(members, id);

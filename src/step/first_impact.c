@@ -172,15 +172,11 @@ static carom_status take_hits(carom_world *world, carom_error *error)
 	const carom_device_class *kind = world->device->kind;
 	float clock[4 * CLOCK_WIDTH], impulse[4 * IMPULSE_WIDTH];
 	const float *hit = clock + 4 * CLOCK_HIT, *j = impulse + 4 * IMPULSE_PUSH, *where = impulse + 4 * IMPULSE_WHERE;
-	carom_hit *added;
 	TRY(kind->download(world->device, world->textures[ROLE_CLOCK].front, 1, clock, error));
 	if (!(hit[HIT_TIME] <= 1.0f && hit[HIT_DONE] > 0.0f && clock[4 * CLOCK_STEP + STEP_LENGTH] > 0.0f))
 		return CAROM_OK;
 	TRY(kind->download(world->device, world->textures[ROLE_IMPULSE].front, 1, impulse, error));
-	added = carom_hits_add(world, error);
-	if (!added)
-		return CAROM_OUT_OF_MEMORY;
-	*added = (carom_hit){
+	const carom_hit found = {
 		.time = world->begun + ((double)clock[4 * CLOCK_TIME + TIME_ELAPSED] + (double)clock[4 * CLOCK_TIME + TIME_ELAPSED_LOW]),
 		.body = (uint32_t)hit[HIT_ROW],
 		.other = (int32_t)hit[HIT_COLUMN],
@@ -188,7 +184,7 @@ static carom_status take_hits(carom_world *world, carom_error *error)
 		.normal = {where[WHERE_NORMAL_X], where[WHERE_NORMAL_Y]},
 		.impulse = {j[IMPULSE_X], j[IMPULSE_Y]},
 	};
-	return CAROM_OK;
+	return carom_hits_add(world, &found, error);
 }
 
 const carom_step carom_step_first_impact = {"first_impact", true, prepare, run, NULL, NULL, NULL, take_hits, true, memory};
