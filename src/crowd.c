@@ -97,20 +97,20 @@ static void sort_by_level(carom_crowd *c)
 	}
 }
 
-static uint32_t cell_of(double position, double origin, double cell, uint32_t cells)
+uint32_t carom_grid_cell(const carom_grid *grid, double at, double origin, uint32_t cells)
 {
-	double index = (position - origin) / cell;
+	const double index = (at - origin) / grid->cell;
 	return !(index > 0) ? 0 : index < cells ? (uint32_t)index : cells - 1;
 }
 
 uint32_t carom_grid_column(const carom_grid *grid, double x)
 {
-	return cell_of(x, grid->x, grid->cell, grid->columns);
+	return carom_grid_cell(grid, x, grid->x, grid->columns);
 }
 
 uint32_t carom_grid_row(const carom_grid *grid, double y)
 {
-	return cell_of(y, grid->y, grid->cell, grid->rows);
+	return carom_grid_cell(grid, y, grid->y, grid->rows);
 }
 
 /* Chooses the cells so that they cover the members' centres, each as broad as the largest member or more. */

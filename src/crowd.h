@@ -54,7 +54,8 @@ static inline double carom_most(double a, double b)
 carom_status carom_crowd_make(carom_world *world, const char *why, carom_crowd *crowd, carom_error *error);
 void carom_crowd_free(carom_crowd *crowd);
 
-/* The column of a place, that of the nearest cell if it is outside; the row likewise. */
+/* The cell of a coordinate among so many along one axis from `origin` on, the nearest one if it is outside: a column, or a row. */
+uint32_t carom_grid_cell(const carom_grid *grid, double at, double origin, uint32_t cells);
 uint32_t carom_grid_column(const carom_grid *grid, double x);
 uint32_t carom_grid_row(const carom_grid *grid, double y);
 

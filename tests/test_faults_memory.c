@@ -206,10 +206,38 @@ static void hits_are_kept_or_it_is_told(void **unused)
 	assert_true(told >= 3); /* to read, to sort, to keep them */
 }
 
+/* What is asked of a state where there is no memory for the answer leaves the world as it is. */
+static void a_snapshot_is_made_or_not(void **unused)
+{
+	(void)unused;
+	const char *failed = "";
+	uint64_t n;
+	carom_world *world = crowd_that_ran(false);
+	const uint64_t hash = runs_hash(world);
+	for (n = 1; failed; n++) {
+		carom_snapshot *snapshot = NULL;
+		carom_measure measure = {.max_penetration = 42};
+		carom_error error;
+		faults_arm(FAULTS_MEMORY, n, 0);
+		carom_status status = carom_snapshot_create(world, &snapshot, &error);
+		if (!status)
+			status = carom_world_measure(world, &measure, &error);
+		failed = faults_disarm();
+		if (failed) {
+			there_is_no_memory(failed, status, &error);
+			assert_true(status && measure.max_penetration == 42);
+		}
+		carom_snapshot_destroy(snapshot);
+		assert_true(runs_hash(world) == hash);
+	}
+	assert_true(n > 12);
+	carom_world_destroy(world);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow),
 		cmocka_unit_test(threads_that_run_out), cmocka_unit_test(bodies_are_added_all_or_none), cmocka_unit_test(bodies_are_removed_all_or_none),
-		cmocka_unit_test(hits_are_kept_or_it_is_told)};
+		cmocka_unit_test(hits_are_kept_or_it_is_told), cmocka_unit_test(a_snapshot_is_made_or_not)};
 	return cmocka_run_group_tests_name("faults_memory", tests, walk_make_folder, walk_remove_folder);
 }

@@ -13,6 +13,7 @@ static void null_is_released(void **unused)
 	carom_device_list_destroy(NULL);
 	carom_file_destroy(NULL);
 	carom_scene_text_destroy(NULL);
+	carom_snapshot_destroy(NULL);
 }
 
 /* Every error may be NULL, and success leaves the error alone. */
@@ -125,6 +126,29 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	carom_world_destroy(world);
 }
 
+static void what_has_to_be_given_of_a_snapshot(void **unused)
+{
+	(void)unused;
+	carom_world *world = world_of_one();
+	carom_snapshot *snapshot = NULL;
+	const carom_ray ray = {{0, 0}, {1, 1}, 0};
+	carom_ray_hit hit;
+	const carom_vec2 point = {0, 0};
+	uint32_t index;
+	size_t count;
+	REFUSE("world", carom_snapshot_create(NULL, &snapshot, &error));
+	REFUSE("snapshot", carom_snapshot_create(world, NULL, &error));
+	scenery_check(carom_snapshot_create(world, &snapshot, NULL), NULL);
+	REFUSE("snapshot", carom_snapshot_cast_rays(NULL, 1, &ray, &hit, &error));
+	REFUSE("rays", carom_snapshot_cast_rays(snapshot, 1, NULL, &hit, &error));
+	REFUSE("hits", carom_snapshot_cast_rays(snapshot, 1, &ray, NULL, &error));
+	REFUSE("snapshot", carom_snapshot_find(NULL, point, point, &index, 1, &count, &error));
+	REFUSE("indices", carom_snapshot_find(snapshot, point, point, NULL, 1, &count, &error));
+	REFUSE("count", carom_snapshot_find(snapshot, point, point, &index, 1, NULL, &error));
+	carom_snapshot_destroy(snapshot);
+	carom_world_destroy(world);
+}
+
 static void what_has_to_be_given_of_the_rest(void **unused)
 {
 	(void)unused;
@@ -205,7 +229,7 @@ static void what_need_not_be_given(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(null_is_released), cmocka_unit_test(errors_are_optional),
-		cmocka_unit_test(what_has_to_be_given_of_worlds), cmocka_unit_test(what_has_to_be_given_of_the_rest),
-		cmocka_unit_test(what_need_not_be_given)};
+		cmocka_unit_test(what_has_to_be_given_of_worlds), cmocka_unit_test(what_has_to_be_given_of_a_snapshot),
+		cmocka_unit_test(what_has_to_be_given_of_the_rest), cmocka_unit_test(what_need_not_be_given)};
 	return cmocka_run_group_tests_name("null", tests, NULL, NULL);
 }

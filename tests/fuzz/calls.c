@@ -212,6 +212,36 @@ static void measure(calls *c)
 	FUZZ_EXPECT(carom_world_measure(NULL, &measure, NULL) == CAROM_INVALID_ARGUMENT);
 }
 
+/* What a ray meets lies where it was met. */
+static void ask_where(calls *c)
+{
+	const bool tame = c->bytes.tame;
+	float numbers[5];
+	carom_snapshot *made = NULL;
+	carom_ray_hit hit;
+	carom_error error = fuzz_blank();
+	size_t count = 0;
+	for (size_t k = 0; k < COUNT(numbers); k++)
+		numbers[k] = tame ? bytes_between(&c->bytes, k < 4 ? -20 : 0, k < 4 ? 20 : 2) : bytes_wild(&c->bytes);
+	const carom_ray ray = {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}, numbers[4]};
+	if (!calls_judge(c, carom_snapshot_create(*c->slot, &made, &error), &error))
+		return;
+	error = fuzz_blank();
+	calls_judge(c, carom_snapshot_find(made, ray.from, ray.to, NULL, 0, &count, &error), &error);
+	FUZZ_EXPECT(count <= carom_world_body_count(*c->slot));
+	error = fuzz_blank();
+	if (calls_judge(c, carom_snapshot_cast_rays(made, 1, &ray, &hit, &error), &error)) {
+		const float pad = 1e-3f;
+		FUZZ_EXPECT(hit.part > 0 && hit.part <= 1 && hit.other < (int64_t)carom_world_body_count(*c->slot));
+		calls_note(c, &hit.part, sizeof hit.part);
+		if (tame && hit.other >= 0)
+			FUZZ_EXPECT(!carom_snapshot_find(made, (carom_vec2){hit.point.x - pad, hit.point.y - pad},
+							(carom_vec2){hit.point.x + pad, hit.point.y + pad}, NULL, 0, &count, NULL)
+				&& count > 0);
+	}
+	carom_snapshot_destroy(made);
+}
+
 /* ---- What needs no world */
 
 static void set_pipeline(calls *c)
@@ -296,7 +326,7 @@ static const call all[] = {{create, false}, {add, true}, {add, true}, {add, true
 	{calls_step, true}, {calls_advance, true}, {calls_advance_to, true}, {calls_break_off, true}, {get_body, true}, {get_states, true},
 	{set_states, true}, {set_force, true}, {measure, true}, {calls_render, true}, {calls_scene, true}, {destroy, true}, {add_too_many, true},
 	{calls_parse, false}, {calls_png, false}, {calls_file, false}, {set_pipeline, false}, {list, false}, {ask, false}, {set_contacts, true},
-	{get_contacts, true}, {remove_some, true}, {change, true}};
+	{get_contacts, true}, {remove_some, true}, {change, true}, {ask_where, true}};
 
 void calls_make(calls *c)
 {
