@@ -10,6 +10,7 @@
 static const struct command *const commands[] = {
 	&run_command,
 	&generate_command,
+	&query_command,
 	&devices_command,
 	&stages_command,
 	&bench_command,

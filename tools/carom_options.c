@@ -3,6 +3,7 @@
 #include "carom_tool.h"
 
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,6 +47,24 @@ carom_status read_positive(const char *text, void *target, carom_error *error)
 		return wrong(error, "found \"%s\"; allowed: a number above 0", text);
 	*(double *)target = number;
 	return CAROM_OK;
+}
+
+size_t read_floats(const char *text, float *numbers, size_t most)
+{
+	for (size_t k = 0; k < most; k++) {
+		char part[64];
+		double number = 0;
+		carom_error ignored;
+		const size_t length = strcspn(text, ",");
+		snprintf(part, sizeof part, "%.*s", (int)length, text);
+		if (length >= sizeof part || read_number(part, &number, &ignored) != CAROM_OK || fabs(number) > (double)FLT_MAX)
+			return 0;
+		numbers[k] = (float)number;
+		if (text[length] == '\0')
+			return k + 1;
+		text += length + 1;
+	}
+	return 0;
 }
 
 static carom_status read_storage(const char *text, void *target, carom_error *error)

@@ -142,12 +142,8 @@ carom_status write_row(struct run *run, const carom_report *step, carom_error *e
 
 static void write_hit(FILE *file, const carom_hit *hit)
 {
-	static const char *const walls[] = {"left", "bottom", "right", "top"};
 	fprintf(file, "%.17g,%u,", hit->time, hit->body);
-	if (hit->other < 0)
-		fputs(walls[CAROM_WALL_LEFT - hit->other], file);
-	else
-		fprintf(file, "%d", (int)hit->other);
+	print_other(file, hit->other);
 	fprintf(file, ",%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", (double)hit->point.x, (double)hit->point.y, (double)hit->normal.x, (double)hit->normal.y,
 		(double)hit->impulse.x, (double)hit->impulse.y, hit->is_ruled);
 }

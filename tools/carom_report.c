@@ -69,6 +69,15 @@ int finish_output(void)
 	return EXIT_FAILED;
 }
 
+void print_other(FILE *file, int32_t other)
+{
+	static const char *const walls[] = {"left", "bottom", "right", "top"};
+	if (other < 0)
+		fputs(walls[CAROM_WALL_LEFT - other], file);
+	else
+		fprintf(file, "%d", (int)other);
+}
+
 const char *format_bytes(uint64_t bytes, char *text, size_t size)
 {
 	static const char *const units[] = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB"};

@@ -2,8 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include "carom_run.h"
 
-#include <float.h>
-#include <math.h>
 #include <string.h>
 
 #define MAX_PICTURE_SIDE 16384u
@@ -27,29 +25,11 @@ static carom_status read_size(const char *text, void *target, carom_error *error
 	return CAROM_OK;
 }
 
-/* Floats with commas between them. */
-static bool read_list(const char *text, float *numbers, size_t count)
-{
-	for (size_t k = 0; k < count; k++) {
-		char part[64];
-		double number = 0;
-		carom_error ignored;
-		const size_t length = strcspn(text, ",");
-		const bool is_last = k + 1 == count, ends = text[length] == '\0';
-		snprintf(part, sizeof part, "%.*s", (int)length, text);
-		if (length >= sizeof part || ends != is_last || read_number(part, &number, &ignored) != CAROM_OK || fabs(number) > (double)FLT_MAX)
-			return false;
-		numbers[k] = (float)number;
-		text += length + 1;
-	}
-	return true;
-}
-
 static carom_status read_inset(const char *text, void *target, carom_error *error)
 {
 	struct run_options *options = target;
 	float numbers[4];
-	if (!read_list(text, numbers, 4) || !(numbers[2] > 0) || !(numbers[3] > 0))
+	if (read_floats(text, numbers, 4) != 4 || !(numbers[2] > 0) || !(numbers[3] > 0))
 		return wrong(error, "found \"%s\"; allowed: X,Y,W,H in metres, the lower left corner and a size above 0", text);
 	options->inset = (carom_inset){{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
 	options->has_inset = true;

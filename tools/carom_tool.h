@@ -53,7 +53,7 @@ struct command {
 	int (*main)(int argc, char **argv); /* the exit code; argv[0] is the command's name */
 };
 
-extern const struct command run_command, generate_command, devices_command, stages_command, bench_command;
+extern const struct command run_command, generate_command, query_command, devices_command, stages_command, bench_command;
 
 /* ---- carom_options.c */
 
@@ -64,6 +64,8 @@ read_option read_text;     /* into a const char * */
 read_option read_count;    /* into a uint64_t */
 read_option read_number;   /* into a double, finite, written in decimals */
 read_option read_positive; /* into a double, above 0 */
+/* Floats with commas between them: how many there are; 0 if something is none, or there are more than `most`. */
+size_t read_floats(const char *text, float *numbers, size_t most);
 /* What the options say of the world. */
 carom_status apply_options(const struct common_options *options, carom_world_def *world, carom_error *error);
 
@@ -100,6 +102,8 @@ int report_input(const carom_error *error);
 void say(const struct common_options *options, const char *format, ...) TOOL_PRINTF(2, 3);
 /* Flushes stdout; EXIT_FAILED, and says so, if what was printed did not get through. */
 int finish_output(void);
+/* What is hit or met, in a table: a body's index, or the name of a wall. */
+void print_other(FILE *file, int32_t other);
 /* "1.5 MiB" */
 const char *format_bytes(uint64_t bytes, char *text, size_t size);
 /* s, from any beginning, never going back */

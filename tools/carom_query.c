@@ -1,0 +1,261 @@
+/* carom query: what is where in a scene.
+ * SPDX-License-Identifier: MIT */
+#include "carom_tool.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct query_options {
+	struct common_options common;
+	carom_ray ray;
+	carom_vec2 min, max; /* of --box, or of --point, which is both */
+	const char *rays;    /* the name of a file */
+	bool has_ray, has_box, has_point;
+};
+
+/* ---- Options ---- */
+
+static bool take_ray(const char *text, carom_ray *ray)
+{
+	float numbers[5] = {0};
+	const size_t count = read_floats(text, numbers, 5);
+	*ray = (carom_ray){{numbers[0], numbers[1]}, {numbers[2], numbers[3]}, numbers[4]};
+	return count >= 4 && ray->radius >= 0;
+}
+
+static carom_status read_ray(const char *text, void *target, carom_error *error)
+{
+	struct query_options *options = target;
+	options->has_ray = take_ray(text, &options->ray);
+	return options->has_ray ? CAROM_OK : wrong(error, "found \"%s\"; allowed: X,Y,X,Y in metres, from where to where, and ,RADIUS, 0 or more", text);
+}
+
+static carom_status read_box(const char *text, void *target, carom_error *error)
+{
+	struct query_options *options = target;
+	float numbers[4];
+	if (read_floats(text, numbers, 4) != 4 || !(numbers[2] >= 0) || !(numbers[3] >= 0))
+		return wrong(error, "found \"%s\"; allowed: X,Y,W,H in metres, the lower left corner and a size, 0 or more", text);
+	options->min = (carom_vec2){numbers[0], numbers[1]};
+	options->max = (carom_vec2){numbers[0] + numbers[2], numbers[1] + numbers[3]};
+	options->has_box = true;
+	return CAROM_OK;
+}
+
+static carom_status read_point(const char *text, void *target, carom_error *error)
+{
+	struct query_options *options = target;
+	float numbers[2];
+	if (read_floats(text, numbers, 2) != 2)
+		return wrong(error, "found \"%s\"; allowed: X,Y in metres", text);
+	options->min = options->max = (carom_vec2){numbers[0], numbers[1]};
+	options->has_point = true;
+	return CAROM_OK;
+}
+
+static carom_status read_input(const char *text, void *target, carom_error *error)
+{
+	return read_text(strcmp(text, "-") == 0 ? "/dev/stdin" : text, target, error);
+}
+
+static const struct option options_table[] = {
+	{"ray", "X,Y,X,Y[,RADIUS]", read_ray, 0, "what a ray from the first point to the second meets first, or a disc of this radius"},
+	{"rays", "FILE.csv", read_input, offsetof(struct query_options, rays),
+		"the same of many: a row X,Y,X,Y or X,Y,X,Y,RADIUS each; a first row that is no such row names the columns; - is standard input"},
+	{"box", "X,Y,W,H", read_box, 0, "which bodies reach into the box with this lower left corner and size"},
+	{"point", "X,Y", read_point, 0, "which bodies this point is in"},
+	{NULL, NULL, NULL, 0, NULL},
+};
+
+static carom_status check_options(const struct query_options *options, carom_error *error)
+{
+	const int asked = options->has_ray + (options->rays != NULL) + options->has_box + options->has_point;
+	if (asked != 1)
+		return wrong(error, "%s; give one of --ray, --rays, --box and --point", asked ? "several things are asked at once" : "nothing is asked");
+	if (options->rays && (strcmp(options->rays, options->common.arguments[0]) == 0 || are_one_file(options->rays, options->common.arguments[0])))
+		return wrong(error, "the scene and --rays are the same, %s; one of them may be a file", options->rays);
+	return CAROM_OK;
+}
+
+static carom_status no_memory(const char *things, carom_error *error)
+{
+	*error = (carom_error){.status = CAROM_OUT_OF_MEMORY};
+	snprintf(error->text, sizeof error->text, "no memory for the %s", things);
+	return error->status;
+}
+
+/* ---- Rays ---- */
+
+struct rays {
+	carom_ray *items;
+	size_t count, room;
+};
+
+static carom_status add_ray(struct rays *rays, carom_ray ray, carom_error *error)
+{
+	if (rays->count == rays->room) {
+		const size_t room = rays->room ? 2 * rays->room : 64;
+		carom_ray *items = realloc(rays->items, room * sizeof *items);
+		if (!items)
+			return no_memory("rays", error);
+		rays->items = items;
+		rays->room = room;
+	}
+	rays->items[rays->count++] = ray;
+	return CAROM_OK;
+}
+
+static carom_status read_rows(FILE *file, const char *path, struct rays *rays, carom_error *error)
+{
+	char row[512];
+	carom_status status = CAROM_OK;
+	for (int line = 1; status == CAROM_OK && fgets(row, sizeof row, file); line++) {
+		carom_ray ray;
+		const bool is_whole = strchr(row, '\n') || feof(file);
+		row[strcspn(row, "\r\n")] = '\0';
+		if (is_whole && take_ray(row, &ray))
+			status = add_ray(rays, ray, error);
+		else if (row[0] && (line > 1 || !is_whole || strchr("+-.0123456789", row[0])))
+			status = wrong(error, "%s:%d: found \"%.60s\"; allowed: X,Y,X,Y in metres, from where to where, and ,RADIUS, 0 or more", path, line, row);
+	}
+	if (status == CAROM_OK && ferror(file))
+		status = wrong(error, "%s: %s", path, strerror(errno));
+	return status;
+}
+
+static carom_status read_rays(const struct query_options *options, struct rays *rays, carom_error *error)
+{
+	if (!options->rays)
+		return add_ray(rays, options->ray, error);
+	FILE *file = fopen(options->rays, "r");
+	if (!file)
+		return wrong(error, "%s: %s", options->rays, strerror(errno));
+	const carom_status status = read_rows(file, options->rays, rays, error);
+	fclose(file);
+	return status;
+}
+
+/* ---- Tables ---- */
+
+/* In quotes where it has what would end it. */
+static void print_name(const char *name)
+{
+	const bool is_quoted = name && strpbrk(name, ",\"\r\n");
+	putchar(',');
+	if (is_quoted)
+		putchar('"');
+	for (; name && *name; name++) {
+		if (*name == '"')
+			putchar('"');
+		putchar(*name);
+	}
+	puts(is_quoted ? "\"" : "");
+}
+
+static void print_name_of(const carom_world *world, uint32_t index)
+{
+	carom_body_info body = {.name = NULL};
+	carom_world_get_body(world, index, &body, NULL);
+	print_name(body.name);
+}
+
+static carom_status print_rays(const carom_world *world, const carom_snapshot *snapshot, const struct rays *rays, carom_error *error)
+{
+	puts("ray,met,part,x_m,y_m,normal_x,normal_y,name");
+	for (size_t k = 0; k < rays->count; k++) {
+		carom_ray_hit hit;
+		const carom_status status = carom_snapshot_cast_rays(snapshot, 1, &rays->items[k], &hit, error);
+		if (status != CAROM_OK)
+			return status;
+		printf("%zu,", k + 1);
+		if (hit.other == CAROM_NOTHING)
+			printf("nothing");
+		else
+			print_other(stdout, hit.other);
+		printf(",%.17g,%.9g,%.9g,%.9g,%.9g", hit.part, (double)hit.point.x, (double)hit.point.y, (double)hit.normal.x, (double)hit.normal.y);
+		if (hit.other >= 0)
+			print_name_of(world, (uint32_t)hit.other);
+		else
+			print_name(NULL);
+	}
+	return CAROM_OK;
+}
+
+static carom_status print_found(const carom_world *world, const carom_snapshot *snapshot, const struct query_options *options, carom_error *error)
+{
+	const size_t room = carom_world_body_count(world);
+	uint32_t *indices = malloc(room * sizeof *indices + 1);
+	size_t count = 0;
+	const carom_status status = indices ? carom_snapshot_find(snapshot, options->min, options->max, indices, room, &count, error)
+										: no_memory("bodies found", error);
+	if (status == CAROM_OK)
+		puts("body,name");
+	for (size_t k = 0; k < count; k++) {
+		printf("%u", (unsigned)indices[k]);
+		print_name_of(world, indices[k]);
+	}
+	free(indices);
+	return status;
+}
+
+/* ---- The command ---- */
+
+static carom_status answer(const struct query_options *options, const carom_scene *scene, const struct rays *rays, carom_error *error)
+{
+	carom_world *world = NULL;
+	carom_snapshot *snapshot = NULL;
+	carom_status status = carom_scene_create_world(scene, &world, error);
+	if (status == CAROM_OK)
+		status = carom_snapshot_create(world, &snapshot, error);
+	if (status == CAROM_OK)
+		status = options->has_ray || options->rays ? print_rays(world, snapshot, rays, error) : print_found(world, snapshot, options, error);
+	carom_snapshot_destroy(snapshot);
+	carom_world_destroy(world);
+	return status;
+}
+
+static int query_main(int argc, char **argv)
+{
+	struct query_options options = {.has_ray = false};
+	struct rays rays = {NULL, 0, 0};
+	carom_scene *scene = NULL;
+	carom_error error;
+	int code = parse_options(&query_command, argc, argv, &options.common);
+	if (code >= 0)
+		return code;
+	const char *path = options.common.arguments[0];
+	if (strcmp(path, "-") == 0)
+		options.common.arguments[0] = path = "/dev/stdin";
+	carom_status status = check_options(&options, &error);
+	if (status == CAROM_OK && !options.has_box && !options.has_point)
+		status = read_rays(&options, &rays, &error);
+	if (status == CAROM_OK && carom_scene_read(path, &scene, &error) != CAROM_OK) {
+		free(rays.items);
+		return report_input(&error);
+	}
+	if (status == CAROM_OK) {
+		scene->world.device = "cpu"; /* nothing moves */
+		status = answer(&options, scene, &rays, &error);
+	}
+	code = status == CAROM_OK ? finish_output() : report(&error);
+	carom_scene_destroy(scene);
+	free(rays.items);
+	return code;
+}
+
+const struct command query_command = {
+	.name = "query",
+	.arguments = "SCENE.json",
+	.least_arguments = 1,
+	.most_arguments = 1,
+	.summary = "Prints what rays meet in a scene, or which bodies are at a place",
+	.details = "\nSCENE.json is a file of the format carom-scene/1, as `carom run --out` writes one; - reads standard\n"
+			   "input. One thing is asked at a time; the answer is a table:\n"
+			   "\n--ray, --rays: ray (from 1), met (a body's index, a wall of the room: left, bottom, right, top, or\n"
+			   "nothing), part (0 to 1, of the way), x_m, y_m (where they touch), normal_x, normal_y (from what is met),\n"
+			   "name (of the body). What a ray touches where it begins it does not meet.\n"
+			   "--box, --point: body (its index), name.\n",
+	.options = options_table,
+	.main = query_main,
+};
