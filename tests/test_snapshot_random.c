@@ -1,0 +1,290 @@
+/* carom_snapshot: any rays and boxes, by answers that know nothing of grids, faces or circles: how far a point is from a body, which along a straight way falls and then
+ * rises.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+
+#include "count.h"
+#include "scenery.h"
+
+static carom_world *world_of(const carom_body_def *bodies, size_t count)
+{
+	const carom_world_def def = carom_default_world_def();
+	carom_world *world = scenery_world(&def, &scenery_devices[0]);
+	carom_error error;
+	scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);
+	return world;
+}
+
+static carom_snapshot *snapshot_of(carom_world *world)
+{
+	carom_snapshot *snapshot = NULL;
+	carom_error error = {0};
+	scenery_check(carom_snapshot_create(world, &snapshot, &error), &error);
+	return snapshot;
+}
+
+typedef struct solid {
+	double x, y, radius; /* a circle, or with corners a polygon */
+	double corners[CAROM_MAX_VERTICES][2];
+	uint32_t count;
+} solid;
+
+static solid solid_of(carom_world *world, uint32_t index)
+{
+	carom_body_info info;
+	carom_body_state state;
+	carom_error error;
+	solid s = {0};
+	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
+	scenery_check(carom_world_get_states(world, index, 1, &state, &error), &error);
+	s.x = (double)state.position.x, s.y = (double)state.position.y, s.radius = (double)info.radius, s.count = info.vertices ? info.vertex_count : 0;
+	for (uint32_t k = 0; k < s.count; k++) {
+		const double x = (double)info.vertices[k].x, y = (double)info.vertices[k].y, c = cos((double)state.angle), n = sin((double)state.angle);
+		s.corners[k][0] = s.x + c * x - n * y;
+		s.corners[k][1] = s.y + n * x + c * y;
+	}
+	return s;
+}
+
+/* Negative inside. */
+static double distance(const solid *s, double x, double y)
+{
+	double nearest = HUGE_VAL;
+	bool inside = true;
+	if (s->count == 0)
+		return hypot(x - s->x, y - s->y) - s->radius;
+	for (uint32_t k = 0; k < s->count; k++) {
+		const double *a = s->corners[k], *b = s->corners[(k + 1) % s->count], ex = b[0] - a[0], ey = b[1] - a[1];
+		const double part = fmin(fmax(((x - a[0]) * ex + (y - a[1]) * ey) / (ex * ex + ey * ey), 0), 1);
+		nearest = fmin(nearest, hypot(x - a[0] - part * ex, y - a[1] - part * ey));
+		inside = inside && ex * (y - a[1]) - ey * (x - a[0]) > 0;
+	}
+	return inside ? -nearest : nearest;
+}
+
+static double distance_at(const solid *s, const carom_ray *ray, double part)
+{
+	return distance(s, (double)ray->from.x + part * ((double)ray->to.x - (double)ray->from.x),
+			   (double)ray->from.y + part * ((double)ray->to.y - (double)ray->from.y))
+		- (double)ray->radius;
+}
+
+#define SURE 1e-7 /* m: closer to touching than that two ways of counting may differ */
+
+/* When they meet: 2 for never, -1 where that is not sure. */
+static double meeting(const solid *s, const carom_ray *ray)
+{
+	double low = 0, high = 1, before = 0;
+	const double start = distance_at(s, ray, 0);
+	if (fabs(start) < SURE)
+		return -1;
+	if (start < 0)
+		return 2;
+	while (high - low > 1e-13) { /* the least distance is in between */
+		const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+		if (distance_at(s, ray, a) < distance_at(s, ray, b))
+			high = b;
+		else
+			low = a;
+	}
+	const double least = distance_at(s, ray, low);
+	if (fabs(least) < SURE)
+		return -1;
+	if (least > 0)
+		return 2;
+	while (low - before > 1e-15) {
+		const double middle = 0.5 * (before + low);
+		if (distance_at(s, ray, middle) > 0)
+			before = middle;
+		else
+			low = middle;
+	}
+	return low;
+}
+
+enum { BODIES = 150, RAYS = 1000, BOXES = 1000 };
+
+/* Half of them of sizes from 1 to 1,000, all over each other, the others of about one size in the middle. */
+static carom_world *wild_world(scenery_random *random, solid *solids)
+{
+	carom_body_def bodies[BODIES];
+	carom_world *world;
+	scenery_bodies(random, SCENERY_MIXED, BODIES, 1.4f, 0.0f, bodies);
+	for (int k = 0; k < BODIES; k++) {
+		const float size = k < 3 ? 6.0f : powf(10.0f, k % 2 ? scenery_uniform(random, -2.2f, 0.3f) : scenery_uniform(random, -0.5f, -0.3f));
+		const float half = k % 2 ? 20.0f : 4.0f;
+		bodies[k].position = (carom_vec2){scenery_uniform(random, -half, half), scenery_uniform(random, -half, half)};
+		bodies[k].angle = scenery_uniform(random, -3, 3);
+		if (bodies[k].shape == CAROM_POLYGON) {
+			bodies[k] = scenery_box(bodies[k].position.x, bodies[k].position.y, 0, 0, size, size * scenery_uniform(random, 0.05f, 1));
+			bodies[k].angle = scenery_uniform(random, -3, 3);
+		} else {
+			bodies[k].radius = size;
+		}
+	}
+	world = world_of(bodies, BODIES);
+	for (uint32_t k = 0; k < BODIES; k++)
+		solids[k] = solid_of(world, k);
+	return world;
+}
+
+static carom_vec2 somewhere(scenery_random *random)
+{
+	const float half = scenery_uniform(random, 0, 1) < 0.5f ? 24.0f : 5.0f;
+	return (carom_vec2){scenery_uniform(random, -half, half), scenery_uniform(random, -half, half)};
+}
+
+static void rays_meet_what_is_nearest(void **unused)
+{
+	static solid solids[BODIES];
+	int sure = 0, met = 0, thick = 0;
+	(void)unused;
+	for (uint64_t seed = 1; seed <= 2; seed++) {
+		scenery_random random = {seed};
+		carom_world *world = wild_world(&random, solids);
+		carom_snapshot *snapshot = snapshot_of(world);
+		for (int i = 0; i < RAYS; i++) {
+			carom_ray ray = {somewhere(&random), somewhere(&random), 0};
+			double first = 2, next = 2;
+			uint32_t nearest = 0;
+			bool known = true;
+			if (i % 3 == 1)
+				ray.to.x = ray.from.x;
+			if (i % 3 == 2)
+				ray.to = (carom_vec2){ray.from.x + scenery_uniform(&random, -2, 2), ray.from.y + scenery_uniform(&random, -2, 2)};
+			if (i % 2)
+				ray.radius = powf(10.0f, scenery_uniform(&random, -3, 0.5f));
+			for (uint32_t k = 0; k < BODIES && known; k++) {
+				const double part = meeting(&solids[k], &ray);
+				known = part >= 0;
+				if (part < first)
+					next = first, first = part, nearest = k;
+				else
+					next = fmin(next, part);
+			}
+			if (!known || (first <= 1 && next - first < 1e-6))
+				continue;
+			carom_ray_hit hit;
+			assert_int_equal(carom_snapshot_cast_rays(snapshot, 1, &ray, &hit, NULL), CAROM_OK);
+			const int32_t wanted = first <= 1 ? (int32_t)nearest : CAROM_NOTHING;
+			if (hit.other != wanted || (first <= 1 && !(fabs(hit.part - first) < 1e-6)))
+				fail_msg("seed %llu, ray %d: %d at %.12g instead of %d at %.12g", (unsigned long long)seed, i, hit.other, hit.part, wanted, first);
+			sure++;
+			if (first > 1)
+				continue;
+			met++;
+			thick += ray.radius > 0;
+			/* the point is on the body, and the normal leads away from it */
+			assert_true(fabs(distance(&solids[nearest], (double)hit.point.x, (double)hit.point.y)) < 1e-5);
+			assert_true(fabs(hypot((double)hit.normal.x, (double)hit.normal.y) - 1) < 1e-6);
+			const double away = distance(&solids[nearest], (double)hit.point.x + 0.001 * (double)hit.normal.x,
+				(double)hit.point.y + 0.001 * (double)hit.normal.y);
+			assert_true(fabs(away - 0.001) < 1e-5);
+		}
+		carom_snapshot_destroy(snapshot);
+		carom_world_destroy(world);
+	}
+	print_message("%d of %d rays are sure, %d of these meet something, %d of these are discs\n", sure, 2 * RAYS, met, thick);
+	assert_true(sure > 2 * RAYS * 9 / 10 && met > 2 * RAYS / 3 && thick > RAYS / 3);
+}
+
+/* The least distance of a body from a box: along a line it falls and then rises, and what is least on lines does so, too. */
+static double distance_of_box(const solid *s, carom_vec2 min, carom_vec2 max)
+{
+	double low = (double)min.y, high = (double)max.y, least = HUGE_VAL;
+	for (int k = 0; k < 50; k++) {
+		const double ys[2] = {low + (high - low) / 3, high - (high - low) / 3};
+		double found[2];
+		for (int i = 0; i < 2; i++) {
+			double left = (double)min.x, right = (double)max.x;
+			for (int n = 0; n < 50; n++) {
+				const double a = left + (right - left) / 3, b = right - (right - left) / 3;
+				if (distance(s, a, ys[i]) < distance(s, b, ys[i]))
+					right = b;
+				else
+					left = a;
+			}
+			found[i] = distance(s, left, ys[i]);
+			least = fmin(least, found[i]);
+		}
+		if (found[0] < found[1])
+			high = ys[1];
+		else
+			low = ys[0];
+	}
+	return least;
+}
+
+static void boxes_hold_what_reaches_into_them(void **unused)
+{
+	static solid solids[BODIES];
+	scenery_random random = {3};
+	carom_world *world = wild_world(&random, solids);
+	carom_snapshot *snapshot = snapshot_of(world);
+	size_t all = 0;
+	(void)unused;
+	for (int i = 0; i < BOXES; i++) {
+		const carom_vec2 min = somewhere(&random);
+		const float size = i % 4 == 0 ? 0.0f : i % 4 == 1 ? 10.0f : 1.0f;
+		const carom_vec2 max = {min.x + scenery_uniform(&random, 0, size), min.y + scenery_uniform(&random, 0, size)};
+		uint32_t found[BODIES];
+		size_t count, next = 0;
+		carom_error error;
+		scenery_check(carom_snapshot_find(snapshot, min, max, found, COUNT(found), &count, &error), &error);
+		for (uint32_t k = 0; k < BODIES; k++) {
+			const bool is_found = next < count && found[next] == k;
+			const double far = hypot(fmax(fmax((double)min.x - solids[k].x, solids[k].x - (double)max.x), 0),
+				fmax(fmax((double)min.y - solids[k].y, solids[k].y - (double)max.y), 0));
+			const double least = far > solids[k].radius + SURE ? far : distance_of_box(&solids[k], min, max);
+			next += is_found;
+			if (fabs(least) > SURE && is_found != (least < 0))
+				fail_msg("box %d, body %u: %s, but its distance is %g", i, k, is_found ? "found" : "not found", least);
+		}
+		assert_int_equal(next, count);
+		all += count;
+	}
+	print_message("%zu bodies in %d boxes\n", all, BOXES);
+	assert_true(all > BOXES / 2);
+	carom_snapshot_destroy(snapshot);
+	carom_world_destroy(world);
+}
+
+/* Discs of one size, which fill the cells in which they are looked for. */
+static void points_lie_in_the_discs_about_them(void **unused)
+{
+	enum { SIDE = 12, POINTS = 20000 };
+	carom_body_def bodies[SIDE * SIDE];
+	scenery_random random = {4};
+	carom_world *world;
+	carom_snapshot *snapshot;
+	(void)unused;
+	for (int k = 0; k < SIDE * SIDE; k++)
+		bodies[k] = scenery_circle((float)(k % SIDE) + scenery_uniform(&random, 0, 0.5f), (float)(k / SIDE) + scenery_uniform(&random, 0, 0.5f), 0, 0,
+			0.5f);
+	world = world_of(bodies, SIDE * SIDE);
+	snapshot = snapshot_of(world);
+	for (int i = 0; i < POINTS; i++) {
+		const carom_vec2 point = {scenery_uniform(&random, -1, SIDE + 1), scenery_uniform(&random, -1, SIDE + 1)};
+		uint32_t found[8];
+		size_t count = 0, wanted = 0;
+		assert_int_equal(carom_snapshot_find(snapshot, point, point, found, COUNT(found), &count, NULL), CAROM_OK);
+		for (uint32_t k = 0; k < SIDE * SIDE; k++) {
+			const double far = hypot((double)(point.x - bodies[k].position.x), (double)(point.y - bodies[k].position.y));
+			const bool is_found = wanted < count && found[wanted] == k;
+			if (fabs(far - 0.5) > 1e-6)
+				assert_true(is_found == (far < 0.5));
+			wanted += is_found;
+		}
+		assert_int_equal(wanted, count);
+	}
+	carom_snapshot_destroy(snapshot);
+	carom_world_destroy(world);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {cmocka_unit_test(rays_meet_what_is_nearest), cmocka_unit_test(boxes_hold_what_reaches_into_them),
+		cmocka_unit_test(points_lie_in_the_discs_about_them)};
+	return cmocka_run_group_tests_name("snapshot_random", tests, NULL, NULL);
+}
