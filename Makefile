@@ -58,7 +58,7 @@ COMMAND := $(sort $(filter-out tools/carom_peer_%,$(wildcard tools/carom*.c)))
 ifeq ($(CAIRO),no)
 COMMAND := $(filter-out tools/carom_plot%.c,$(COMMAND)) tools/without_cairo.c
 endif
-# The engines beside Carom in `carom bench scale`, `tunnel` and `heap`, where they are installed.
+# The engines beside Carom in `carom bench scale`, `tunnel`, `heap` and `rays`, where they are installed.
 BOX2D := $(BOX2D)
 CHIPMUNK := $(CHIPMUNK)
 COMMAND += $(if $(filter no,$(BOX2D)),tools/without_box2d.c,tools/carom_peer_box2d.cpp)
@@ -131,7 +131,7 @@ help:
 	@echo 'make conformance     run the tests on every OpenCL implementation that is installed, and from several compilers'
 	@echo 'make fuzz            feed made-up scenes and calls to the library, with clang and libFuzzer, FUZZ_SECONDS=600 each'
 	@echo 'make wild            run made-up worlds on every device and ask for one outcome, WILD_SECONDS=600, from world WILD_SEED=1 on'
-	@echo 'make bench           measure the tables of the paper, scale, tunnel and heap, and write them into build/bench/'
+	@echo 'make bench           measure the tables of the paper, scale, tunnel, heap and rays, and write them into build/bench/'
 	@echo 'make pictures        draw the pictures of README.md into docs/'
 	@echo 'make install         install below PREFIX=$(PREFIX), libraries into LIBDIR=PREFIX/lib, staged in DESTDIR='
 	@echo 'make uninstall       remove what the same call of install installed'
@@ -337,15 +337,15 @@ demo: all
 
 # ---- The paper's tables, and Carom beside other engines. BENCH are more options for each call of `carom bench`.
 
-BENCH_TABLES := table1 table2 table3 table4 table5 scale tunnel heap
+BENCH_TABLES := table1 table2 table3 table4 table5 scale tunnel heap rays
 
 bench: all
 	@mkdir -p $(BUILD)/bench
 	@status=0; $(foreach table,$(BENCH_TABLES),$(call bench_one,$(table)) || status=1; echo;) exit $$status
 
-# tunnel and heap have no chart
+# tunnel, heap and rays have no chart
 bench_one = $(BUILD)/carom bench $(1) --csv $(BUILD)/bench/$(1).csv \
-	$(if $(filter no,$(CAIRO))$(filter tunnel heap,$(1)),,--plot $(BUILD)/bench/$(1).png) $(BENCH) </dev/null
+	$(if $(filter no,$(CAIRO))$(filter tunnel heap rays,$(1)),,--plot $(BUILD)/bench/$(1).png) $(BENCH) </dev/null
 
 # ---- The pictures of README.md: the charts are those that `make bench` drew last, if it did
 

@@ -28,7 +28,7 @@ static void all_tables_are_measured(void **state)
 	assert_string_equal(call.err, "");
 	read_csv("t.csv");
 	assert_int_equal(count(VERSION, carom_version()), csv.rows - 1);
-	assert_int_equal(count(TABLE, "scale") + count(TABLE, "tunnel") + count(TABLE, "heap"), 0);
+	assert_int_equal(count(TABLE, "scale") + count(TABLE, "tunnel") + count(TABLE, "heap") + count(TABLE, "rays"), 0);
 	for (size_t row = 1; row < csv.rows; row++)
 		check_row(row, 12);
 	for (size_t k = 0; k < COUNT(tables); k++) {
@@ -152,7 +152,7 @@ static void wrong_calls_exit_with_2(void **state)
 	static const struct {
 		const char *line, *said;
 	} calls[] = {
-		{"$C bench table6", "table6: no such table; allowed: table1, table2, table3, table4, table5, scale, tunnel, heap, all"},
+		{"$C bench table6", "table6: no such table; allowed: table1, table2, table3, table4, table5, scale, tunnel, heap, rays, all"},
 		{"$C bench table1 table2", "one argument too many"},
 		{"$C bench table1 --runs 0", "--runs: found \"0\"; allowed: a whole number from 1 to 99"},
 		{"$C bench table1 --runs 100", "allowed: a whole number from 1 to 99"},

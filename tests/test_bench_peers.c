@@ -1,4 +1,4 @@
-/* carom bench scale, tunnel and heap: Carom beside other engines. The figures themselves are the machine's and theirs.
+/* carom bench scale, tunnel, heap and rays: Carom beside other engines. The figures themselves are the machine's and theirs.
  * SPDX-License-Identifier: MIT */
 #include "bench.h"
 
@@ -196,9 +196,30 @@ static void heaps_are_measured(void **state)
 		check("$C bench heap --device cpu --plot $D/heap.png", 2, "heap can't be measured: --plot: it has no chart");
 }
 
+/* ---- rays ---- */
+
+/* Two shapes, two lengths, two runs. All engines meet as many bodies. */
+static void rays_are_measured(void **state)
+{
+	(void)state;
+	double met[4] = {0};
+	read_table("rays", "--sizes 40 --runs 2 --device cpu");
+	assert_int_equal(csv.rows, 1 + 8 * (1 + count_peers()));
+	for (size_t row = 1; row < csv.rows; row++) {
+		const size_t kind = (size_t)(strstr(csv.at[row][PART], ", 100 m") != NULL) + 2 * (size_t)(strcmp(csv.at[row][SHAPE], "triangle") == 0);
+		assert_true(number(row, BODIES) == 40 && number(row, REPETITIONS) == 10000 && number(row, SECONDS) > 0 && *csv.at[row][DEVICE]);
+		met[kind] = met[kind] > 0 ? met[kind] : number(row, HITS);
+		assert_true(number(row, HITS) > 1000 && number(row, HITS) == met[kind]);
+	}
+	assert_true(met[0] < met[1] && met[2] < met[3]);
+	if (has_charts())
+		check("$C bench rays --device cpu --plot $D/rays.png", 2, "rays can't be measured: --plot: it has no chart");
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(scale_is_measured), cmocka_unit_test(scale_has_a_chart),
-		cmocka_unit_test(scale_goes_on_without_what_does_not_fit), cmocka_unit_test(nothing_of_ours_tunnels), cmocka_unit_test(heaps_are_measured)};
+		cmocka_unit_test(scale_goes_on_without_what_does_not_fit), cmocka_unit_test(nothing_of_ours_tunnels), cmocka_unit_test(heaps_are_measured),
+		cmocka_unit_test(rays_are_measured)};
 	return cmocka_run_group_tests_name("bench, beside other engines", tests, make_folder, remove_folder);
 }

@@ -21,6 +21,7 @@ static const struct {
 	{"scale", NULL, bench_scale_check, bench_scale},
 	{"tunnel", NULL, bench_tunnel_check, bench_tunnel},
 	{"heap", NULL, bench_heap_check, bench_heap},
+	{"rays", NULL, bench_rays_check, bench_rays},
 };
 
 #define TABLE_COUNT (sizeof tables / sizeof *tables)
@@ -68,7 +69,7 @@ static const struct option options_table[] = {
 		"default 0.5, for scale 0.2"},
 	{"sizes", "N,N,..", read_sizes, 0,
 		"numbers of bodies, 8 to 1048576; default those of the paper's table: 256 to 2048, for table2 to 4096; for scale 256 to "
-		"1048576, for heap 100 and 400"},
+		"1048576, for heap 100 and 400, for rays 1024, 16384 and 131072"},
 	{NULL, NULL, NULL, 0, NULL},
 };
 
@@ -232,7 +233,7 @@ static int bench_main(int argc, char **argv)
 
 const struct command bench_command = {
 	.name = "bench",
-	.arguments = "[table1 | table2 | table3 | table4 | table5 | scale | tunnel | heap | all]",
+	.arguments = "[table1 | table2 | table3 | table4 | table5 | scale | tunnel | heap | rays | all]",
 	.least_arguments = 0,
 	.most_arguments = 1,
 	.summary = "Measures the tables of the paper here, its figures beside, and body-steps a second beside other engines",
@@ -250,7 +251,9 @@ const struct command bench_command = {
 			   "          1 to 1,000 m/s; it has no chart, and --runs, --seconds and --sizes change nothing in it\n"
 			   "  heap    likewise: how long a step of circles and squares (without friction and with) takes that fall into a room\n"
 			   "          and then lie there, by the steps contacts and events and by the same engines; no chart, and\n"
-			   "          --seconds changes nothing in it: some ten minutes\n\n"
+			   "          --seconds changes nothing in it: some ten minutes\n"
+			   "  rays    likewise: how long it takes to find what a ray meets first among circles and triangles, by carom_snapshot\n"
+			   "          and by the same engines; no chart, and --seconds changes nothing in it\n\n"
 			   "Figures are seconds for 1,000 repetitions, as in the paper: the median of the runs, the least and the\n"
 			   "most; the paper's figure; the ratio, above 1 where Carom is faster. The bodies are those of\n"
 			   "`carom generate --count N`, at its default fill, speed, radius and seed. Each run goes through the same\n"

@@ -182,7 +182,7 @@ carom_status bench_draw(const struct bench_result *result, const char *path, car
 /* The devices, in a line. `fallback`: whether it was measured beside. */
 void bench_describe_devices(const carom_device_info *device, const carom_device_info *fallback, char *text, size_t size);
 
-/* ---- carom_bench_scale.c, carom_bench_tunnel.c, carom_bench_heap.c: no tables of the paper's */
+/* ---- carom_bench_scale.c, _tunnel.c, _heap.c, _rays.c: no tables of the paper's */
 
 /* Whether the library has the step that is measured; CAROM_UNKNOWN_NAME if not. */
 carom_status bench_scale_check(const struct bench_options *options, carom_error *error);
@@ -193,5 +193,7 @@ carom_status bench_tunnel_check(const struct bench_options *options, carom_error
 carom_status bench_tunnel(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
 carom_status bench_heap_check(const struct bench_options *options, carom_error *error);
 carom_status bench_heap(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
+carom_status bench_rays_check(const struct bench_options *options, carom_error *error);
+carom_status bench_rays(const struct bench_options *options, FILE *csv, const char *plot, carom_error *error);
 
 #endif

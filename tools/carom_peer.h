@@ -1,4 +1,4 @@
-/* Other engines that `carom bench` measures beside Carom, in scale, tunnel and heap. Each is known to one file, carom_peer_<name>.c or .cpp; where
+/* Other engines that `carom bench` measures beside Carom, in scale, tunnel, heap and rays. Each is known to one file, carom_peer_<name>.c or .cpp; where
  * its library is not installed, without_<name>.c stands for that file. Only the command is linked with them.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_PEER_H
@@ -34,6 +34,8 @@ struct peer {
 	void (*step)(void *world);
 	/* Of all bodies, in the order of the scene; angles may be of any size. */
 	void (*get_states)(const void *world, carom_body_state *states);
+	/* The body that a ray meets first; below 0 for a wall, and for nothing. */
+	int32_t (*cast)(const void *world, carom_vec2 from, carom_vec2 to);
 	void (*destroy)(void *world); /* may be NULL */
 };
 

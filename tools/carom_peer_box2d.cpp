@@ -111,8 +111,10 @@ void *create(const peer_scene *scene)
 	}
 	made->world.SetAllowSleeping(false);
 	add_walls(made->world, {scene->room_min.x, scene->room_min.y}, {scene->room_max.x, scene->room_max.y}, scene->restitution, scene->friction);
-	for (size_t k = 0; k < scene->count; k++)
+	for (size_t k = 0; k < scene->count; k++) {
 		made->bodies.push_back(add_body(made->world, scene->bodies[k], scene->states[k], scene->bullets));
+		made->bodies.back()->GetUserData().pointer = k + 1; /* of the walls' it is 0 */
+	}
 	return made;
 }
 
@@ -130,6 +132,27 @@ void get_states(const void *world, carom_body_state *states)
 	}
 }
 
+class Nearest : public b2RayCastCallback
+{
+public:
+	int32_t body = -1;
+
+private:
+	float ReportFixture(b2Fixture *fixture, const b2Vec2 &point, const b2Vec2 &normal, float part) override
+	{
+		(void)point, (void)normal;
+		body = static_cast<int32_t>(fixture->GetBody()->GetUserData().pointer) - 1;
+		return part; /* nothing beyond is of interest */
+	}
+};
+
+int32_t cast(const void *world, carom_vec2 from, carom_vec2 to)
+{
+	Nearest nearest;
+	static_cast<const World *>(world)->world.RayCast(&nearest, {from.x, from.y}, {to.x, to.y});
+	return nearest.body;
+}
+
 void destroy(void *world)
 {
 	delete static_cast<World *>(world);
@@ -144,5 +167,6 @@ const peer peer_box2d = {
 	create,
 	step,
 	get_states,
+	cast,
 	destroy,
 };

@@ -119,8 +119,10 @@ static void *create(const struct peer_scene *scene)
 	}
 	made->space = create_space();
 	cpSpaceSetGravity(made->space, cpv((double)scene->gravity.x, (double)scene->gravity.y));
-	for (size_t k = 0; k < scene->count; k++)
+	for (size_t k = 0; k < scene->count; k++) {
 		made->bodies[k] = add_body(made->space, &scene->bodies[k], &scene->states[k], &made->shapes[k]);
+		cpShapeSetUserData(made->shapes[k], (void *)(intptr_t)(k + 1)); /* of walls it is NULL */
+	}
 	add_walls(made->space, scene, made->shapes + scene->count);
 	return made;
 }
@@ -145,6 +147,14 @@ static void get_states(const void *world, carom_body_state *states)
 	}
 }
 
+static int32_t cast(const void *world, carom_vec2 from, carom_vec2 to)
+{
+	const struct chipmunk_world *made = world;
+	const cpShape *shape = cpSpaceSegmentQueryFirst(made->space, cpv((double)from.x, (double)from.y), cpv((double)to.x, (double)to.y), 0,
+		CP_SHAPE_FILTER_ALL, NULL);
+	return shape ? (int32_t)(intptr_t)cpShapeGetUserData(shape) - 1 : -1;
+}
+
 const struct peer peer_chipmunk = {
 	.name = "Chipmunk",
 	.settings = "10 iterations, which is its default, like all else",
@@ -152,5 +162,6 @@ const struct peer peer_chipmunk = {
 	.create = create,
 	.step = step,
 	.get_states = get_states,
+	.cast = cast,
 	.destroy = destroy,
 };
