@@ -205,8 +205,8 @@ carom_status carom_crowd_make(carom_world *world, const char *why, carom_crowd *
 		return status;
 	carom_body_state *states = malloc(count * sizeof *states);
 	uint32_t *scratch = malloc(2 * count * sizeof *scratch);
-	crowd->bodies = malloc(count * sizeof *crowd->bodies);
-	crowd->corners = malloc(corners * sizeof *crowd->corners + 1);
+	crowd->bodies = calloc(count, sizeof *crowd->bodies);
+	crowd->corners = calloc(corners + 1, sizeof *crowd->corners);
 	crowd->members = malloc(count * sizeof *crowd->members);
 	crowd->starts = malloc((CELLS_PER_BODY * count + CAROM_GRIDS) * sizeof *crowd->starts);
 	if (states && scratch && crowd->bodies && crowd->corners && crowd->members && crowd->starts)
