@@ -435,7 +435,7 @@
  * EASE of a cushion, or by CONTACT_ITERATIONS iterations; forces that need more than one within a CONTACT_CLOSER of that, so that the next step needs none.
  *
  * Where bodies rub, the bound of a force of friction follows what the normal force allows at once in the first GRIP_FOLLOW iterations, and then by a
- * GRIP_BLEND of what is missing: in many iterations the two would drive each other on, and so would more momentum than GRIP_MOMENTUM. What does not slide may
+ * GRIP_BLEND of what is missing: in many iterations the two would drive each other on, and so would friction that has more momentum than GRIP_MOMENTUM. What does not slide may
  * creep by GRIP_CREEP of what normal forces are found within: little is left of that when coordinates are rounded; what slides is slowed within a
  * GRIP_SLIDE of it; each GRIP_PATIENCE iterations this may be twice as much: what moves on needs no more, and what lies still comes to it in a few steps.
  * Where bodies rub and slide impulses come to no end: GRIP_IMPULSES iterations do, for what those leave is a hit. */

@@ -229,7 +229,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 	bool rub, bool impulses)
 {
 	float closer = impulses || done == 0 ? 1.0f : CONTACT_CLOSER;
-	float usual = (float)done / (float)(done + 2), beta = rub ? smaller(usual, GRIP_MOMENTUM) : usual;
+	float beta = (float)done / (float)(done + 2);
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], none = (float4)(0.0f);
 	sums next = {none, none, none};
 	int4 wanted = (int4)(0);
@@ -250,7 +250,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		if (rub) {
 			ways along;
 			ways_of_grips(&along, grips, s, four, &normals);
-			wanted |= grips_iterate(grips, s, four, force, &along, load, &others, tolerance, done, beta);
+			wanted |= grips_iterate(grips, s, four, force, &along, load, &others, tolerance, done, smaller(beta, GRIP_MOMENTUM));
 			sums_add(&next, grips[GRIP(s, four, GRIP_START)], &along, mass);
 		}
 	}

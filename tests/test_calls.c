@@ -5,7 +5,7 @@
 static void help_is_complete(void **state)
 {
 	(void)state;
-	static const char *const names[] = {"run", "generate", "devices", "stages"};
+	static const char *const names[] = {"run", "generate", "query", "devices", "stages"};
 	static const char *const run_options[] = {"--steps N", "--time SECONDS", "--out STATE.json", "--png FRAME.png", "--frames DIR", "--fps F",
 		"--stats FILE.csv", "--hash", "--size WxH", "--inset X,Y,W,H", "--device NAME", "--storage KIND", "--set SLOT=NAME", "--quiet", "--help",
 		"--version"};
@@ -46,7 +46,7 @@ static void wrong_calls_exit_with_2(void **state)
 	static const struct {
 		const char *line, *said;
 	} calls[] = {
-		{"$C", "the command is missing; allowed: run, generate, devices, stages"},
+		{"$C", "the command is missing; allowed: run, generate, query, devices, stages"},
 		{"$C rum", "rum: no such command; allowed: run, generate"},
 		{"$C run", "SCENE.json is missing"},
 		{"$C run scenes/mixed.json scenes/mixed.json", "one argument too many"},

@@ -23,7 +23,7 @@ static const struct {
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
 	{"scenes/pi.json", 0x9d624002521cac23, 0xd287219b381da045, 0},
 	{"scenes/piston.json", 0x2164404c393abf4d, 0x1a2d939507b78308, 0},
-	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0x35a33d8713b8d35d, 0xc87c4993116e12cb},
+	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0x6b6a836490ad61b5, 0x89a6169832413e1b},
 	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0xdd27dd88bbe84178, 0},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x675a5d8b2f725e89, 0},
 	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f, 0},
@@ -61,9 +61,9 @@ static const struct {
 	{8, SCENERY_POLYGONS, 9, 0.5f, -1.0f, 0.0f, STEPS, {0xed03ece2bc91b620}, {0xa0aabf753fd56931}, 0x596bd0e5a062364b},
 	{9, SCENERY_CIRCLES, 36, 0.875f, -3.0f, 0.0f, STEPS, {0x050b36b217d5ff67}, {0x88a992790e483f1c}, 0x2c1d02d5e04ef672},
 	{10, SCENERY_MIXED, 49, 0.5f, -9.81f, 0.5f, RESTING_STEPS, {0x0c3ead4c230722ec, 0x32e4659c5f1d96f6}, {0x5b1f8406ca4b71d8, 0x88b52be9cdc0e967},
-		0x02c227e604643d21},
+		0x7be6cebac9afed28},
 	{11, SCENERY_POLYGONS, 25, 0.75f, -3.0f, 1000.0f, RESTING_STEPS, {0x0adc6a3a146a038a, 0x420d9e63c030fdeb},
-		{0xa91b88da53d08f0c, 0xc58c8625893bbc92}, 0x738bd60bde7c72a8},
+		{0xa91b88da53d08f0c, 0xc58c8625893bbc92}, 0x7df80b15811487d8},
 	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xb0af4e0886036521}, {0xdb0ea15d092cc348}, 0x18db110f8cf79b12},
 };
 

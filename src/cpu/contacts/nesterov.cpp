@@ -225,7 +225,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 {
 	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
-	const T usual = static_cast<T>(done) / static_cast<T>(done + 2), beta = rubs ? smaller(usual, T(GRIP_MOMENTUM)) : usual;
+	const T beta = static_cast<T>(done) / static_cast<T>(done + 2);
 	const T closer = rests.impulses || done == 0 ? T(1) : T(CONTACT_CLOSER);
 	Sums<T> next;
 	decltype(load < zero) wanted{};
@@ -245,7 +245,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 		points.force = force;
 		next.add(slot, points, points.start);
 		if constexpr (rubs) {
-			rub(points, grips, load, others, beta, done, wanted);
+			rub(points, grips, load, others, smaller(beta, T(GRIP_MOMENTUM)), done, wanted);
 			next.add(slot, points, grips, grips.start);
 		}
 	});
