@@ -93,6 +93,14 @@ carom_body_state runs_state(carom_world *world, uint32_t index)
 	return state;
 }
 
+carom_snapshot *runs_snapshot(carom_world *world)
+{
+	carom_snapshot *snapshot = NULL;
+	carom_error error = {0};
+	scenery_check(carom_snapshot_create(world, &snapshot, &error), &error);
+	return snapshot;
+}
+
 carom_measure runs_measure(carom_world *world)
 {
 	carom_measure measure;

@@ -25,6 +25,8 @@ carom_report runs_step(carom_world *world, uint64_t steps);
 carom_report runs_advance(carom_world *world, double seconds);
 carom_body_state runs_state(carom_world *world, uint32_t index);
 carom_measure runs_measure(carom_world *world);
+/* To be destroyed. */
+carom_snapshot *runs_snapshot(carom_world *world);
 uint64_t runs_hash(carom_world *world);
 /* The hits of the last call, to be given to free. */
 carom_hit *runs_hits(carom_world *world, size_t *count);

@@ -5,27 +5,15 @@
 #include <string.h>
 
 #include "count.h"
-#include "scenery.h"
-
-static carom_snapshot *snapshot_of(carom_world *world)
-{
-	carom_snapshot *snapshot = NULL;
-	carom_error error = {0};
-	scenery_check(carom_snapshot_create(world, &snapshot, &error), &error);
-	return snapshot;
-}
+#include "runs.h"
 
 static carom_world *world_of(const carom_body_def *bodies, size_t count, bool has_room)
 {
 	carom_world_def def = carom_default_world_def();
-	carom_world *world;
-	carom_error error;
 	def.has_room = has_room;
 	def.room_min = (carom_vec2){-10.0f, -5.0f};
 	def.room_max = (carom_vec2){10.0f, 5.0f};
-	world = scenery_world(&def, &scenery_devices[0]);
-	scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);
-	return world;
+	return runs_world(&def, &scenery_devices[0], bodies, count);
 }
 
 static carom_ray_hit cast(const carom_snapshot *snapshot, carom_ray ray)
@@ -60,7 +48,7 @@ static void rays_meet_what_is_known(void **unused)
 	bodies[2].angle = 0.78539816f;
 	for (int has_room = 0; has_room < 2; has_room++) {
 		carom_world *world = world_of(bodies, COUNT(bodies), has_room);
-		carom_snapshot *snapshot = snapshot_of(world);
+		carom_snapshot *snapshot = runs_snapshot(world);
 		const carom_ray_hit wall = {CAROM_WALL_TOP, 0.5, {1, 5}, {0, -1}}, none = {CAROM_NOTHING, 1, {1, 8}, {0, 0}};
 		carom_world_destroy(world); /* which it does not need any more */
 		check_ray(snapshot, (carom_ray){{0, 4}, {0, -4}, 0}, (carom_ray_hit){0, 3.0 / 8, {0, 1}, {0, 1}});
@@ -93,7 +81,7 @@ static void of_what_is_met_at_once_the_first_counts(void **unused)
 {
 	carom_body_def bodies[] = {scenery_box(9, 2, 0, 0, 2, 2), scenery_box(2, -1, 0, 0, 2, 2), scenery_box(2, 1, 0, 0, 2, 2)};
 	carom_world *world = world_of(bodies, COUNT(bodies), true);
-	carom_snapshot *snapshot = snapshot_of(world);
+	carom_snapshot *snapshot = runs_snapshot(world);
 	(void)unused;
 	assert_int_equal(cast(snapshot, (carom_ray){{0, 0}, {4, 0}, 0.5f}).other, 1);
 	assert_int_equal(cast(snapshot, (carom_ray){{0, 0}, {4, 0}, 0}).other, 1);
@@ -125,7 +113,7 @@ static void boxes_hold_what_is_known(void **unused)
 	(void)unused;
 	bodies[2].angle = 0.78539816f;
 	world = world_of(bodies, COUNT(bodies), false);
-	snapshot = snapshot_of(world);
+	snapshot = runs_snapshot(world);
 	check_box(snapshot, (carom_vec2){-9, -9}, (carom_vec2){9, 9}, 4, (uint32_t[]){0, 1, 2, 3});
 	check_box(snapshot, (carom_vec2){0, 0}, (carom_vec2){0, 0}, 2, (uint32_t[]){0, 3});
 	check_box(snapshot, (carom_vec2){1, 0}, (carom_vec2){1, 0}, 1, (uint32_t[]){0}); /* on its rim */
@@ -149,7 +137,7 @@ static void wrong_questions_are_refused(void **unused)
 {
 	carom_body_def body = scenery_circle(0, 0, 0, 0, 1);
 	carom_world *world = world_of(&body, 1, false);
-	carom_snapshot *snapshot = snapshot_of(world);
+	carom_snapshot *snapshot = runs_snapshot(world);
 	const carom_ray rays[] = {{{0, 0}, {1, 0}, 0}, {{0, NAN}, {1, 0}, 0}, {{0, 0}, {1, INFINITY}, 0}, {{0, 0}, {1, 0}, -1}};
 	static const char *const texts[] = {"rays[0].from.y: found nan; allowed: a finite number", "rays[0].to.y: found inf; allowed: a finite number",
 		"rays[0].radius: found -1; allowed: a finite number, 0 or more"};
@@ -193,7 +181,7 @@ static void a_snapshot_is_of_its_time_on_every_device(void **unused)
 		if (!world)
 			continue;
 		scenery_check(carom_world_step(world, 20, NULL, &error), &error);
-		carom_snapshot *snapshot = snapshot_of(world);
+		carom_snapshot *snapshot = runs_snapshot(world);
 		memset(hits, 0, sizeof hits);
 		scenery_check(carom_snapshot_cast_rays(snapshot, FAN, rays, hits, &error), &error);
 		for (int k = 0; k < FAN; k++) {
@@ -205,7 +193,7 @@ static void a_snapshot_is_of_its_time_on_every_device(void **unused)
 		}
 		is_first = false;
 		scenery_check(carom_world_step(world, 20, NULL, &error), &error);
-		carom_snapshot *later = snapshot_of(world);
+		carom_snapshot *later = runs_snapshot(world);
 		carom_world_destroy(world);
 		int other = 0;
 		for (int k = 0; k < FAN; k++) {
@@ -221,7 +209,7 @@ static void a_snapshot_is_of_its_time_on_every_device(void **unused)
 static void in_an_empty_world_there_is_nothing(void **unused)
 {
 	carom_world *world = world_of(NULL, 0, false);
-	carom_snapshot *snapshot = snapshot_of(world);
+	carom_snapshot *snapshot = runs_snapshot(world);
 	(void)unused;
 	assert_int_equal(cast(snapshot, (carom_ray){{0, 0}, {9, 9}, 1}).other, CAROM_NOTHING);
 	check_box(snapshot, (carom_vec2){-9, -9}, (carom_vec2){9, 9}, 0, NULL);

@@ -5,23 +5,12 @@
 #include <stdlib.h>
 
 #include "count.h"
-#include "scenery.h"
+#include "runs.h"
 
 static carom_world *world_of(const carom_body_def *bodies, size_t count)
 {
 	const carom_world_def def = carom_default_world_def();
-	carom_world *world = scenery_world(&def, &scenery_devices[0]);
-	carom_error error;
-	scenery_check(carom_world_add(world, bodies, count, NULL, &error), &error);
-	return world;
-}
-
-static carom_snapshot *snapshot_of(carom_world *world)
-{
-	carom_snapshot *snapshot = NULL;
-	carom_error error = {0};
-	scenery_check(carom_snapshot_create(world, &snapshot, &error), &error);
-	return snapshot;
+	return runs_world(&def, &scenery_devices[0], bodies, count);
 }
 
 typedef struct solid {
@@ -143,7 +132,7 @@ static void rays_meet_what_is_nearest(void **unused)
 	for (uint64_t seed = 1; seed <= 2; seed++) {
 		scenery_random random = {seed};
 		carom_world *world = wild_world(&random, solids);
-		carom_snapshot *snapshot = snapshot_of(world);
+		carom_snapshot *snapshot = runs_snapshot(world);
 		for (int i = 0; i < RAYS; i++) {
 			carom_ray ray = {somewhere(&random), somewhere(&random), 0};
 			double first = 2, next = 2;
@@ -221,7 +210,7 @@ static void boxes_hold_what_reaches_into_them(void **unused)
 	static solid solids[BODIES];
 	scenery_random random = {3};
 	carom_world *world = wild_world(&random, solids);
-	carom_snapshot *snapshot = snapshot_of(world);
+	carom_snapshot *snapshot = runs_snapshot(world);
 	size_t all = 0;
 	(void)unused;
 	for (int i = 0; i < BOXES; i++) {
@@ -263,7 +252,7 @@ static void points_lie_in_the_discs_about_them(void **unused)
 		bodies[k] = scenery_circle((float)(k % SIDE) + scenery_uniform(&random, 0, 0.5f), (float)(k / SIDE) + scenery_uniform(&random, 0, 0.5f), 0, 0,
 			0.5f);
 	world = world_of(bodies, SIDE * SIDE);
-	snapshot = snapshot_of(world);
+	snapshot = runs_snapshot(world);
 	for (int i = 0; i < POINTS; i++) {
 		const carom_vec2 point = {scenery_uniform(&random, -1, SIDE + 1), scenery_uniform(&random, -1, SIDE + 1)};
 		uint32_t found[8];
