@@ -91,10 +91,8 @@ static carom_status run_paper_table(const struct bench_table *table, const struc
 {
 	struct bench_options own = *options;
 	struct bench_result *result = calloc(1, sizeof *result);
-	if (!result) {
-		wrong(error, "there is not enough memory for the figures");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (!result)
+		return out_of_memory(error, "there is not enough memory for the figures");
 	own.seconds = own.seconds > 0 ? own.seconds : PAPER_SECONDS;
 	carom_status status = bench_measure(table, &own, result, error);
 	if (status == CAROM_OK) {

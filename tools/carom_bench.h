@@ -125,6 +125,8 @@ carom_status bench_check(const struct bench_table *table, const struct bench_opt
 /* Fills in *result, which is all zeros. */
 carom_status bench_measure(const struct bench_table *table, const struct bench_options *options, struct bench_result *result, carom_error *error);
 
+/* The numbers of bodies that the options name, else `count` standard ones, into `sizes`; answers how many there are. */
+size_t bench_choose_sizes(const struct bench_options *options, const uint32_t *standard, size_t count, uint32_t sizes[MAX_SIZES]);
 /* Of measurements, all multiplied by `scale`. */
 struct bench_spread bench_spread(const double *seconds, size_t runs, double scale);
 /* "slot=alternative" of all slots */

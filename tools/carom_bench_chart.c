@@ -61,10 +61,8 @@ carom_status bench_draw(const struct bench_result *result, const char *path, car
 {
 	char device[700], footnote[200];
 	struct plot_figure *figure = calloc(1, sizeof *figure);
-	if (!figure) {
-		wrong(error, "there is not enough memory for a chart");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (!figure)
+		return out_of_memory(error, "there is not enough memory for a chart");
 	bench_describe_devices(&result->device, &result->fallback, device, sizeof device);
 	snprintf(footnote, sizeof footnote,
 		"Carom %s: median of %zu runs, bars from the least to the most. The paper: GeForce 7900 GS; "

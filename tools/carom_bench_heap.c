@@ -126,10 +126,8 @@ static carom_status measure_heap(struct heap_result *result, size_t shape, size_
 	carom_world *judge = NULL;
 	carom_body_state *states = malloc(bodies * sizeof *states);
 	carom_status status = start_create(shape, bodies, seed, options, &start, error);
-	if (status == CAROM_OK && !states) {
-		wrong(error, "there is not enough memory to measure");
-		status = error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (status == CAROM_OK && !states)
+		status = out_of_memory(error, "there is not enough memory to measure");
 	if (status == CAROM_OK)
 		status = scale_judge_create(&start, &judge, error);
 	for (size_t k = 0; status == CAROM_OK && k < ENGINES; k++)
@@ -256,12 +254,9 @@ carom_status bench_heap(const struct bench_options *options, FILE *csv, const ch
 {
 	struct heap_result *result = calloc(1, sizeof *result);
 	(void)plot;
-	if (!result) {
-		wrong(error, "there is not enough memory for the figures");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
-	result->size_count = options->size_count ? options->size_count : sizeof default_sizes / sizeof *default_sizes;
-	memcpy(result->sizes, options->size_count ? options->sizes : default_sizes, result->size_count * sizeof *result->sizes);
+	if (!result)
+		return out_of_memory(error, "there is not enough memory for the figures");
+	result->size_count = bench_choose_sizes(options, default_sizes, sizeof default_sizes / sizeof *default_sizes, result->sizes);
 	carom_status status = measure(options, result, error);
 	if (status == CAROM_OK) {
 		print(result, options->runs);

@@ -301,6 +301,13 @@ static double paper_of(const struct bench_column *column, uint32_t bodies)
 	return 0;
 }
 
+size_t bench_choose_sizes(const struct bench_options *options, const uint32_t *standard, size_t count, uint32_t sizes[MAX_SIZES])
+{
+	const size_t chosen = options->size_count ? options->size_count : count;
+	memcpy(sizes, options->size_count ? options->sizes : standard, chosen * sizeof *sizes);
+	return chosen;
+}
+
 struct bench_spread bench_spread(const double *seconds, size_t runs, double scale)
 {
 	double sorted[MAX_RUNS];

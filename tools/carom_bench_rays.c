@@ -126,10 +126,8 @@ static carom_status measure_snapshots(struct rays_run *run, uint64_t runs, doubl
 static carom_status measure_bodies(struct rays_result *result, size_t shape, size_t size, const struct bench_options *options, carom_error *error)
 {
 	struct rays_run *run = calloc(1, sizeof *run);
-	if (!run) {
-		wrong(error, "there is not enough memory for the rays");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (!run)
+		return out_of_memory(error, "there is not enough memory for the rays");
 	carom_status status = scale_start_create(&scale_shapes[shape], result->sizes[size], options, 0, 0, &run->start, error);
 	if (status == CAROM_OK)
 		status = carom_world_get_device(run->start.world, &result->device, error);
@@ -225,12 +223,9 @@ carom_status bench_rays(const struct bench_options *options, FILE *csv, const ch
 {
 	struct rays_result *result = calloc(1, sizeof *result);
 	(void)plot;
-	if (!result) {
-		wrong(error, "there is not enough memory for the figures");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
-	result->size_count = options->size_count ? options->size_count : sizeof default_sizes / sizeof *default_sizes;
-	memcpy(result->sizes, options->size_count ? options->sizes : default_sizes, result->size_count * sizeof *result->sizes);
+	if (!result)
+		return out_of_memory(error, "there is not enough memory for the figures");
+	result->size_count = bench_choose_sizes(options, default_sizes, sizeof default_sizes / sizeof *default_sizes, result->sizes);
 	carom_status status = CAROM_OK;
 	for (size_t k = 0; status == CAROM_OK && k < SCALE_SHAPES * result->size_count; k++)
 		status = measure_bodies(result, k / result->size_count, k % result->size_count, options, error);

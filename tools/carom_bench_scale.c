@@ -36,10 +36,8 @@ carom_status bench_scale(const struct bench_options *options, FILE *csv, const c
 {
 	struct bench_options own = *options;
 	struct scale_result *result = calloc(1, sizeof *result);
-	if (!result) {
-		wrong(error, "there is not enough memory for the figures");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (!result)
+		return out_of_memory(error, "there is not enough memory for the figures");
 	own.seconds = own.seconds > 0 ? own.seconds : SCALE_SECONDS;
 	carom_status status = scale_measure(&own, result, error);
 	if (status == CAROM_OK) {

@@ -38,10 +38,8 @@ carom_status scale_draw(const struct scale_result *result, const char *path, car
 {
 	char devices[700], footnote[200];
 	struct plot_figure *figure = calloc(1, sizeof *figure);
-	if (!figure) {
-		wrong(error, "there is not enough memory for a chart");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (!figure)
+		return out_of_memory(error, "there is not enough memory for a chart");
 	bench_describe_devices(&result->device, &result->fallback, devices, sizeof devices);
 	snprintf(footnote, sizeof footnote,
 		"Carom %s, step %s, on all cores; others on one. 1/60 s a step, a quarter filled, up to 5 m/s, restitution 1. "

@@ -86,10 +86,8 @@ carom_status scale_measure_kept(struct scale_result *result, size_t shape, const
 	carom_status status = scale_start_create(&scale_shapes[shape], result->kept_bodies, options, 0, 0, &start, error);
 	if (status == CAROM_OK)
 		status = scale_judge_create(&start, &judge, error);
-	if (status == CAROM_OK && !states) {
-		wrong(error, "there is not enough memory to measure");
-		status = error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (status == CAROM_OK && !states)
+		status = out_of_memory(error, "there is not enough memory to measure");
 	for (size_t k = 0; status == CAROM_OK && k < SCALE_ENGINES; k++) {
 		struct scale_runner runner;
 		if (scale_absence(result, k))

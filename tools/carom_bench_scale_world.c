@@ -8,8 +8,7 @@
 
 static carom_status no_memory(const char *what, carom_error *error)
 {
-	wrong(error, "%s: there is not enough memory for so many bodies", what);
-	return error->status = CAROM_OUT_OF_MEMORY;
+	return out_of_memory(error, "%s: there is not enough memory for so many bodies", what);
 }
 
 /* ---- Carom's worlds ---- */

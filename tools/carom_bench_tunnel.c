@@ -139,10 +139,8 @@ static const struct {
 static carom_status start_create(size_t block, double speed, const struct bench_options *options, struct scale_start *start, carom_error *error)
 {
 	*start = (struct scale_start){.defs = malloc(MOST_BODIES * sizeof *start->defs)};
-	if (!start->defs) {
-		wrong(error, "there is not enough memory for the bodies");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (!start->defs)
+		return out_of_memory(error, "there is not enough memory for the bodies");
 	start->scene.count = blocks[block].place(start->defs, speed);
 	start->scene.restitution = 1;
 	start->scene.room_min = (carom_vec2){-HALF_WIDTH, -HALF_HEIGHT};
@@ -324,10 +322,8 @@ carom_status bench_tunnel(const struct bench_options *options, FILE *csv, const 
 {
 	struct tunnel_result *result = calloc(1, sizeof *result);
 	(void)plot;
-	if (!result) {
-		wrong(error, "there is not enough memory for the figures");
-		return error->status = CAROM_OUT_OF_MEMORY;
-	}
+	if (!result)
+		return out_of_memory(error, "there is not enough memory for the figures");
 	carom_status status = measure(options, result, error);
 	if (status == CAROM_OK) {
 		print(result);

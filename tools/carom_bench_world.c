@@ -69,8 +69,7 @@ static carom_status create(const struct bench_subject *subject, uint32_t count, 
 
 static carom_status no_memory(carom_error *error)
 {
-	wrong(error, "there is not enough memory to measure");
-	return error->status = CAROM_OUT_OF_MEMORY;
+	return out_of_memory(error, "there is not enough memory to measure");
 }
 
 /* ---- Paths ---- */

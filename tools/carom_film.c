@@ -123,9 +123,7 @@ carom_status film_create(const char *folder, const carom_render_def *render, str
 	struct film *made = calloc(1, sizeof *made);
 	if (!made) {
 		free(pixels);
-		wrong(error, "there is not enough memory for a film");
-		error->status = CAROM_OUT_OF_MEMORY;
-		return error->status;
+		return out_of_memory(error, "there is not enough memory for a film");
 	}
 	made->folder = folder;
 	made->render = render;

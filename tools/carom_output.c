@@ -16,9 +16,7 @@ carom_status allocate_pixels(const carom_render_def *render, uint8_t **pixels, c
 	*pixels = malloc((size_t)render->width * render->height * 4);
 	if (*pixels)
 		return CAROM_OK;
-	wrong(error, "there is not enough memory for a picture of %u x %u pixels", render->width, render->height);
-	error->status = CAROM_OUT_OF_MEMORY;
-	return error->status;
+	return out_of_memory(error, "there is not enough memory for a picture of %u x %u pixels", render->width, render->height);
 }
 
 static carom_status make_folder(const char *path, carom_error *error)

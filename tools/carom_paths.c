@@ -1,4 +1,4 @@
-/* Names of files that the command writes.
+/* Names of files that the command reads and writes.
  * SPDX-License-Identifier: MIT */
 #include "carom_tool.h"
 
@@ -9,6 +9,16 @@
 #include <unistd.h>
 
 #define MOST_LINKS 40 /* one after the other, as in Linux */
+
+const char *input_name(const char *text)
+{
+	return strcmp(text, "-") == 0 ? "/dev/stdin" : text;
+}
+
+carom_status read_input(const char *text, void *target, carom_error *error)
+{
+	return read_text(input_name(text), target, error);
+}
 
 carom_status read_output(const char *text, void *target, carom_error *error)
 {

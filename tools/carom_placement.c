@@ -146,8 +146,7 @@ carom_status placement_create(const struct placement_def *def, carom_body_def **
 		*half = (float)half_of(def, def->fill);
 	} else {
 		free(made);
-		wrong(error, "there is not enough memory for %u bodies", (unsigned)def->count);
-		status = error->status = CAROM_OUT_OF_MEMORY;
+		status = out_of_memory(error, "there is not enough memory for %u bodies", (unsigned)def->count);
 	}
 	free(points);
 	return status;

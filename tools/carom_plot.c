@@ -164,8 +164,7 @@ static double draw_figure(const struct canvas *canvas, double width, bool drawn)
 
 static carom_status no_memory(carom_error *error)
 {
-	wrong(error, "there is not enough memory for a chart");
-	return error->status = CAROM_OUT_OF_MEMORY;
+	return out_of_memory(error, "there is not enough memory for a chart");
 }
 
 /* To one of LEVELS: smooth edges need no more, and so few colours make a small file. */

@@ -54,11 +54,6 @@ static carom_status read_point(const char *text, void *target, carom_error *erro
 	return CAROM_OK;
 }
 
-static carom_status read_input(const char *text, void *target, carom_error *error)
-{
-	return read_text(strcmp(text, "-") == 0 ? "/dev/stdin" : text, target, error);
-}
-
 static const struct option options_table[] = {
 	{"ray", "X,Y,X,Y[,RADIUS]", read_ray, 0, "what a ray from the first point to the second meets first, or a disc of this radius"},
 	{"rays", "FILE.csv", read_input, offsetof(struct query_options, rays),
@@ -78,13 +73,6 @@ static carom_status check_options(const struct query_options *options, carom_err
 	return CAROM_OK;
 }
 
-static carom_status no_memory(const char *things, carom_error *error)
-{
-	*error = (carom_error){.status = CAROM_OUT_OF_MEMORY};
-	snprintf(error->text, sizeof error->text, "no memory for the %s", things);
-	return error->status;
-}
-
 /* ---- Rays ---- */
 
 struct rays {
@@ -98,7 +86,7 @@ static carom_status add_ray(struct rays *rays, carom_ray ray, carom_error *error
 		const size_t room = rays->room ? 2 * rays->room : 64;
 		carom_ray *items = realloc(rays->items, room * sizeof *items);
 		if (!items)
-			return no_memory("rays", error);
+			return out_of_memory(error, "there is not enough memory for %zu rays", room);
 		rays->items = items;
 		rays->room = room;
 	}
@@ -188,7 +176,7 @@ static carom_status print_found(const carom_world *world, const carom_snapshot *
 	uint32_t *indices = malloc(room * sizeof *indices + 1);
 	size_t count = 0;
 	const carom_status status = indices ? carom_snapshot_find(snapshot, options->min, options->max, indices, room, &count, error)
-										: no_memory("bodies found", error);
+										: out_of_memory(error, "there is not enough memory for %zu bodies", room);
 	if (status == CAROM_OK)
 		puts("body,name");
 	for (size_t k = 0; k < count; k++) {
@@ -224,9 +212,7 @@ static int query_main(int argc, char **argv)
 	int code = parse_options(&query_command, argc, argv, &options.common);
 	if (code >= 0)
 		return code;
-	const char *path = options.common.arguments[0];
-	if (strcmp(path, "-") == 0)
-		options.common.arguments[0] = path = "/dev/stdin";
+	const char *path = options.common.arguments[0] = input_name(options.common.arguments[0]);
 	carom_status status = check_options(&options, &error);
 	if (status == CAROM_OK && !options.has_box && !options.has_point)
 		status = read_rays(&options, &rays, &error);

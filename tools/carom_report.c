@@ -7,15 +7,30 @@
 #include <string.h>
 #include <time.h>
 
+static carom_status fill(carom_error *error, carom_status status, const char *format, va_list arguments)
+{
+	memset(error, 0, sizeof *error);
+	error->status = status;
+	vsnprintf(error->text, sizeof error->text, format, arguments);
+	return status;
+}
+
 carom_status wrong(carom_error *error, const char *format, ...)
 {
 	va_list arguments;
-	memset(error, 0, sizeof *error);
-	error->status = CAROM_INVALID_ARGUMENT;
 	va_start(arguments, format);
-	vsnprintf(error->text, sizeof error->text, format, arguments);
+	const carom_status status = fill(error, CAROM_INVALID_ARGUMENT, format, arguments);
 	va_end(arguments);
-	return error->status;
+	return status;
+}
+
+carom_status out_of_memory(carom_error *error, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	const carom_status status = fill(error, CAROM_OUT_OF_MEMORY, format, arguments);
+	va_end(arguments);
+	return status;
 }
 
 static int exit_code(carom_status status)

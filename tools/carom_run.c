@@ -267,9 +267,7 @@ static int run_main(int argc, char **argv)
 	int code = parse_options(&run_command, argc, argv, &options.common);
 	if (code >= 0)
 		return code;
-	const char *path = options.common.arguments[0];
-	if (strcmp(path, "-") == 0)
-		options.common.arguments[0] = path = "/dev/stdin";
+	const char *path = options.common.arguments[0] = input_name(options.common.arguments[0]);
 	if (check_options(&options, &error) != CAROM_OK)
 		return report(&error);
 	if (carom_scene_read(path, &scene, &error) != CAROM_OK)

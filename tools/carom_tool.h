@@ -71,6 +71,9 @@ carom_status apply_options(const struct common_options *options, carom_world_def
 
 /* ---- carom_paths.c */
 
+/* The name of a file to be read: - is /dev/stdin. */
+const char *input_name(const char *text);
+read_option read_input;  /* the same, into a const char * */
 read_option read_output; /* into a const char *: the name of a file; - is /dev/stdout */
 read_option read_path;   /* the same where standard output can't be meant */
 /* Begins the file and gives it up: what could go wrong at the end goes wrong now. Pipes are left alone: their readers would take this for the end. */
@@ -94,6 +97,8 @@ carom_status fail_interrupted(carom_error *error);
 
 /* Fills in *error; answers CAROM_INVALID_ARGUMENT. */
 carom_status wrong(carom_error *error, const char *format, ...) TOOL_PRINTF(2, 3);
+/* Likewise CAROM_OUT_OF_MEMORY. */
+carom_status out_of_memory(carom_error *error, const char *format, ...) TOOL_PRINTF(2, 3);
 /* "carom: ..." on stderr, then the build log if there is one; answers the exit code for it. */
 int report(const carom_error *error);
 /* The same for a file that was to be read: what can't be read is wrong input. */
