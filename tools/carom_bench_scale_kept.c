@@ -80,14 +80,14 @@ carom_status scale_judge_create(const struct scale_start *start, carom_world **j
 
 carom_status scale_measure_kept(struct scale_result *result, size_t shape, const struct bench_options *options, carom_error *error)
 {
+	carom_body_state *states = malloc(result->kept_bodies * sizeof *states);
+	if (!states)
+		return out_of_memory(error, "there is not enough memory to measure");
 	struct scale_start start;
 	carom_world *judge = NULL;
-	carom_body_state *states = malloc(result->kept_bodies * sizeof *states);
 	carom_status status = scale_start_create(&scale_shapes[shape], result->kept_bodies, options, 0, 0, &start, error);
 	if (status == CAROM_OK)
 		status = scale_judge_create(&start, &judge, error);
-	if (status == CAROM_OK && !states)
-		status = out_of_memory(error, "there is not enough memory to measure");
 	for (size_t k = 0; status == CAROM_OK && k < SCALE_ENGINES; k++) {
 		struct scale_runner runner;
 		if (scale_absence(result, k))
