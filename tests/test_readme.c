@@ -1,12 +1,15 @@
-/* What README.md and the manual page say is true: the example, the commands with their output, options, tables, scenes.
+/* What README.md, what it leads to in docs/, and the manual page say is true: the example, the commands with their output, options, tables, scenes.
  * SPDX-License-Identifier: MIT */
 #include "command.h"
+#include "documents.h"
 
 #include <limits.h>
 
 #define MAX_COMMANDS 16
 
-static char readme[1 << 17], manual[1 << 16], bootstrap[1 << 14];
+static char manual[1 << 16], bootstrap[1 << 14];
+
+static const char *readme;
 
 /* What the command says of itself: the help of each subcommand. */
 static struct {
@@ -70,7 +73,8 @@ static int set_up(void **state)
 	check(line, 0, NULL);
 	setenv("CAROM_DEVICE", "cpu", 1);
 	setenv("CAROM_SANITIZERS", strstr(path, "/sanitize") ? "-fsanitize=address,undefined build/tests/sanitize/loaded.o -rdynamic" : "", 1);
-	read_text("README.md", readme, sizeof readme);
+	documents_read();
+	readme = documents[0].text;
 	read_text("tools/carom.1", manual, sizeof manual);
 	read_text("tools/bootstrap", bootstrap, sizeof bootstrap);
 	read_helps();
@@ -150,7 +154,7 @@ static void the_example_prints_what_is_said(void **state)
 /* ---- The command ---- */
 
 /* A line "$ command" and what must come of it; answers what follows it in the block. */
-static const char *check_line(const char *at)
+static const char *check_line(const char *path, const char *at)
 {
 	char line[2048], wanted[8192];
 	const char *output = at + strcspn(at, "\n") + 1;
@@ -160,19 +164,21 @@ static const char *check_line(const char *at)
 	format(wanted, sizeof wanted, "%.*s", (int)(end - output), output);
 	run_there(line);
 	if (strcmp(call.out, wanted) != 0)
-		fail_msg("%s\nprinted \"%s\", README.md says \"%s\"", line, call.out, wanted);
+		fail_msg("%s\nprinted \"%s\", %s says \"%s\"", line, call.out, path, wanted);
 	return end;
 }
 
 static void the_command_prints_what_is_said(void **state)
 {
 	char block[8192];
-	const char *at = readme;
 	int lines = 0;
 	(void)state;
-	while (next_block(&at, "console", block, sizeof block)) {
-		for (const char *line = block; *line; lines++)
-			line = check_line(line);
+	for (size_t k = 0; k < document_count; k++) {
+		const char *at = documents[k].text;
+		while (next_block(&at, "console", block, sizeof block)) {
+			for (const char *line = block; *line; lines++)
+				line = check_line(documents[k].path, line);
+		}
 	}
 	assert_true(lines >= 5);
 }
@@ -211,13 +217,13 @@ static bool is_option_of_bootstrap(const char *line, const char *at, const char 
 	return script && script < at && strstr(bootstrap, head);
 }
 
-static void check_options(char *line)
+static void check_options(const char *path, const char *line)
 {
 	char name[64];
 	for (const char *at = strstr(line, "--"); at; at = strstr(at + 2, "--")) {
 		const char *command = command_before(line, at);
 		if (sscanf(at, "--%63[a-z]", name) == 1 && !is_option(command, name) && !is_option_of_bootstrap(line, at, name))
-			fail_msg("README.md has --%s, which `carom %s` does not know: %s", name, command ? command : "COMMAND", line);
+			fail_msg("%s has --%s, which `carom %s` does not know: %s", path, name, command ? command : "COMMAND", line);
 	}
 }
 
@@ -225,10 +231,12 @@ static void every_option_shown_exists(void **state)
 {
 	(void)state;
 	char line[1024];
-	for (const char *at = readme; *at; at += at[strcspn(at, "\n")] ? strcspn(at, "\n") + 1 : strlen(at)) {
-		format(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at);
-		if (!strstr(line, "pkg-config") && !strstr(line, "|---"))
-			check_options(line);
+	for (size_t k = 0; k < document_count; k++) {
+		for (const char *at = documents[k].text; *at; at += at[strcspn(at, "\n")] ? strcspn(at, "\n") + 1 : strlen(at)) {
+			format(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at);
+			if (!strstr(line, "pkg-config") && !strstr(line, "|---"))
+				check_options(documents[k].path, line);
+		}
 	}
 }
 
@@ -263,20 +271,6 @@ static void the_manual_has_every_option_and_no_other(void **state)
 		if (sscanf(at, "\\-\\-%63[a-z]", name) == 1 && !is_option(NULL, name))
 			fail_msg("tools/carom.1 has --%s, which no command knows", name);
 	}
-}
-
-/* Where it is shown, `docs/...` stands in brackets or quotes. */
-static void every_picture_shown_is_there(void **state)
-{
-	(void)state;
-	char path[256];
-	int pictures = 0;
-	for (const char *at = strstr(readme, "docs/"); at; at = strstr(at + 1, "docs/"), pictures++) {
-		format(path, sizeof path, "%.*s", (int)strcspn(at, ")\"` \n"), at);
-		if (access(path, R_OK) != 0)
-			fail_msg("README.md shows %s, which is not there", path);
-	}
-	assert_true(pictures > 0);
 }
 
 /* ---- The pipeline ---- */
@@ -358,8 +352,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(the_example_prints_what_is_said), cmocka_unit_test(the_command_prints_what_is_said),
 		cmocka_unit_test(every_option_shown_exists), cmocka_unit_test(every_command_is_described),
-		cmocka_unit_test(the_manual_has_every_option_and_no_other), cmocka_unit_test(every_picture_shown_is_there),
-		cmocka_unit_test(the_table_of_slots_is_what_there_is), cmocka_unit_test(every_scene_shown_is_one),
-		cmocka_unit_test(the_tables_of_keys_are_the_readers)};
+		cmocka_unit_test(the_manual_has_every_option_and_no_other), cmocka_unit_test(the_table_of_slots_is_what_there_is),
+		cmocka_unit_test(every_scene_shown_is_one), cmocka_unit_test(the_tables_of_keys_are_the_readers)};
 	return cmocka_run_group_tests_name("readme", tests, set_up, remove_folder);
 }
