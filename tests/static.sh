@@ -97,12 +97,13 @@ stages() {
 	done
 }
 
-# (The analyzer follows a function's ways until it has seen so many states of it: of C++ a quarter as many as by default, which takes half as long.)
+# (The analyzer follows a function's ways until it has seen so many states of it: a quarter as many as by default, which takes a third of the time.)
 tidy() {
+	analyzer='-Xclang -analyzer-config -Xclang max-nodes=50000'
 	{ stages && sources src tests tools | grep -E '\.c(pp)?$' | grep -v '^src/cpu/.*/' | sort -r; } | while read -r file; do
 		case $file in
-		*.c) printf '%s -- %s\n' "$file" "$C_FLAGS" ;;
-		*) printf '%s -- -Xclang -analyzer-opt-analyze-headers -Xclang -analyzer-config -Xclang max-nodes=50000 -I. %s\n' "$file" "$CXX_FLAGS" ;;
+		*.c) printf '%s -- %s %s\n' "$file" "$analyzer" "$C_FLAGS" ;;
+		*) printf '%s -- %s -Xclang -analyzer-opt-analyze-headers -I. %s\n' "$file" "$analyzer" "$CXX_FLAGS" ;;
 		esac
 	done | in_parallel "$command" --config-file=.clang-tidy --checks=-bugprone-suspicious-include --quiet --warnings-as-errors='*' |
 		grep -E ': (warning|error): |exit status' | sort -u
