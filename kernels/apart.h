@@ -36,6 +36,12 @@ INLINE float4 corner_load(VERTICES_IN, body k, int j)
 	return (float4)(from.x, from.y, n.x, n.y);
 }
 
+/* (Not of vectors of two: Oclgrind, where it looks for uninitialized values, can't read them.) */
+INLINE float4 twice_each(float p, float q)
+{
+	return (float4)(p, p, q, q);
+}
+
 /* Do two polygons surely stay apart from t until then? The lanes are: from A at t, from A then, from B at t, from B then. */
 bool polygons_stay_apart(VERTICES_IN, body a, body b, float t, float until, float slop)
 {
@@ -52,13 +58,13 @@ bool polygons_stay_apart(VERTICES_IN, body a, body b, float t, float until, floa
 	int most = max(a.count, b.count);
 	for (int j = 0; j < most; j++) {
 		float4 p = corner_load(VERTICES, a, j), q = corner_load(VERTICES, b, j);
-		float4 nx = (float4)(p.zz, q.zz), ny = (float4)(p.ww, q.ww), mx = c * nx + s * ny, my = c * ny - s * nx, low = (float4)(INFINITY);
+		float4 nx = twice_each(p.z, q.z), ny = twice_each(p.w, q.w), mx = c * nx + s * ny, my = c * ny - s * nx, low = (float4)(INFINITY);
 		for (int k = 0; k < most; k++) {
 			float2 at_a = vertex_load(VERTICES, a.first, min(k, a.count - 1)), at_b = vertex_load(VERTICES, b.first, min(k, b.count - 1));
-			float4 height = mx * (float4)(at_b.xx, at_a.xx) + my * (float4)(at_b.yy, at_a.yy);
+			float4 height = mx * twice_each(at_b.x, at_a.x) + my * twice_each(at_b.y, at_a.y);
 			low = select(low, height, height < low);
 		}
-		low += (nx * own_x + ny * own_y) - (nx * (float4)(p.xx, q.xx) + ny * (float4)(p.yy, q.yy));
+		low += (nx * own_x + ny * own_y) - (nx * twice_each(p.x, q.x) + ny * twice_each(p.y, q.y));
 		low = select(low, low.yxwz, low.yxwz < low);
 		far = select(far, low, low > far);
 	}

@@ -2,8 +2,8 @@
  * whose result may differ (dot, length, sin, mad, ...). The order of the operations is that of CONTRACT.md. */
 #pragma OPENCL FP_CONTRACT OFF
 
-/* For what inner loops call: compilers for CPUs do not inline it all by themselves. */
-#if defined(__clang__) && !defined(CAROM_GPU)
+/* For what inner loops call: compilers for CPUs do not inline it all by themselves; those that do not optimize leave traces of it that Oclgrind does not know. */
+#if defined(__clang__) && defined(__OPTIMIZE__) && !defined(CAROM_GPU)
 #define INLINE __attribute__((always_inline))
 #else
 #define INLINE

@@ -21,7 +21,8 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 		step = (float4)(length, length, 0.0f, 0.0f);
 		time = (float4)(elapsed.x, elapsed.y, remaining.x, remaining.y);
 		counts = (float4)(CHANNEL(counts, COUNTS_STEPS) + 1.0f, hits.x, CHANNEL(counts, COUNTS_HELD) + (float)status[STATUS_HELD], hits.y);
-		ruled.xy = add_exactly((float2)(CHANNEL(ruled, RULED_HITS), CHANNEL(ruled, RULED_HITS_LOW)), (float)status[STATUS_RULED]);
+		float2 all_ruled = add_exactly((float2)(CHANNEL(ruled, RULED_HITS), CHANNEL(ruled, RULED_HITS_LOW)), (float)status[STATUS_RULED]);
+		ruled.x = all_ruled.x, ruled.y = all_ruled.y;
 		status[STATUS_STEPS]++;
 		status[STATUS_BUSTLE] = status[STATUS_HITS];
 		status[STATUS_KEPT_BEFORE] = status[STATUS_KEPT];
