@@ -8,6 +8,11 @@
 #include "runs.h"
 
 #define STEPS 1000
+#ifdef __SANITIZE_ADDRESS__
+#define PART 5 /* of the steps, for these take ten times as long: no hash is written here of so few, but all have the same */
+#else
+#define PART 1
+#endif
 #define RESTING_STEPS 200 /* of worlds in which a hundred bodies come to rest: the others take minutes, and are run if CAROM_LONG_TESTS is set */
 
 static const struct {
@@ -28,6 +33,12 @@ static const struct {
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x675a5d8b2f725e89, 0},
 	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f, 0},
 };
+
+/* 0: what the first one has. */
+static uint64_t expected_at_first(uint64_t written)
+{
+	return PART == 1 ? written : 0;
+}
 
 static carom_world *world_of(const char *path, const char *step, const scenery_device *device, uint32_t threads)
 {
@@ -90,14 +101,16 @@ static carom_world *random_world(size_t i, const char *step, const scenery_devic
 	return world;
 }
 
-static void check_random(size_t i, const char *step, uint64_t steps, uint64_t expected)
+static void check_random(size_t i, const char *step, uint64_t steps, uint64_t written)
 {
+	uint64_t expected = expected_at_first(written);
 	SCENERY_EACH_DEVICE(device) {
 		carom_world *world = random_world(i, step, device);
 		uint64_t hash;
 		if (!world)
 			continue;
-		hash = runs_hash_after(world, steps, 1);
+		hash = runs_hash_after(world, steps / PART, 1);
+		expected = expected ? expected : hash;
 		if (hash != expected)
 			fail_msg("seed %llu, %llu steps of %s on %s: %016llx, expected %016llx", (unsigned long long)random_worlds[i].seed,
 				(unsigned long long)steps, step, device->name, (unsigned long long)hash, (unsigned long long)expected);
@@ -121,14 +134,16 @@ static void random_worlds_have_their_hashes(void **unused)
 
 /* ---- Scenes */
 
-static void check_hash(const char *scene, const char *step, uint64_t steps, uint64_t expected)
+static void check_hash(const char *scene, const char *step, uint64_t steps, uint64_t written)
 {
+	uint64_t expected = expected_at_first(written);
 	SCENERY_EACH_DEVICE(device) {
 		carom_world *world = world_of(scene, step, device, 0);
 		uint64_t hash;
 		if (!world)
 			continue;
-		hash = runs_hash_after(world, steps, 1);
+		hash = runs_hash_after(world, steps / PART, 1);
+		expected = expected ? expected : hash;
 		if (hash != expected)
 			fail_msg("%s, step %s on %s: %016llx, expected %016llx", scene, step ? step : "of its own", device->name, (unsigned long long)hash,
 				(unsigned long long)expected);
@@ -158,11 +173,16 @@ static void threads_and_calls_change_no_bit(void **unused)
 {
 	(void)unused;
 	const size_t last = sizeof golden / sizeof *golden - 1;
-	const char *scene = golden[last].scene;
-	for (uint32_t threads = 1; threads <= 3; threads++) {
-		const uint64_t calls = threads == 3 ? 10 : 1;
-		assert_true(runs_hash_after(world_of(scene, "first_impact", &scenery_devices[0], threads), STEPS, calls) == golden[last].hash);
-		assert_true(runs_hash_after(world_of(scene, "events", &scenery_devices[0], threads), STEPS, calls) == golden[last].own);
+	static const char *const steps[] = {"first_impact", "events"};
+	const uint64_t written[] = {golden[last].hash, golden[last].own};
+	for (size_t i = 0; i < 2; i++) {
+		uint64_t expected = expected_at_first(written[i]);
+		for (uint32_t threads = 1; threads <= 3; threads++) {
+			const uint64_t calls = threads == 3 ? 10 : 1;
+			const uint64_t hash = runs_hash_after(world_of(golden[last].scene, steps[i], &scenery_devices[0], threads), STEPS / PART, calls);
+			expected = expected ? expected : hash;
+			assert_true(hash == expected);
+		}
 	}
 }
 
@@ -227,7 +247,7 @@ static void what_steps_learn_changes_no_bit(void **unused)
  * were both changed in the step before. */
 static void calls_of_any_length_change_no_bit(void **unused)
 {
-	enum { COUNT = 256, ALL = 840 };
+	enum { COUNT = 256, ALL = 840 / PART };
 	static const uint64_t lengths[] = {1, 2, 3, 4, 6, 7, 8, ALL};
 	carom_world_def def = carom_default_world_def();
 	carom_body_def bodies[COUNT];
