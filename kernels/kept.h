@@ -102,7 +102,7 @@ void forces_keep(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 			continue;
 		int second = other == before, to = WARM(body, count - second, rub);
 		float force = at[4 * FOUR_FORCE], held = grip[4 * GRIP_FORCE];
-		warm[to] = second ? (float4)(warm[to].xy, force, 0.0f) : (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
+		warm[to] = second ? (float4)(warm[to].x, warm[to].y, force, 0.0f) : (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
 		if (rub)
 			warm[to + 1] = second ? (float4)(warm[to + 1].x, held, 0.0f, 0.0f) : (float4)(held, 0.0f, 0.0f, 0.0f);
 		before = other;
