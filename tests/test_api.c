@@ -323,6 +323,15 @@ static bool opens_cpu(const char *name)
 	return !info.is_opencl;
 }
 
+/* Some runtimes call their device by its processor's name, as the CPU fallback does: the first one of the list counts. */
+static void check_device_called(const carom_device_info *list, const char *name)
+{
+	size_t first = 0;
+	while (!strstr(list[first].name, name) && !strstr(list[first].platform, name))
+		first++;
+	assert_true(opens_cpu(name) == !list[first].is_opencl);
+}
+
 static void devices_by_name(void **unused)
 {
 	(void)unused;
@@ -340,8 +349,8 @@ static void devices_by_name(void **unused)
 		if (!list[i].is_opencl || !list[i].works)
 			continue;
 		assert_false(opens_cpu("OpenCL"));
-		assert_false(opens_cpu(list[i].platform));
-		assert_false(opens_cpu(list[i].name));
+		check_device_called(list, list[i].platform);
+		check_device_called(list, list[i].name);
 	}
 	setenv("CAROM_DEVICE", "cpu", 1);
 	assert_true(opens_cpu(NULL));
