@@ -594,6 +594,7 @@
 
 /* Sine and cosine: pi/2 in three parts, and minimax polynomials on [-pi/4, pi/4] (Cephes) */
 #define LARGEST_TURN 1073741824.0f /* 2^30: a larger number of quarter turns has no fraction left, and counts as 0 */
+#define ANGLE_MOST 3.1416f         /* rad: half a turn, and what rounding makes it longer */
 #define TWO_OVER_PI 0.636619772367581343f
 #define HALF_PI_1 1.5703125f
 #define HALF_PI_2 4.837512969970703125e-4f

@@ -84,11 +84,20 @@ float2 rotation_of(float angle)
 	return (quarters & 2) ? (float2)(-turned.x, -turned.y) : turned;
 }
 
-/* The same direction in [-pi, pi]. */
-float wrapped(float angle)
+float without_turns(float angle)
 {
 	float k = (float)nearest(angle * (0.25f * TWO_OVER_PI));
 	return ((angle - k * (4.0f * HALF_PI_1)) - k * (4.0f * HALF_PI_2)) - k * (4.0f * HALF_PI_3);
+}
+
+/* The same direction in [-pi, pi]; of so many turns that rounding has lost it, 0. */
+float wrapped(float angle)
+{
+	float once = without_turns(angle);
+	if (magnitude(once) <= ANGLE_MOST)
+		return once;
+	float twice = without_turns(once);
+	return magnitude(twice) <= ANGLE_MOST ? twice : 0.0f;
 }
 
 /* sum + x, where sum is the unevaluated sum of a high and a low part (two-sum, then renormalised) */

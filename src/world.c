@@ -94,7 +94,7 @@ void carom_world_destroy(carom_world *world)
 /* Into [-pi, pi]; what the kernels' rounding left a little outside stays, or a state that is read and set would change. */
 static float wrapped(float angle)
 {
-	return fabsf(angle) <= 3.1416f ? angle : (float)remainder((double)angle, 6.28318530717958647692);
+	return fabsf(angle) <= ANGLE_MOST ? angle : (float)remainder((double)angle, 6.28318530717958647692);
 }
 
 static bool append_state(carom_world *world, const carom_body_def *def, const carom_body *body)

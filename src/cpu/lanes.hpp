@@ -73,7 +73,14 @@ template <typename T> [[gnu::always_inline]] inline auto nearest_of(const Lanes<
 template <typename T> [[gnu::always_inline]] inline void wrap(Lanes<T> &angle)
 {
 	const Lanes<T> k = __builtin_convertvector(nearest_of<T>(angle * T(0.25f * TWO_OVER_PI)), Lanes<T>);
-	angle = ((angle - k * T(4 * HALF_PI_1)) - k * T(4 * HALF_PI_2)) - k * T(4 * HALF_PI_3);
+	const Lanes<T> once = ((angle - k * T(4 * HALF_PI_1)) - k * T(4 * HALF_PI_2)) - k * T(4 * HALF_PI_3);
+	const auto done = magnitude(once) <= T(ANGLE_MOST);
+	if ((done[0] & done[1] & done[2] & done[3]) != 0) {
+		angle = once;
+		return;
+	}
+	for (int32_t i = 0; i < lane_count; i++)
+		angle[i] = wrapped<T>(angle[i]);
 }
 
 /* rotation_of each: cosines and sines. */

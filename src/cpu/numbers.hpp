@@ -98,8 +98,14 @@ inline Vec<double> rotation_of(double angle)
 
 template <typename T> T wrapped(T angle)
 {
-	T k = static_cast<T>(nearest(angle * (0.25f * TWO_OVER_PI)));
-	return ((angle - k * (4 * HALF_PI_1)) - k * (4 * HALF_PI_2)) - k * (4 * HALF_PI_3);
+	/* once as a rule; twice where rounding of many turns left more than half a one */
+	for (int i = 0; i < 2; i++) {
+		T k = static_cast<T>(nearest(angle * (0.25f * TWO_OVER_PI)));
+		angle = ((angle - k * (4 * HALF_PI_1)) - k * (4 * HALF_PI_2)) - k * (4 * HALF_PI_3);
+		if (std::abs(angle) <= ANGLE_MOST)
+			return angle;
+	}
+	return 0;
 }
 
 /* A number as the sum of two, for times that go on growing by less than their last place. */
