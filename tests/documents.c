@@ -12,15 +12,21 @@
 document documents[MAX_DOCUMENTS];
 size_t document_count;
 
+void documents_read_text(const char *path, char *text, size_t size)
+{
+	FILE *file = fopen(path, "rb");
+	assert_non_null(file);
+	const size_t length = fread(text, 1, size - 1, file);
+	fclose(file);
+	assert_true(length < size - 1);
+	text[length] = '\0';
+}
+
 static void read_document(const char *path)
 {
 	assert_true(document_count < MAX_DOCUMENTS);
 	document *to = &documents[document_count++];
-	FILE *file = fopen(path, "rb");
-	assert_non_null(file);
-	const size_t length = fread(to->text, 1, sizeof to->text - 1, file);
-	fclose(file);
-	assert_true(length < sizeof to->text - 1);
+	documents_read_text(path, to->text, sizeof to->text);
 	assert_in_range(snprintf(to->path, sizeof to->path, "%s", path), 1, sizeof to->path - 1);
 }
 

@@ -17,5 +17,7 @@ extern size_t document_count;
 
 /* Fills in both, from the root of the repository. */
 void documents_read(void);
+/* All of a file, which has to have room, and a NUL. */
+void documents_read_text(const char *path, char *text, size_t size);
 
 #endif

@@ -29,16 +29,6 @@ static void format(char *text, size_t size, const char *form, ...)
 
 /* ---- Setting up ---- */
 
-static void read_text(const char *path, char *text, size_t size)
-{
-	FILE *file = fopen(path, "rb");
-	assert_non_null(file);
-	size_t length = fread(text, 1, size - 1, file);
-	fclose(file);
-	assert_true(length < size - 1);
-	text[length] = '\0';
-}
-
 static void read_help(const char *name)
 {
 	char line[128];
@@ -75,8 +65,8 @@ static int set_up(void **state)
 	setenv("CAROM_SANITIZERS", strstr(path, "/sanitize") ? "-fsanitize=address,undefined build/tests/sanitize/loaded.o -rdynamic" : "", 1);
 	documents_read();
 	readme = documents[0].text;
-	read_text("tools/carom.1", manual, sizeof manual);
-	read_text("tools/bootstrap", bootstrap, sizeof bootstrap);
+	documents_read_text("tools/carom.1", manual, sizeof manual);
+	documents_read_text("tools/bootstrap", bootstrap, sizeof bootstrap);
 	read_helps();
 	return 0;
 }
