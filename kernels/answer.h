@@ -12,11 +12,11 @@ void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, in
 	members[MEMBER(id, MEMBER_KEPT)] = -1;
 }
 
-/* The box of the way grows by that to where the body would be at the step's end; false if it leaves its reach. */
-bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(need), int s, int id, trajectory k, float length)
+/* The box of the way grows by that to where the body would be at the step's end, and by what it looked at beside it; false if it leaves its reach. */
+bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(need), int s, int id, trajectory k, float margin, float length)
 {
 	body b = body_of(slots, s, k, length);
-	float rest = 1.0f - k.time, pad = ((0.125f * rest) * rest) * span(b.a) + (span(b.x) + b.radius) * (4.0f * SLOP);
+	float rest = 1.0f - k.time, pad = ((0.125f * rest) * rest) * span(b.a) + (span(b.x) + b.radius) * (4.0f * SLOP) + margin;
 	float4 start = SLOT_LOAD(slots, s, SLOT_PLACE);
 	float2 end = place(b.x, b.v, b.a, rest), at = (float2)(CHANNEL(start, LINEAR_X), CHANNEL(start, LINEAR_Y));
 	float2 low = (float2)(smaller(b.x.x, end.x) - pad, smaller(b.x.y, end.y) - pad);
@@ -121,17 +121,23 @@ bool hit_keep(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(hits), int id, flo
 	return true;
 }
 
-/* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. If a body leaves its reach the step begins again, but
+/* What gravity makes of a speed in a step. */
+float weight_of(TEX_IN(uniforms), float length)
+{
+	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
+	return norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
+}
+
+/* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. True if it is a shock. If a body leaves its reach the step begins again, but
  * goes on as long as it tells what others need, too. */
-void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
+bool answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
 	RECORD_OUT(work), LIST_OUT(need), LIST_IN(touching), RECORD_OUT(hits), float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
 	bool borne = is_borne(status, touching, s, other);
-	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
-	float weight = norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
-	float u = CHANNEL(next, NEXT_TIME);
-	impact hit = {0.0f, false, false, (float4)(0.0f, 0.0f, 0.0f, 0.0f)};
+	float u = CHANNEL(next, NEXT_TIME), weight = weight_of(TEX(uniforms), length);
+	bool shocks = borne && weight > 0.0f, enough = false; /* what is rapid again and again */
+	impact hit = {0.0f, false, false, false, (float4)(0.0f, 0.0f, 0.0f, 0.0f)};
 	bool wall = other < 0, first = wall || (int)CHANNEL(next, NEXT_ROW) == slot_body(slots, s), stays = true;
 	trajectory k = work_load(work, id), o = k, was = k, other_was = k;
 	float4 j = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
@@ -140,8 +146,8 @@ void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 	body b = body_of(slots, s, k, length);
 	if (wall && !pause) {
 		float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
-		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub, had_enough(members, id, rapid), events, borne,
-			weight);
+		enough = had_enough(members, id, rapid);
+		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub, enough && !shocks, events, borne, weight);
 		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &hit);
 	} else if (!wall) {
 		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
@@ -151,9 +157,9 @@ void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 		body c = body_of(slots, other, o, length);
 		events = other_id >= 0 ? max(events, members[MEMBER(other_id, MEMBER_EVENTS)]) : events;
 		other_rapid = is_rapid(members, other_id, other_was, u);
-		bool enough = had_enough(members, id, rapid) || had_enough(members, other_id, other_rapid);
+		enough = had_enough(members, id, rapid) || had_enough(members, other_id, other_rapid);
 		float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), slot_body(slots, other));
-		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rub, enough, events, borne, weight);
+		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rub, enough && !shocks, events, borne, weight);
 		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &hit) : pair_push(VERTICES, c, b, 0.0f, how, length, &hit);
 	}
 	if (hit.total > 0.0f) {
@@ -165,14 +171,15 @@ void answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), rapid,
 			borne, hit);
 		work_store(work, id, k);
-		stays = way_grow(slots, reach, work, need, s, id, k, length) && stays;
+		stays = way_grow(slots, reach, work, need, s, id, k, 0.0f, length) && stays;
 	}
 	if (!wall && can_change(slots, other, other_was)) {
 		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A),
 			other_rapid, borne, hit);
 		work_store(work, other_id, o);
-		stays = way_grow(slots, reach, work, need, other, other_id, o, length) && stays;
+		stays = way_grow(slots, reach, work, need, other, other_id, o, 0.0f, length) && stays;
 	}
 	if (!stays)
 		atomic_or(&status[STATUS_LEFT], 1);
+	return enough && shocks && hit.lossy;
 }

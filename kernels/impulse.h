@@ -38,7 +38,8 @@ typedef struct rules_of_hit {
 /* What a hit did. */
 typedef struct impact {
 	float total;  /* impulse of the two points together */
-	bool slow;    /* it was lossy, and slow by its rules */
+	bool lossy;   /* it takes energy, by restitution or friction */
+	bool slow;    /* it does, and was slow by its rules */
 	bool ruled;   /* its rules made something else of it than its restitution would */
 	float4 where; /* as in IMPULSE_WHERE */
 } impact;
@@ -72,7 +73,8 @@ rules_of_hit first_impact_rules(float restitution, float friction)
 /* Answered by that restitution and that least speed, which its rules gave. */
 impact impact_of(rules_of_hit rules, contact c, float push, float restitution, float least, float2 j)
 {
-	impact hit = {j.x + j.y, is_lossy(rules.restitution, rules.friction) && -rate_of(c) < rules.slow * larger(push, rules.weight),
+	bool lossy = is_lossy(rules.restitution, rules.friction);
+	impact hit = {j.x + j.y, lossy, lossy && -rate_of(c) < rules.slow * larger(push, rules.weight),
 		restitution != rules.restitution || -rate_of(c) < least, (float4)(0.0f, 0.0f, 0.0f, 0.0f)};
 	return hit;
 }
@@ -175,7 +177,7 @@ __kernel void impulse(STATE_IN, VERTICES_IN, TEX_IN(clock), TEX_IN(friction), TE
 	float4 hit = TEX_LOAD(clock, CLOCK_HIT, 0);
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
 	float4 result = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	impact done = {0.0f, false, false, result};
+	impact done = {0.0f, false, false, false, result};
 	if (CHANNEL(hit, HIT_TIME) <= 1.0f && CHANNEL(hit, HIT_DONE) > 0.0f)
 		result = hit_push(STATE, VERTICES, TEX(friction), hit, length, &done);
 	TEX_STORE(impulse, IMPULSE_PUSH, 0, result);

@@ -1,13 +1,5 @@
 /* What is kept of forces from step to step: the last ones, with which a step begins, and what it leaves to the next: CONTRACT.md, "contacts", Begin. */
 
-/* Who a partner is: its index, or -1 - wall. */
-int partner_key(RECORD_IN(slots), int partner)
-{
-	if (partner >= 0)
-		return slot_body(slots, partner);
-	return partner > PARTNER_STATIC(0) ? partner + 1 : PARTNER_STATIC(0) - partner;
-}
-
 /* What a point's forces were, in N, and the records of its contact. */
 typedef struct last_forces {
 	int partner;

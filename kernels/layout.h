@@ -205,13 +205,14 @@
 
 /* Members: fourteen ints a number */
 #define MEMBER_WIDTH 14
-#define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
-#define MEMBER_OWNER 1    /* number of the cluster's leader */
-#define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
-#define MEMBER_HEAD 3     /* of a leader: the first member; -1 if it leads none */
-#define MEMBER_EVENTS 4   /* of the body in this step */
-#define MEMBER_RAPID 5    /* of these, rapid ones */
-#define MEMBER_SEEN 6     /* events of the partner when NEXT was found */
+#define MEMBER_STUCK 0  /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
+#define MEMBER_OWNER 1  /* number of the cluster's leader */
+#define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
+#define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
+#define MEMBER_EVENTS 4 /* of the body in this step */
+#define MEMBER_RAPID 5  /* of these, rapid ones */
+#define MEMBER_SEEN \
+	6 /* events of the partner when NEXT was found; of a shock's party that has not looked again yet -1 if it is the last, else -2 - the next one's number */
 #define MEMBER_HITS 8     /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7    /* of a leader: the round in which the cluster is to be done */
 #define MEMBER_CHILD 9    /* of the cluster's heap, where it is made of links: the first below this one, */
@@ -340,6 +341,27 @@
 /* Pushes: two records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular */
 #define PUSHES_WIDTH 2
 
+/* Shocks: SHOCK_POINTS points a number, each of three records: where what a body is hit with passes on */
+#define SHOCK_WIDTH 3
+#define SHOCK_POINTS 12
+#define SHOCK_NORMAL 0 /* towards the body: x, y; and the arms about its centre and the other's, m */
+#define SHOCK_GRIP 1   /* arms along the surfaces; the coefficient of friction; the speed at which the point is to part, m/s */
+#define SHOCK_PUSH \
+	2 /* the partner, as in Contacts, and its number if it is a party, else -1; the impulses along the normal and along the surfaces, N s, or, while a
+                          * partner that moves is no party, how fast it comes along the normal, m/s */
+#define SHOCK_X 0
+#define SHOCK_Y 1
+#define SHOCK_ARM 2
+#define SHOCK_OTHER_ARM 3
+#define SHOCK_GRIP_ARM 0
+#define SHOCK_OTHER_GRIP_ARM 1
+#define SHOCK_FRICTION 2
+#define SHOCK_PART 3
+#define SHOCK_PARTNER 0
+#define SHOCK_NUMBER 1
+#define SHOCK_IMPULSE 2
+#define SHOCK_RUB 3
+
 #define GROUP_MOST 64  /* work-items of a group */
 #define GROUP_FEW 32   /* of a smaller one, */
 #define GROUP_WIDE 256 /* and of one that looks for one body's neighbours, on a GPU */
@@ -412,7 +434,11 @@
  * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step.
  * Unless it was in a hit that was not slow, it is no faster then than when the step began: what holds it may not make it faster from step to step.
  * Where forces bear what rests, on bodies that have not too many contacts for them, the next step's impulses stop what a crowd does: there it is one from CROWD_BORNE events on, and parts sooner and faster, slow is
- * what they stop, and STUCK_BORNE events are enough. */
+ * what they stop, and STUCK_BORNE events are enough.
+ *
+ * There what would be elastic is a shock instead, under gravity: the hit passes on at once to what is nearer than what gravity makes in a step (or CONTACT_NEAR of the smaller radius),
+ * by impulses at the points that approach, without a bounce, until each parts with SHOCK_PARTING of the speed that gravity makes in the rest of the step, within SHOCK_WITHIN of that,
+ * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -424,9 +450,13 @@
 #define CROWD_BORNE_MOST 1.0f
 #define CROWD_DOUBLING 8
 #define CROWD_DOUBLINGS 10
+#define SHOCK_PARTIES 64
+#define SHOCK_SWEEPS 32
+#define SHOCK_PARTING 0.5f
+#define SHOCK_WITHIN 0.5f
 #define HOLD_LIMIT 4096
 #define STUCK_MOST 1024
-#define STUCK_BORNE 128
+#define STUCK_BORNE 32
 #define STUCK_FAST 65536
 
 /* Rules of contacts. Two bodies, of which one is pushed, are in contact where their gap is not larger than what the stronger push makes in a step, |a|,

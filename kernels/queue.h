@@ -117,70 +117,6 @@ void recall(RECORD_IN(slots), LIST_IN(spans), LIST_OUT(members), LIST_IN(active)
 	members[MEMBER(id, MEMBER_SEEN)] = 0;
 }
 
-/* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
-int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int s,
-	int leader, int head)
-{
-	int id = atomic_inc(&status[STATUS_ACTIVE]);
-	if (id >= status[STATUS_NUMBERS]) {
-		atomic_or(&status[STATUS_LEFT], 1); /* so many were lost: the step begins again */
-		return -1;
-	}
-	active[id] = s;
-	atomic_xchg(&members[MEMBER(id, MEMBER_OWNER)], leader);
-	work_begin(slots, members, work, s, id);
-	mem_fence(CLK_GLOBAL_MEM_FENCE);
-	if (atomic_cmpxchg(&owners[s], -1, id) != -1) {
-		active[id] = -1;
-		member_reset(members, id);
-		return -1;
-	}
-	atomic_xchg(&parents[s], active[leader]);
-	members[MEMBER(id, MEMBER_LINK)] = members[MEMBER(head, MEMBER_LINK)];
-	members[MEMBER(head, MEMBER_LINK)] = id;
-	return id;
-}
-
-/* All the clusters around this one are one with it in the next round. */
-void spread(LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int leader, int head, int round)
-{
-	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
-		int s = active[m], end = spans[SPAN(s, SPAN_END)];
-		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = next_neighbour(extra, s, end, k)) {
-			int id = int_load(owners, neighbour_of(neighbours, extra, k)), owner = id < 0 ? leader : int_load(members, MEMBER(id, MEMBER_OWNER));
-			if (owner != leader)
-				conflict(status, members, active, parents, leader, owner, round);
-		}
-	}
-}
-
-/* The number of the body in a slot as a member of the cluster, which it becomes if it is nobody's; -1 if it can't, and then the cluster is given up. */
-int join(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int s, int id, int leader, int head, int round,
-	int *first)
-{
-	int other = PEEK(owners, s);
-	if (other >= 0 && PEEK(members, MEMBER(other, MEMBER_OWNER)) == leader)
-		return other; /* nobody else takes it away */
-	other = int_load(owners, s);
-	if (other < 0) {
-		other = claim(slots, status, members, active, work, owners, parents, s, leader, head);
-		if (other >= 0) {
-			*first = heap_insert(members, work, *first, other);
-			return other;
-		}
-		other = int_load(owners, s);
-	}
-	if (other < 0)
-		return -1; /* there are no more numbers */
-	int owner = int_load(members, MEMBER(other, MEMBER_OWNER));
-	if (owner == leader)
-		return other;
-	conflict(status, members, active, parents, leader, owner, round);
-	if (round - status[STATUS_BEGUN] >= SPREAD_ROUND || members[MEMBER(id, MEMBER_EVENTS)] >= SPREAD_EVENTS)
-		spread(LISTS, owners, parents, leader, head, round);
-	return -1;
-}
-
 /* Adds up what a finished cluster did; of one that is given up nothing counts. */
 void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int head, bool finished)
 {
@@ -236,10 +172,11 @@ bool goes_on(RECORD_OUT(work), int first)
 	return first >= 0 && CHANNEL(work[WORK_WIDTH * first + WORK_NEXT], NEXT_TIME) <= 1.0f;
 }
 
-/* Answers the first event of a cluster. Who is to look then: both parties, whom it changed, or the one whose event was not known; nobody where
- * the cluster is given up. */
+/* Answers the first event of a cluster. Who is to look then: both parties, whom it changed, or the one whose event was not known, or two of a shock's, and others from *party
+ * on; nobody where the cluster is given up. */
 int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), float4 rules, int leader, int head, int round, float length, int *first)
+	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), RECORD_OUT(shocks), float4 rules, int leader, int head, int round,
+	float length, int *first, int *party)
 {
 	int id = *first, other_id = -1;
 	float4 next = work[WORK_WIDTH * id + WORK_NEXT];
@@ -253,23 +190,33 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	}
 	if (!is_known)
 		return (int2)(id, LOOKS_NOT);
-	answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, hits, rules, active[id], id, other_id, next,
-		length);
-	return (int2)(id, other_id);
+	if (!answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, hits, rules, active[id], id, other_id,
+			next, length))
+		return (int2)(id, other_id);
+	shock all = shock_begin(TEX(uniforms), CHANNEL(next, NEXT_TIME), leader, head, round, length);
+	bool in_order = other_id < 0 || slot_body(slots, active[id]) > slot_body(slots, other);
+	if (!shock_spread(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, parents, shocks, in_order ? id : other_id,
+			in_order ? other_id : id, &all, first))
+		return (int2)(LOOKS_LATER, LOOKS_NOT);
+	shock_end(slots, reach, status, members, active, work, need, hits, shocks, all);
+	*party = all.first;
+	return parties_take(members, party);
 }
 
 /* Runs the clusters of `all`. A team's first lane does what is done one after the other; all look. */
 void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), int round, int lanes, float length, SHARED crew *all)
+	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), RECORD_OUT(shocks), int round, int lanes, float length,
+	SHARED crew *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	int lane = GROUP_LANE % lanes, teams = GROUP_LANES / lanes, each = max(lanes / 2, 1); /* lanes for one that looks */
 	SHARED int *looks = all->looks[GROUP_LANE / lanes];
 	SHARED finding *findings = &all->findings[GROUP_LANE - lane];
-	int leader = -1, head = -1, first = -1; /* of the first lane's cluster */
+	int leader = -1, head = -1, first = -1; /* of the first lane's cluster, */
+	int party = -1;                         /* and of its last event, if that was a shock, the first that has not looked again */
 	for (;;) {
 		float2 found_with = (float2)(0.0f, -1.0f);
-		while (lane == 0 && !goes_on(work, first)) {
+		while (lane == 0 && party < 0 && !goes_on(work, first)) {
 			int k = TAKE(all->next);
 			if (head >= 0)
 				cluster_count(status, members, work, head, first >= 0);
@@ -285,9 +232,11 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 		}
 		if (lane == 0) {
 			int2 who = (int2)(LOOKS_NO_MORE, LOOKS_NOT);
-			if (first >= 0)
-				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, hits, rules,
-					leader, head, round, length, &first);
+			if (party >= 0)
+				who = parties_take(members, &party);
+			else if (first >= 0)
+				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, hits, shocks,
+					rules, leader, head, round, length, &first, &party);
 			if (who.x == LOOKS_LATER)
 				first = -1;
 			looks[0] = who.x;

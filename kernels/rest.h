@@ -28,6 +28,14 @@ typedef struct rests {
 	rest of[CONTACTS_MOST];
 } rests;
 
+/* Who a partner is: its index, or -1 - wall. */
+int partner_key(RECORD_IN(slots), int partner)
+{
+	if (partner >= 0)
+		return slot_body(slots, partner);
+	return partner > PARTNER_STATIC(0) ? partner + 1 : PARTNER_STATIC(0) - partner;
+}
+
 /* How far a push moves a body in a step, but no farther than what is small beside the smaller body: of more than that nobody says that it is near. */
 float rest_force(float push, float radius)
 {
@@ -60,11 +68,11 @@ float2 touch_lever(body k, float2 lever, float2 n)
 }
 
 /* A point, if it does not come too fast: where the body presses, and where it slides. */
-void rest_add(rest *r, float rate, float gap, float2 lever, float2 other_lever, float2 touch, float2 other_touch)
+void rest_add(rest *r, float fast, float rate, float gap, float2 lever, float2 other_lever, float2 touch, float2 other_touch)
 {
 	rest_point *to = &r->points[r->count];
 	float2 way = aside(r->n);
-	if (rate < -(CONTACT_FAST * r->force))
+	if (rate < -(fast * r->force))
 		return;
 	to->arm = cross2(lever, r->n);
 	to->other_arm = cross2(other_lever, r->n);
@@ -73,6 +81,12 @@ void rest_add(rest *r, float rate, float gap, float2 lever, float2 other_lever, 
 	to->grip_other_arm = cross2(other_touch, way);
 	r->count++;
 }
+
+/* What counts as near, and as too fast to rest. */
+typedef struct nearness {
+	float weight; /* what pushes all; 0: each what pushes it */
+	float fast;   /* so much of that */
+} nearness;
 
 /* Where its key says, but once: a neighbour may be noted twice. The count is more than CONTACTS_MOST once there are too many. */
 void rests_insert(rests *all, rest r)
@@ -90,10 +104,12 @@ void rests_insert(rests *all, rest r)
 	all->of[k] = r;
 }
 
-void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, int other, float length, rests *all)
+/* Of the body in slot s on another, as they are now. */
+void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, body own, int other, body partner, nearness near,
+	rests *all)
 {
-	body own = body_of(slots, s, trajectory_start(slots, s), length), partner = body_of(slots, other, trajectory_start(slots, other), length);
-	float force = rest_force(larger(norm(own.a), norm(partner.a)), smaller(own.radius, partner.radius));
+	float push = near.weight > 0.0f ? near.weight : larger(norm(own.a), norm(partner.a));
+	float force = rest_force(push, smaller(own.radius, partner.radius));
 	float2 d = (float2)(partner.x.x - own.x.x, partner.x.y - own.x.y);
 	if (!(force > 0.0f) || norm(d) - (own.radius + partner.radius) > force)
 		return;
@@ -118,20 +134,20 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
 		float2 lever = is_incident ? c.inc[i] : c.ref[i], other_lever = is_incident ? c.ref[i] : c.inc[i];
-		rest_add(&r, c.rate[i], gap, lever, other_lever, touch_lever(own, lever, back), touch_lever(partner, other_lever, n));
+		rest_add(&r, near.fast, c.rate[i], gap, lever, other_lever, touch_lever(own, lever, back), touch_lever(partner, other_lever, n));
 	}
 	rests_insert(all, r);
 }
 
-void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, rests *all)
+void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, nearness near, rests *all)
 {
-	float offset, force = rest_force(norm(k.a), k.radius);
+	float offset, force = rest_force(near.weight > 0.0f ? near.weight : norm(k.a), k.radius);
 	float2 n = wall_normal(room, wall, &offset), none = (float2)(0.0f, 0.0f);
 	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
 	rest r = rest_begin(-1 - wall, PARTNER_WALL(wall), n, force, wall_slop(k), friction);
 	if (k.count == 1) {
 		if (height - k.radius <= force)
-			rest_add(&r, speed, height - k.radius, none, none, touch_lever(k, none, (float2)(-n.x, -n.y)), none);
+			rest_add(&r, near.fast, speed, height - k.radius, none, none, touch_lever(k, none, (float2)(-n.x, -n.y)), none);
 	} else {
 		float2 rotation = body_rotation(k, 0.0f), m = turn_back(rotation, n);
 		int deepest;
@@ -145,7 +161,7 @@ void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, re
 			float gap = height + inner(m, ends[i]);
 			float2 lever = turn(rotation, ends[i]);
 			if (gap <= force)
-				rest_add(&r, speed - k.w * cross2(n, lever), gap, lever, none, lever, none);
+				rest_add(&r, near.fast, speed - k.w * cross2(n, lever), gap, lever, none, lever, none);
 		}
 	}
 	rests_insert(all, r);
@@ -190,23 +206,35 @@ int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s
 	return count;
 }
 
+/* Of the body k in slot s on the room's walls. */
+void rest_on_walls(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, body k, nearness near, rests *all)
+{
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
+	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || !(near.weight > 0.0f || norm(k.a) > 0.0f))
+		return;
+	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
+	if (!is_lossy(larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub))
+		return;
+	for (int wall = 0; wall < 4; wall++)
+		rest_on_wall(VERTICES, room, k, wall, rub, near, all);
+}
+
 /* How many points the body in a slot rests on; -1: it has too many contacts. */
 int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), RECORD_OUT(grips), int s,
 	float length)
 {
-	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	rests all;
+	nearness near = {0.0f, CONTACT_FAST};
 	all.count = 0;
 	if (slot_is_static(slots, s))
 		return 0;
 	body k = body_of(slots, s, trajectory_start(slots, s), length);
-	bool by_walls = CHANNEL(rules, RULES_HAS_ROOM) > 0.0f && norm(k.a) > 0.0f;
-	float rub = by_walls ? friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1) : 0.0f;
-	by_walls = by_walls && is_lossy(larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub);
-	for (int wall = 0; by_walls && wall < 4; wall++)
-		rest_on_wall(VERTICES, room, k, wall, rub, &all);
+	rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, near, &all);
 	int end = spans[SPAN(s, SPAN_END)];
-	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i))
-		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, neighbour_of(neighbours, extra, i), length, &all);
+	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
+		int other = neighbour_of(neighbours, extra, i);
+		body partner = body_of(slots, other, trajectory_start(slots, other), length);
+		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, other, partner, near, &all);
+	}
 	return all.count > CONTACTS_MOST ? -1 : rests_write(&all, contacts, grips, s, anything_rubs(TEX(uniforms)));
 }

@@ -31,7 +31,7 @@ static carom_texel_format format_of(carom_role role)
 		return TEXELS_LIST;
 	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES || role == ROLE_SHAPES
 		|| role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS || role == ROLE_PUSHES
-		|| role == ROLE_WARM || role == ROLE_HITS)
+		|| role == ROLE_WARM || role == ROLE_HITS || role == ROLE_SHOCKS)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -75,6 +75,7 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_CONTACTS] = "Contacts",
 	[ROLE_GRIPS] = "Grips",
 	[ROLE_TOUCHING] = "Touching",
+	[ROLE_SHOCKS] = "Shocks",
 	[ROLE_LOADS] = "Loads",
 	[ROLE_PUSHES] = "Pushes",
 	[ROLE_WARM] = "Warm",

@@ -363,7 +363,7 @@ static void forces_add_no_energy(void **unused)
 		carom_world_destroy(world);
 	}
 	print_message("%llu hits, at most %.2g of the kinetic energy gained\n", (unsigned long long)hits, most);
-	runs_enough(hits > 10000);
+	runs_enough(hits > 5000);
 	assert_true(most < 1e-4);
 }
 

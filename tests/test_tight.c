@@ -50,7 +50,7 @@ static void wedges_have_an_end(void **unused)
 				print_message("%s: %u bodies in %d rows, %llu hits in %llu steps, held %llu times, %.3g J left, %.2f s\n", steps[borne], count,
 					cases[i / 2].rows, (unsigned long long)report.hits, (unsigned long long)report.steps, (unsigned long long)report.held,
 					runs_measure(world).kinetic_energy, runs_seconds() - begun);
-			assert_true(report.hits <= report.steps * count * (borne ? STUCK_BORNE : STUCK_MOST));
+			assert_true(report.hits <= report.steps * count * (borne ? 4 * STUCK_BORNE : STUCK_MOST)); /* a shock has some at once */
 			assert_true(runs_seconds() - begun < RUNS_SECONDS_MOST);
 			for (uint32_t k = 0; k < count; k++)
 				assert_true(runs_state(world, k).position.y < bodies[k].position.y + 0.01f);

@@ -21,7 +21,7 @@ static const struct reference {
 	struct outcome expected;
 } references[] = {
 	{"events", 60, false, {0x47802de09e4fda93, 0xfe940dd3e437e125, 0x64b4ba205c03b904}},
-	{"contacts", 12, true, {0xbf31f86a3b096ddd, 0xa3ede372b551cdcd, 0x14e34c0aa86e3780}},
+	{"contacts", 12, true, {0x1b7eb053c3f02d2d, 0x8f9c250c0b68be6f, 0x382fbfd2c642c01d}},
 	{"first_impact", 60, false, {0x9cfb8ce84ad197b6, 0x12906c7a581847a5, 0xc000cfa6fcfd14ed}},
 };
 

@@ -11,9 +11,9 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][28] = {
+static const char *const headers[2][32] = {
 	{"layout", "texture", "numbers", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach", "cluster",
-		"around", "mend", "answer", "heap", "team", "queue", "seek", "rest", "load", "kept"},
+		"around", "mend", "answer", "heap", "team", "join", "rest", "shock", "queue", "seek", "load", "kept"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "tiles", "light"},
 };
 

@@ -9,7 +9,7 @@ namespace carom::cpu {
 /* What the row body gets; the column body gets the impulse's opposite. */
 template <typename T> struct Impact {
 	T x, y, row_torque, column_torque, total;
-	bool slow, ruled;
+	bool lossy, slow, ruled;
 	Where<T> at;
 };
 
@@ -65,8 +65,8 @@ private:
 		const T on_inc = blow.on_inc / length, on_ref = blow.on_ref / length;
 		const Where<T> at = where(collision, j);
 		if (c.from_b)
-			return {x, y, on_inc, on_ref, total, collision.slow, collision.ruled, at};
-		return {-x, -y, on_ref, on_inc, total, collision.slow, collision.ruled, at};
+			return {x, y, on_inc, on_ref, total, collision.lossy, collision.slow, collision.ruled, at};
+		return {-x, -y, on_ref, on_inc, total, collision.lossy, collision.slow, collision.ruled, at};
 	}
 
 	const Bodies<T> &bodies;

@@ -22,6 +22,7 @@ template <typename T> struct Collision {
 	T ref_mass, inc_mass, ref_inertia, inc_inertia; /* inverse; a wall's are 0 */
 	T micro = 0;                                    /* the least speed at which a push lets the points part */
 	bool event = false;                             /* of the step events: it adds no energy */
+	bool lossy = false;                             /* by its restitution or friction */
 	bool slow = false;                              /* slower than what a push makes in a step, and lossy */
 	bool ruled = false;                             /* answered otherwise than by its restitution */
 	Slide<T> slide{};

@@ -6,6 +6,7 @@
 #include "cpu/heap.hpp"
 #include "cpu/hits.hpp"
 #include "cpu/impact.hpp"
+#include "cpu/shock.hpp"
 #include "cpu/sieve.hpp"
 
 #include <optional>
@@ -28,10 +29,11 @@ template <typename T> class Queue
 {
 public:
 	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, const int32_t *touching_counts,
-		const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
-		: clusters(all), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), boxes(reach), need(needs),
-		  heap(all.members, work_of, room), leader(number), round(in_round), head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)),
-		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr)
+		T *points_of_shocks, const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
+		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), boxes(reach),
+		  need(needs), heap(all.members, work_of, room), leader(number), round(in_round),
+		  head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr),
+		  shock_points(points_of_shocks)
 	{
 	}
 
@@ -70,8 +72,11 @@ private:
 				return true;
 			}
 		}
-		answer(id, other_id);
+		const T u = next[NEXT_TIME];
+		const bool is_shock = answer(id, other_id);
 		with_partner.reset();
+		if (is_shock)
+			return pass_on(id, other_id, u);
 		look_again(id, other_id);
 		if (other_id >= 0)
 			look_again(other_id, id);
@@ -240,8 +245,8 @@ private:
 	/* Not where there are too many contacts for forces. */
 	bool is_borne(int32_t s) const { return touching && touching[TOUCHING_WIDTH * s + TOUCHING_COUNT] >= 0; }
 
-	/* Answers the member's event. */
-	void answer(int32_t id, int32_t other_id)
+	/* Answers the member's event; true if it is a shock. */
+	bool answer(int32_t id, int32_t other_id)
 	{
 		const int32_t s = clusters.active[id], other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]);
 		const T u = work[id].next[NEXT_TIME];
@@ -249,7 +254,8 @@ private:
 		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
 		const bool rapid = !pause && is_rapid(id, way, u);
 		bool other_rapid = false;
-		Past<T> past{rapid && had_enough(id), members[id].events, is_borne(s) && (other < 0 || is_borne(other))};
+		Past<T> past{rapid && had_enough(id), members[id].events, is_borne(s) && (other < 0 || is_borne(other)), false};
+		past.shock = past.borne && clusters.weight() > 0;
 		clusters.move(slots[s], way, u);
 		Impact<T> hit{};
 		if (other < 0) {
@@ -274,6 +280,38 @@ private:
 			push(s, id, way, hit, true, rapid, past.borne);
 		if (hit.total > 0)
 			count_hit(id, hit);
+		return past.rapid && past.shock && hit.lossy;
+	}
+
+	/* The hit of these two passes on to others at once; false if the cluster has to be given up. */
+	bool pass_on(int32_t id, int32_t other_id, T u)
+	{
+		Shock<T> shock(clusters, rubs, work, shock_points);
+		const bool is_row = other_id < 0 || slots[clusters.active[id]].body() > slots[clusters.active[other_id]].body();
+		if (!shock.spread(
+				is_row ? id : other_id, is_row ? other_id : id, u, [&](int32_t s) { return own_number(s); },
+				[&](int32_t s) { return member(s, id); }))
+			return false;
+		shock.each_hit([&](int32_t m, Partner partner, const Vec<T> &impulse, const Vec<T> &point, const Vec<T> &normal) {
+			const int32_t index = slots[clusters.active[m]].body(), other = partner.key(slots);
+			const T sign = index > other ? T(1) : T(-1);
+			members[m].hits++;
+			members[m].ruled++;
+			if (hits.are_kept())
+				hits.keep(members[m],
+					{u, static_cast<T>(std::max(index, other)), static_cast<T>(std::min(index, other)), 0, point.x(), point.y(), sign * normal.x(),
+						sign * normal.y(), sign * impulse.x(), sign * impulse.y(), 1, 0, 0, 0, 0, 0});
+		});
+		shock.each([&](int32_t m) {
+			Trajectory<T> way = work[m].trajectory(slots[clusters.active[m]]);
+			members[m].events += 2; /* the way there, and what it got: who looks at it knows that it is not as it was */
+			if (members[m].events > HOLD_LIMIT)
+				way.held = 1;
+			work[m].keep(way);
+			widen(clusters.active[m], m, way, shock.margin(m));
+		});
+		shock.each([&](int32_t m) { look_again(m); });
+		return true;
 	}
 
 	void count_hit(int32_t id, const Impact<T> &hit)
@@ -308,11 +346,11 @@ private:
 
 	/* Adds the way that is left to the box of all of it. If that leaves the reach the step begins again, but goes on as long as it tells what others
 	 * need, too. */
-	void widen(int32_t s, int32_t id, const Trajectory<T> &way)
+	void widen(int32_t s, int32_t id, const Trajectory<T> &way, T margin = 0)
 	{
 		const Body<T> body = clusters.body(slots[s], way);
 		const T rest = 1 - way.time, size = std::abs(body.x.x()) + std::abs(body.x.y()) + body.radius;
-		const T pad = T(0.125) * rest * rest * (std::abs(body.a.x()) + std::abs(body.a.y())) + size * T(4 * SLOP);
+		const T pad = T(0.125) * rest * rest * (std::abs(body.a.x()) + std::abs(body.a.y())) + size * T(4 * SLOP) + margin;
 		const Vec<T> end = body.place_at(rest);
 		const Box<T> left{std::min(body.x.x(), end.x()) - pad, std::min(body.x.y(), end.y()) - pad, std::max(body.x.x(), end.x()) + pad,
 			std::max(body.x.y(), end.y()) + pad};
@@ -340,6 +378,7 @@ private:
 	}
 
 	const Clusters<T> &clusters;
+	const Rubs<T> &rubs;
 	const Impacts<T> impacts;
 	const Hits<T> &hits;
 	const Slot<T> *const slots;
@@ -350,6 +389,7 @@ private:
 	Heap<T> heap;
 	const int32_t leader, round, head;
 	const int32_t *const touching; /* where forces bear what rests: the step contacts */
+	T *const shock_points;
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };

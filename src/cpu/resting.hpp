@@ -80,6 +80,26 @@ template <typename T> Vec<T> touched_at(const Convex<T> &body, const Vec<T> &lev
 	return body.is_circle() ? Vec<T>(body.radius * way_there) : lever;
 }
 
+/* A contact, seen from one of its bodies. */
+template <typename T> struct Resting {
+	struct Point {
+		T arm, other_arm, least;
+		Slip<T> slip;
+	};
+
+	int32_t key, points;
+	Partner partner;
+	Vec<T> n; /* from the partner */
+	T force, tolerance, friction;
+	Point at[2];
+};
+
+/* What is a contact. */
+template <typename T> struct Nearness {
+	T weight = 0; /* what pushes all of them; 0: each what pushes it */
+	T fast = T(CONTACT_FAST);
+};
+
 /* Finds the contacts of one body after the other. */
 template <typename T> class RestFinder
 {
@@ -90,59 +110,67 @@ public:
 	int32_t find(int32_t s, Points<T> *to, Grips<T> *grips)
 	{
 		const Slot<T> &slot = clusters.slots[s];
+		const Nearness<T> nearness;
 		count = 0;
 		if (slot.is_static())
 			return 0;
-		walls(s);
+		if (!clusters.stays_inside(s, Trajectory<T>(slot), T(1)))
+			walls(s, Trajectory<T>(slot), nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-			if (may_rest(slot, clusters.slots[other]))
-				pair(s, other);
+			const Slot<T> &other_slot = clusters.slots[other];
+			if (may_rest(slot.radius() + other_slot.radius() + std::max(strength(slot), strength(other_slot)), slot.place, other_slot.place))
+				pair(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot), nearness);
 		});
 		return count > CONTACTS_MOST ? -1 : write(to, grips);
 	}
 
+	/* Calls `visit(contact)` for each that a moving body has, by the partners' indices; for none, if there are too many. `way` is where it is, `way_of(slot)` where
+	 * another one is then. */
+	template <typename WayOf, typename Visit>
+	void each(int32_t s, const Trajectory<T> &way, const Nearness<T> &nearness, const WayOf &way_of, const Visit &visit)
+	{
+		count = 0;
+		walls(s, way, nearness);
+		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
+			const Trajectory<T> other_way = way_of(other);
+			if (may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place))
+				pair(s, way, other, other_way, nearness);
+		});
+		for (int32_t k = 0; k < count && count <= CONTACTS_MOST; k++)
+			visit(found[k]);
+	}
+
 private:
-	/* A contact, seen from one of its bodies. */
-	struct Resting {
-		struct Point {
-			T arm, other_arm, least;
-			Slip<T> slip;
-		};
-
-		int32_t key, points;
-		Partner partner;
-		Vec<T> n; /* from the partner */
-		T tolerance, friction;
-		Point at[2];
-	};
-
 	/* What is known of a contact before its points are. */
 	struct Rules {
-		T force, slop; /* force: what the push moves, but no more than what is near beside the smaller body */
+		T force, slop, fast; /* force: what the push moves, but no more than what is near beside the smaller body */
 
-		Rules(T push, T radius, T rounding) : force(smaller(push, T(CONTACT_NEAR) * radius)), slop(rounding) {}
+		Rules(T push, T radius, T rounding, const Nearness<T> &nearness)
+			: force(smaller(nearness.weight > 0 ? nearness.weight : push, T(CONTACT_NEAR) * radius)), slop(rounding), fast(nearness.fast)
+		{
+		}
 
 		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
 	};
 
 	T strength(const Slot<T> &slot) const { return (std::abs(slot.push[PUSH_X]) + std::abs(slot.push[PUSH_Y])) * clusters.length * clusters.length; }
 
-	/* False for most that are too far apart. */
-	bool may_rest(const Slot<T> &slot, const Slot<T> &other) const
+	/* False for most whose centres are more than that apart. */
+	static bool may_rest(T most, const T *place, const T *other)
 	{
-		const T most = (slot.radius() + other.radius() + std::max(strength(slot), strength(other))) * T(1.0001);
-		return std::abs(slot.place[LINEAR_X] - other.place[LINEAR_X]) <= most && std::abs(slot.place[LINEAR_Y] - other.place[LINEAR_Y]) <= most;
+		most *= T(1.0001);
+		return std::abs(place[LINEAR_X] - other[LINEAR_X]) <= most && std::abs(place[LINEAR_Y] - other[LINEAR_Y]) <= most;
 	}
 
 	/* Adds a point, if it does not come too fast. */
-	static void add(Resting &rest, const Rules &rules, T rate, T gap, T arm, T other_arm, const Slip<T> &slip)
+	static void add(Resting<T> &rest, const Rules &rules, T rate, T gap, T arm, T other_arm, const Slip<T> &slip)
 	{
-		if (!(rate < -(T(CONTACT_FAST) * rules.force)))
+		if (!(rate < -(rules.fast * rules.force)))
 			rest.at[rest.points++] = {arm, other_arm, larger(gap, T(0)) - T(0.5) * rules.cushion(), slip};
 	}
 
 	/* By the partner's index; only so many that it is seen that there are too many. */
-	void insert(const Resting &rest)
+	void insert(const Resting<T> &rest)
 	{
 		if (rest.points == 0 || count > CONTACTS_MOST)
 			return;
@@ -160,7 +188,7 @@ private:
 	{
 		int32_t written = 0;
 		for (int32_t k = 0; k < count; k++) {
-			const Resting &rest = found[k];
+			const Resting<T> &rest = found[k];
 			for (int32_t point = 0; point < rest.points; point++, written++) {
 				Points<T> &points = to[written / lane_count];
 				const int32_t i = written % lane_count;
@@ -185,23 +213,22 @@ private:
 		return written;
 	}
 
-	static Resting begin(int32_t key, Partner partner, const Vec<T> &n, const Rules &rules, T friction)
+	static Resting<T> begin(int32_t key, Partner partner, const Vec<T> &n, const Rules &rules, T friction)
 	{
-		return {key, 0, partner, n, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
+		return {key, 0, partner, n, rules.force, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
 	}
 
-	void pair(int32_t s, int32_t other)
+	void pair(int32_t s, const Trajectory<T> &way, int32_t other, const Trajectory<T> &other_way, const Nearness<T> &nearness)
 	{
 		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
 		const T friction = rubs.between(slot.body(), other_slot.body());
 		if (!loses_energy(larger(slot.turn[TURN_RESTITUTION], other_slot.turn[TURN_RESTITUTION]), friction))
 			return;
 		const bool is_row = slot.body() > other_slot.body();
-		const int32_t row = is_row ? s : other, column = is_row ? other : s;
 		Convex<T> a, b;
-		clusters.fill(a, clusters.slots[row], Trajectory<T>(clusters.slots[row]));
-		clusters.fill(b, clusters.slots[column], Trajectory<T>(clusters.slots[column]));
-		const Rules rules(larger(norm(a.a), norm(b.a)), smaller(a.radius, b.radius), pair_slop(a, b));
+		clusters.fill(is_row ? a : b, slot, way);
+		clusters.fill(is_row ? b : a, other_slot, other_way);
+		const Rules rules(larger(norm(a.a), norm(b.a)), smaller(a.radius, b.radius), pair_slop(a, b), nearness);
 		const Vec<T> d = b.x - a.x;
 		if (!(rules.force > 0) || norm(d) - (a.radius + b.radius) > rules.force)
 			return;
@@ -213,10 +240,11 @@ private:
 		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
-		Resting rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), n, rules, friction);
+		Resting<T> rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), n, rules,
+			friction);
 		const auto slip = [&](const Vec<T> &lever, const Vec<T> &other_lever) {
 			const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
-			return rubs.any ? Slip<T>(n, touched_at<T>(body, lever, -n), touched_at<T>(partner, other_lever, n)) : Slip<T>();
+			return Slip<T>(n, touched_at<T>(body, lever, -n), touched_at<T>(partner, other_lever, n));
 		};
 		for (int32_t i = 0; i < c.count; i++) {
 			const int32_t k = c.from_b ? c.count - 1 - i : i; /* whichever is the reference, in the same order */
@@ -227,16 +255,15 @@ private:
 		insert(rest);
 	}
 
-	void walls(int32_t s)
+	void walls(int32_t s, const Trajectory<T> &way, const Nearness<T> &nearness)
 	{
 		const Slot<T> &slot = clusters.slots[s];
-		const Trajectory<T> way(slot);
 		const T friction = rubs.at_wall(slot.body());
-		if (!loses_energy(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), friction) || clusters.stays_inside(s, way, T(1)))
+		if (!clusters.has_walls() || !loses_energy(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), friction))
 			return;
 		Convex<T> body;
 		clusters.fill(body, slot, way);
-		const Rules rules(norm(body.a), body.radius, wall_slop(body));
+		const Rules rules(norm(body.a), body.radius, wall_slop(body), nearness);
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
 			wall(body, friction, rules, k);
 	}
@@ -245,7 +272,7 @@ private:
 	{
 		const Wall<T> wall = clusters.wall(k);
 		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
-		Resting rest = begin(-1 - k, Partner::that_stays(-1 - k), wall.n, rules, friction);
+		Resting<T> rest = begin(-1 - k, Partner::that_stays(-1 - k), wall.n, rules, friction);
 		const auto slip = [&](const Vec<T> &lever) { return Slip<T>(wall.n, lever, {0, 0}); };
 		if (body.is_circle()) {
 			if (height - body.radius <= rules.force)
@@ -267,7 +294,7 @@ private:
 	const Clusters<T> &clusters;
 	const Rubs<T> &rubs;
 	int32_t count = 0;
-	Resting found[CONTACTS_MOST + 1]{};
+	Resting<T> found[CONTACTS_MOST + 1]{};
 };
 
 }

@@ -13,6 +13,7 @@ template <typename T> struct Past {
 	bool rapid;
 	int32_t events;
 	bool borne; /* by forces: the step contacts */
+	bool shock; /* what is rapid again and again is one */
 
 	/* The speed with which a crowd comes apart at least. `push` is what the stronger push makes in a step. */
 	T crowd_speed(T push, T stillness) const
@@ -35,9 +36,10 @@ template <typename T> void set_event_rules(Collision<T> &collision, T restitutio
 	const T micro = lossy ? larger(-(T(MICRO) * pull), T(0)) : T(0);
 	const bool fast = micro > 0 && -rate > micro * (1 / T(MICRO));
 	collision.micro = lossy ? larger(micro, past.crowd_speed(push, stillness)) : T(0);
+	collision.lossy = lossy;
 	collision.slow = lossy && -rate < (past.borne ? T(CONTACT_FAST) * push : push);
 	collision.event = true;
-	collision.restitution = past.rapid && !fast ? T(1) : restitution;
+	collision.restitution = past.rapid && !past.shock && !fast ? T(1) : restitution;
 	collision.ruled = collision.restitution != restitution || -rate < collision.micro;
 }
 

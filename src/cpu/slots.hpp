@@ -317,6 +317,7 @@ public:
 			&& std::max(disc.x(), disc.x() + vx) + pad <= room(ROOM_MAX_X) && std::max(disc.y(), disc.y() + vy) + pad <= room(ROOM_MAX_Y);
 	}
 
+	bool has_walls() const { return has_room; }
 	Wall<T> wall(int32_t k) const { return room_wall(*this, k); }
 
 	Slot<T> *const slots;

@@ -125,8 +125,7 @@ static carom_status run(carom_world *world, carom_error *error)
 	return carom_events_resolve(world, error);
 }
 
-/* A cluster may lose a number to another: there are some more than bodies. */
-static uint64_t numbers_of(uint64_t capacity)
+uint64_t carom_events_numbers(uint64_t capacity)
 {
 	return capacity + (capacity < NUMBERS_SPARE ? capacity : NUMBERS_SPARE);
 }
@@ -171,7 +170,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
 	world->events.hits_taken = 0;
 	status[STATUS_KEPT_ROOM] = (int32_t)world->events.hit_room;
-	status[STATUS_NUMBERS] = status[STATUS_ACTIVE] = (int32_t)numbers_of(world->capacity); /* all are to be reset */
+	status[STATUS_NUMBERS] = status[STATUS_ACTIVE] = (int32_t)carom_events_numbers(world->capacity); /* all are to be reset */
 	TRY(send_status(world, status, error));
 	TRY(carom_outlines_send(world, error));
 	TRY(carom_run(world, STAGE_LOAD, (int32_t)world->body_count, 1, 0, 0, error));
@@ -322,7 +321,7 @@ uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_d
 	const uint64_t corners = vertex_count > body_count ? 2 * (uint64_t)carom_capacity((vertex_count + body_count) / 2) : 1;
 	choose_cells(&cells, (uint32_t)n);
 	return 16 * (corners + HITS_WIDTH * first_hits(def, n)) + n * (16 * records + 4 * lists)
-		+ numbers_of(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
+		+ carom_events_numbers(n) * (16 * WORK_WIDTH + 4 * (MEMBER_WIDTH + 1))
 		+ 4 * (extra_of(n) + movers_of((uint32_t)n) + CELL_WIDTH * (uint64_t)cells.columns * CELL_ROWS(cells.rows) + STATUS_WIDTH);
 }
 
@@ -340,11 +339,11 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_NEED, true, n, error));
 	TRY(carom_events_create_list(world, ROLE_REACH, false, n, error));
-	TRY(carom_events_create_list(world, ROLE_WORK, false, WORK_WIDTH * numbers_of(n), error));
-	TRY(carom_events_create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * numbers_of(n), error));
+	TRY(carom_events_create_list(world, ROLE_WORK, false, WORK_WIDTH * carom_events_numbers(n), error));
+	TRY(carom_events_create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * carom_events_numbers(n), error));
 	TRY(carom_events_create_list(world, ROLE_OWNERS, false, n, error));
 	TRY(carom_events_create_list(world, ROLE_PARENTS, false, n, error));
-	TRY(carom_events_create_list(world, ROLE_ACTIVE, false, numbers_of(n), error));
+	TRY(carom_events_create_list(world, ROLE_ACTIVE, false, carom_events_numbers(n), error));
 	TRY(carom_events_create_list(world, ROLE_SPANS, false, SPAN_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
 	TRY(carom_events_create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
@@ -353,7 +352,8 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_WAKE, false, WAKE_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * CELL_ROWS(events->rows), error));
 	TRY(carom_events_create_list(world, ROLE_HITS, false, events->hit_room ? HITS_WIDTH * (uint64_t)events->hit_room : 1, error));
-	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, 1, error)); /* that of contacts is in its place */
+	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, 1, error)); /* those of contacts are in their place */
+	TRY(carom_events_create_list(world, ROLE_SHOCKS, false, 1, error));
 	return carom_events_create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }
 

@@ -22,6 +22,7 @@ carom_status carom_events_resolve(carom_world *world, carom_error *error);
 /* A texture of so many ints or records, folded into rows. */
 carom_status carom_events_create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error);
 int32_t carom_events_share(const carom_world *world);  /* work-items that share what is active */
+uint64_t carom_events_numbers(uint64_t capacity);      /* of members: a cluster may lose one to another, so there are some more than bodies */
 int32_t carom_events_movers(const carom_world *world); /* room in Movers */
 
 #endif

@@ -1,0 +1,276 @@
+/* A hit that passes on at once to all that the bodies press on: CONTRACT.md, "The step contacts", Shocks. */
+
+#define SHOCK(id, point) (SHOCK_WIDTH * (SHOCK_POINTS * (id) + (point)))
+
+/* Those that it has moved to its time, its parties, are a list in Members until they have looked again. */
+typedef struct shock {
+	int first, last, count;
+	float time, length, weight;
+	int leader, head, round; /* of the cluster */
+} shock;
+
+shock shock_begin(TEX_IN(uniforms), float time, int leader, int head, int round, float length)
+{
+	shock all = {-1, -1, 0, time, length, weight_of(TEX(uniforms), length), leader, head, round};
+	return all;
+}
+
+/* The party after that one, -1 for none. */
+int party_next(LIST_OUT(members), int id)
+{
+	int seen = members[MEMBER(id, MEMBER_SEEN)];
+	return seen == -1 ? -1 : -2 - seen;
+}
+
+/* The next two, who look again. */
+int2 parties_take(LIST_OUT(members), int *party)
+{
+	int2 who = (int2)(*party, LOOKS_NOT);
+	*party = party_next(members, who.x);
+	if (*party >= 0) {
+		who.y = *party;
+		*party = party_next(members, who.y);
+	}
+	return who;
+}
+
+/* The number of a body as a member of the cluster, else -1: of all others the way counts as the step began. */
+int number_of_own(LIST_OUT(members), LIST_IN(owners), int s, int leader)
+{
+	int id = PEEK(owners, s);
+	return id >= 0 && PEEK(members, MEMBER(id, MEMBER_OWNER)) == leader ? id : -1;
+}
+
+trajectory shock_way(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), int s, const shock *all)
+{
+	int id = number_of_own(members, owners, s, all->leader);
+	return moved(slots, s, id >= 0 ? work_load(work, id) : trajectory_start(slots, s), all->time, all->length);
+}
+
+/* m/s along n; what is held stands. */
+float way_speed(trajectory k, float2 n, float arm)
+{
+	return k.held > 0.0f ? 0.0f : inner(n, (float2)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY))) + k.velocity * arm;
+}
+
+/* Is the point's partner a party, or one that does not move? */
+bool point_is_open(float4 push)
+{
+	return !(CHANNEL(push, SHOCK_PARTNER) >= 0.0f) || CHANNEL(push, SHOCK_NUMBER) >= 0.0f;
+}
+
+bool point_is_none(float4 push)
+{
+	return CHANNEL(push, SHOCK_PARTNER) == (float)PARTNER_NONE;
+}
+
+float point_rate(RECORD_OUT(work), int id, float4 normal, float4 push)
+{
+	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y));
+	float own = way_speed(work_load(work, id), n, CHANNEL(normal, SHOCK_ARM));
+	int other = (int)CHANNEL(push, SHOCK_NUMBER);
+	if (!point_is_open(push))
+		return own - CHANNEL(push, SHOCK_IMPULSE);
+	return other >= 0 ? own - way_speed(work_load(work, other), n, CHANNEL(normal, SHOCK_OTHER_ARM)) : own;
+}
+
+/* A party's points, from those of its contacts with others. */
+void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int id, const rests *found,
+	const shock *all)
+{
+	int point = 0;
+	for (int k = 0; k < found->count; k++) {
+		const rest *r = &found->of[k];
+		int other_id = r->partner >= 0 ? number_of_own(members, owners, r->partner, all->leader) : -1;
+		if (other_id >= 0 && members[MEMBER(other_id, MEMBER_SEEN)] < 0)
+			continue; /* a party, which has them */
+		float part = ((SHOCK_PARTING * r->force) * (1.0f - all->time)) / all->length;
+		for (int i = 0; i < r->count && point < SHOCK_POINTS; i++, point++) {
+			rest_point at = r->points[i];
+			__global float4 *to = shocks + SHOCK(id, point);
+			float coming = r->partner >= 0 ? way_speed(shock_way(slots, members, work, owners, r->partner, all), r->n, at.other_arm) : 0.0f;
+			to[SHOCK_NORMAL] = (float4)(r->n.x, r->n.y, at.arm, at.other_arm);
+			to[SHOCK_GRIP] = (float4)(at.grip_arm, at.grip_other_arm, r->friction, part);
+			to[SHOCK_PUSH] = (float4)((float)r->partner, -1.0f, coming, 0.0f);
+		}
+	}
+	if (point < SHOCK_POINTS)
+		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
+}
+
+/* A party more: it is moved to the time, and where it may be pushed, or push, is found. */
+void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
+	int id, shock *all)
+{
+	int s = active[id], end = spans[SPAN(s, SPAN_END)];
+	nearness near = {all->weight, INFINITY};
+	rests contacts;
+	contacts.count = 0;
+	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
+	work_store(work, id, k);
+	body own = body_of(slots, s, k, all->length);
+	rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, &contacts);
+	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
+		int other = neighbour_of(neighbours, extra, i);
+		body partner = body_of(slots, other, shock_way(slots, members, work, owners, other, all), all->length);
+		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, &contacts);
+	}
+	if (contacts.count > CONTACTS_MOST)
+		contacts.count = 0;
+	points_write(slots, members, work, owners, shocks, id, &contacts, all);
+	for (int party = all->first; party >= 0; party = party_next(members, party))
+		for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
+			__global float4 *push = shocks + SHOCK(party, point) + SHOCK_PUSH;
+			if (CHANNEL(*push, SHOCK_PARTNER) == (float)s)
+				*push = (float4)((float)s, (float)id, 0.0f, 0.0f);
+		}
+	members[MEMBER(id, MEMBER_SEEN)] = -1;
+	if (all->count++ > 0)
+		members[MEMBER(all->last, MEMBER_SEEN)] = -2 - id;
+	else
+		all->first = id;
+	all->last = id;
+}
+
+/* (inverse mass, inverse inertia); what is none or is held has none. */
+float2 member_gives(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), int id)
+{
+	if (id < 0 || CHANNEL(work[WORK_WIDTH * id + WORK_TURN], WORK_HELD) > 0.0f)
+		return (float2)(0.0f, 0.0f);
+	float4 mass = SLOT_LOAD(slots, active[id], SLOT_MASS);
+	return (float2)(CHANNEL(mass, MASS_INVERSE), CHANNEL(mass, MASS_INVERSE_INERTIA));
+}
+
+float gives_at(float2 gives, float arm)
+{
+	return gives.x + gives.y * (arm * arm);
+}
+
+void member_push(RECORD_OUT(work), int id, float2 gives, float2 impulse, float torque)
+{
+	if (id < 0)
+		return;
+	trajectory k = work_load(work, id);
+	CHANNEL(k.place, LINEAR_VX) += gives.x * impulse.x;
+	CHANNEL(k.place, LINEAR_VY) += gives.x * impulse.y;
+	k.velocity += gives.y * torque;
+	work_store(work, id, k);
+}
+
+/* Lets a point part, or pull less; false if that is too little to count. */
+bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float rate)
+{
+	__global float4 *at = shocks + SHOCK(id, point);
+	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
+	int other = (int)CHANNEL(push, SHOCK_NUMBER);
+	float2 gives = member_gives(slots, active, work, id), other_gives = member_gives(slots, active, work, other);
+	float arm = CHANNEL(normal, SHOCK_ARM), other_arm = CHANNEL(normal, SHOCK_OTHER_ARM), before = CHANNEL(push, SHOCK_IMPULSE);
+	float give = gives_at(gives, arm) + gives_at(other_gives, other_arm), part = CHANNEL(grip, SHOCK_PART);
+	if (!(give > 0.0f))
+		return false;
+	float impulse = larger(before + (part - rate) / give, 0.0f), more = impulse - before;
+	if (magnitude(more) * give < SHOCK_WITHIN * part)
+		return false;
+	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y)), along = aside(n);
+	CHANNEL(push, SHOCK_IMPULSE) = impulse;
+	member_push(work, id, gives, (float2)(more * n.x, more * n.y), more * arm);
+	member_push(work, other, other_gives, (float2)(-(more * n.x), -(more * n.y)), -(more * other_arm));
+	if (CHANNEL(grip, SHOCK_FRICTION) > 0.0f) {
+		float grip_arm = CHANNEL(grip, SHOCK_GRIP_ARM), other_grip_arm = CHANNEL(grip, SHOCK_OTHER_GRIP_ARM), rubbed = CHANNEL(push, SHOCK_RUB);
+		float slip = way_speed(work_load(work, id), along, grip_arm), most = CHANNEL(grip, SHOCK_FRICTION) * impulse;
+		if (other >= 0)
+			slip = slip - way_speed(work_load(work, other), along, other_grip_arm);
+		float rub = larger(smaller(rubbed - slip / (gives_at(gives, grip_arm) + gives_at(other_gives, other_grip_arm)), most), -most);
+		float change = rub - rubbed;
+		CHANNEL(push, SHOCK_RUB) = rub;
+		member_push(work, id, gives, (float2)(change * along.x, change * along.y), change * grip_arm);
+		member_push(work, other, other_gives, (float2)(-(change * along.x), -(change * along.y)), -(change * other_grip_arm));
+	}
+	at[SHOCK_PUSH] = push;
+	return true;
+}
+
+/* From those two, of which the second may be none, -1; false if the cluster has to be given up. */
+bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents),
+	RECORD_OUT(shocks), int one, int other, shock *all, int *first)
+{
+	bool more = true;
+	shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, one, all);
+	if (other >= 0)
+		shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, other, all);
+	for (int sweep = 0; sweep < SHOCK_SWEEPS && more; sweep++) {
+		more = false;
+		for (int id = all->first; id >= 0; id = party_next(members, id))
+			for (int point = 0; point < SHOCK_POINTS; point++) {
+				float4 push = shocks[SHOCK(id, point) + SHOCK_PUSH];
+				if (point_is_none(push))
+					break;
+				float rate = point_rate(work, id, shocks[SHOCK(id, point) + SHOCK_NORMAL], push);
+				bool open = point_is_open(push);
+				if (!(rate < 0.0f) && !(open && CHANNEL(push, SHOCK_IMPULSE) > 0.0f))
+					continue;
+				if (!open && all->count < SHOCK_PARTIES) {
+					int joined = join(slots, LISTS, work, owners, parents, (int)CHANNEL(push, SHOCK_PARTNER), one, all->leader, all->head, all->round,
+						first);
+					if (joined < 0)
+						return false;
+					shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, joined, all);
+					open = true;
+				}
+				more |= open && point_push(slots, active, work, shocks, id, point, rate);
+			}
+	}
+	return true;
+}
+
+/* The hits of one party's points; how many points they are of, from that on. */
+int party_hit(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(hits), RECORD_OUT(shocks), int id,
+	int point, float time)
+{
+	__global float4 *at = shocks + SHOCK(id, point), *next = at + SHOCK_WIDTH;
+	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
+	bool two = point + 1 < SHOCK_POINTS && CHANNEL(next[SHOCK_PUSH], SHOCK_PARTNER) == CHANNEL(push, SHOCK_PARTNER);
+	float total = CHANNEL(push, SHOCK_IMPULSE), rub = CHANNEL(push, SHOCK_RUB), arm = CHANNEL(normal, SHOCK_ARM),
+		  grip_arm = CHANNEL(grip, SHOCK_GRIP_ARM);
+	if (two) {
+		total += CHANNEL(next[SHOCK_PUSH], SHOCK_IMPULSE);
+		rub += CHANNEL(next[SHOCK_PUSH], SHOCK_RUB);
+		float part = CHANNEL(next[SHOCK_PUSH], SHOCK_IMPULSE) / total;
+		arm = arm + part * (CHANNEL(next[SHOCK_NORMAL], SHOCK_ARM) - arm);
+		grip_arm = grip_arm + part * (CHANNEL(next[SHOCK_GRIP], SHOCK_GRIP_ARM) - grip_arm);
+	}
+	if (!point_is_open(push) || !(total > 0.0f))
+		return two ? 2 : 1;
+	int partner = (int)CHANNEL(push, SHOCK_PARTNER), row = slot_body(slots, active[id]), column = partner_key(slots, partner);
+	float sign = row > column ? 1.0f : -1.0f;
+	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y)), along = aside(n);
+	float4 place_record = work[WORK_WIDTH * id + WORK_PLACE];
+	float2 from = (float2)(CHANNEL(place_record, LINEAR_X), CHANNEL(place_record, LINEAR_Y));
+	impact hit = {total, true, true, true,
+		(float4)(from.x + (grip_arm * n.x - arm * along.x), from.y + (grip_arm * n.y - arm * along.y), sign * n.x, sign * n.y)};
+	float4 j = (float4)(sign * (total * n.x + rub * along.x), sign * (total * n.y + rub * along.y), 0.0f, 0.0f);
+	members[MEMBER(id, MEMBER_HITS)]++;
+	members[MEMBER(id, MEMBER_RULED)]++;
+	if (!hit_keep(status, members, hits, id, (float4)(time, (float)max(row, column), (float)min(row, column), 0.0f), j, hit))
+		atomic_or(&status[STATUS_LEFT], 1);
+	return two ? 2 : 1;
+}
+
+/* Counts what it did, and to whom. */
+void shock_end(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_OUT(need),
+	RECORD_OUT(hits), RECORD_OUT(shocks), shock all)
+{
+	for (int id = all.first; id >= 0; id = party_next(members, id)) {
+		int s = active[id];
+		for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(id, point) + SHOCK_PUSH]);)
+			point += party_hit(slots, status, members, active, work, hits, shocks, id, point, all.time);
+		trajectory k = work_load(work, id);
+		members[MEMBER(id, MEMBER_EVENTS)] += 2; /* the way there, and what it got: who looks at it knows that it is not as it was */
+		if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT)
+			k.held = 1.0f;
+		work_store(work, id, k);
+		float margin = smaller(all.weight, CONTACT_NEAR * CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS));
+		if (!way_grow(slots, reach, work, need, s, id, k, margin, all.length))
+			atomic_or(&status[STATUS_LEFT], 1);
+	}
+}

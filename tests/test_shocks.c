@@ -1,0 +1,114 @@
+/* Hits that pass on at once through what lies or falls together, of the step contacts. On every device.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runs.h"
+
+/* A ball of a thousand times the mass falls on one that lies on the ground: between the two that one would be hit without end. It is let go after a few hits, which
+ * give the heavy one no more than its restitution would. */
+static void what_is_squeezed_is_let_go(void **unused)
+{
+	enum { STEPS = 6 };
+	(void)unused;
+	for (int light = 1; light <= 3; light++) { /* one upon the other */
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = runs_resting("contacts", 5.0f, 40.0f);
+			carom_body_def bodies[4];
+			for (int k = 0; k <= light; k++)
+				bodies[k] = scenery_circle(0.0f, 0.5f + 1.0005f * (float)k, 0.0f, 0.0f, 0.5f);
+			bodies[light].position.y += 0.05f;
+			bodies[light].velocity.y = -2.0f;
+			bodies[light].density = 1000.0f;
+			carom_world *world = runs_world(&def, device, bodies, (size_t)light + 1);
+			if (!world)
+				continue;
+			float fastest = 0.0f;
+			uint64_t hits = 0;
+			for (int step = 0; step < STEPS; step++) {
+				hits += runs_step(world, 1).hits;
+				fastest = fmaxf(fastest, runs_state(world, (uint32_t)light).velocity.y);
+			}
+			if (device == scenery_devices)
+				print_message("%d between: %llu hits, up at %.3g m/s\n", light, (unsigned long long)hits, (double)fastest);
+			assert_true(hits < 400 * (uint64_t)light);
+			assert_true(fastest < 0.3f * 2.3f);
+			runs_near(runs_measure(world).max_penetration, 0.0, 1e-5);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+static bool is_same(const carom_hit *a, const carom_hit *b)
+{
+	return a->time == b->time && a->body == b->body && a->other == b->other && !memcmp(&a->point, &b->point, sizeof a->point)
+		&& !memcmp(&a->normal, &b->normal, sizeof a->normal) && !memcmp(&a->impulse, &b->impulse, sizeof a->impulse) && a->is_ruled == b->is_ruled;
+}
+
+/* Bodies that fall in a heap: every hit is a push, with no more friction than its law allows; no step adds energy, and nothing sinks in. The hits are the same everywhere. */
+static void shocks_push_and_rub(void **unused)
+{
+	enum { SIDE = 6, COUNT = SIDE * SIDE };
+	static const float coefficients[] = {0.0f, 0.5f};
+	(void)unused;
+	for (int i = 0; i < 4; i++) {
+		const float friction = coefficients[i % 2];
+		carom_hit *expected = NULL;
+		size_t expected_count = 0, ruled = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = runs_resting("contacts", 3.6f, 40.0f);
+			carom_body_def bodies[COUNT];
+			scenery_random random = {(uint64_t)i + 7};
+			size_t count;
+			def.friction = friction;
+			def.keep_hits = true;
+			for (int k = 0; k < COUNT; k++) {
+				bodies[k] = scenery_circle(1.15f * ((float)(k % SIDE) - 2.5f), 0.6f + 1.2f * (float)(k / SIDE), 0.0f, -3.0f, 0.5f); /* NOLINT: rows */
+				if (i < 2) {
+					bodies[k].shape = CAROM_REGULAR;
+					bodies[k].sides = 4;
+					bodies[k].angle = scenery_uniform(&random, 0.0f, 1.5f);
+				}
+			}
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			const carom_measure before = runs_measure(world);
+			const carom_report report = runs_advance(world, 0.6);
+			const carom_measure after = runs_measure(world);
+			carom_hit *hits = runs_hits(world, &count);
+			assert_int_equal(count, report.hits);
+			for (size_t k = 0; k < count; k++) {
+				const carom_hit *hit = &hits[k];
+				const float push = hit->impulse.x * hit->normal.x + hit->impulse.y * hit->normal.y;
+				const float rub = hit->impulse.y * hit->normal.x - hit->impulse.x * hit->normal.y;
+				assert_true(push > 0.0f);
+				assert_true(fabsf(rub) <= friction * push * 1.0001f + 1e-6f * push);
+				ruled += hit->is_ruled;
+			}
+			assert_true(after.kinetic_energy + after.potential_energy < before.kinetic_energy + before.potential_energy);
+			runs_near(after.max_penetration, 0.0, 1e-5);
+			if (!expected) {
+				print_message("%zu hits, %zu by rules\n", count, ruled);
+				expected = hits, expected_count = count;
+				assert_true(ruled > count / 4);
+			} else {
+				assert_int_equal(count, expected_count);
+				for (size_t k = 0; k < count; k++)
+					assert_true(is_same(&hits[k], &expected[k]));
+				free(hits);
+			}
+			carom_world_destroy(world);
+		}
+		free(expected);
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_squeezed_is_let_go), cmocka_unit_test(shocks_push_and_rub)};
+	return cmocka_run_group_tests_name("shocks", tests, NULL, NULL);
+}
