@@ -43,22 +43,30 @@ trajectory limited(trajectory k, trajectory start)
 	return k;
 }
 
+/* What had too many events is held from now on, and so is what is stuck, which unless it was in a fast hit is slowed, too. */
+trajectory held_at_last(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory k, int most_stuck)
+{
+	int stuck = members[MEMBER(id, MEMBER_STUCK)];
+	bool is_stuck = (stuck & ~STUCK_FAST) > most_stuck;
+	if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT || is_stuck)
+		k.held = 1.0f;
+	return is_stuck && !(stuck & STUCK_FAST) ? limited(k, trajectory_start(slots, s)) : k;
+}
+
 /* A party's new trajectory, by the impulse `sign` j and the torque on it, and what is counted of the event. */
 trajectory pushed(RECORD_IN(slots), LIST_OUT(members), int s, int id, trajectory k, float4 j, float sign, float torque, bool rapid, bool borne,
 	impact hit)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	int before = members[MEMBER(id, MEMBER_STUCK)], fast = hit.total > 0.0f && !hit.slow ? STUCK_FAST : before & STUCK_FAST;
-	int stuck = rapid && hit.slow ? (before & ~STUCK_FAST) + 1 : 0, most = borne ? STUCK_BORNE : STUCK_MOST;
+	int stuck = rapid && hit.slow ? (before & ~STUCK_FAST) + 1 : 0;
 	CHANNEL(k.place, LINEAR_VX) += (sign * CHANNEL(j, IMPULSE_X)) * CHANNEL(mass, MASS_INVERSE);
 	CHANNEL(k.place, LINEAR_VY) += (sign * CHANNEL(j, IMPULSE_Y)) * CHANNEL(mass, MASS_INVERSE);
 	k.velocity += torque * CHANNEL(mass, MASS_INVERSE_INERTIA);
 	members[MEMBER(id, MEMBER_EVENTS)]++;
 	members[MEMBER(id, MEMBER_RAPID)] += rapid ? 1 : 0;
 	members[MEMBER(id, MEMBER_STUCK)] = stuck | fast;
-	if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT || stuck > most)
-		k.held = 1.0f;
-	return stuck > most && !fast ? limited(k, trajectory_start(slots, s)) : k;
+	return held_at_last(slots, members, s, id, k, borne ? STUCK_BORNE : STUCK_MOST);
 }
 
 /* Is an event at time u a rapid one of the body? */

@@ -190,6 +190,15 @@ bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(
 	return true;
 }
 
+/* Of one that joins; those that it began with had theirs. */
+void event_count(LIST_OUT(members), RECORD_OUT(work), int id, float time)
+{
+	bool rapid = is_rapid(members, id, work_load(work, id), time);
+	int stuck = members[MEMBER(id, MEMBER_STUCK)];
+	members[MEMBER(id, MEMBER_RAPID)] += rapid ? 1 : 0;
+	members[MEMBER(id, MEMBER_STUCK)] = rapid ? stuck + 1 : stuck & STUCK_FAST;
+}
+
 /* From those two, of which the second may be none, -1; false if the cluster has to be given up. */
 bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents),
 	RECORD_OUT(shocks), int one, int other, shock *all, int *first)
@@ -214,6 +223,7 @@ bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 						first);
 					if (joined < 0)
 						return false;
+					event_count(members, work, joined, all->time);
 					shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, joined, all);
 					open = true;
 				}
@@ -266,8 +276,7 @@ void shock_end(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(me
 			point += party_hit(slots, status, members, active, work, hits, shocks, id, point, all.time);
 		trajectory k = work_load(work, id);
 		members[MEMBER(id, MEMBER_EVENTS)] += 2; /* the way there, and what it got: who looks at it knows that it is not as it was */
-		if (members[MEMBER(id, MEMBER_EVENTS)] > HOLD_LIMIT)
-			k.held = 1.0f;
+		k = held_at_last(slots, members, s, id, k, STUCK_BORNE);
 		work_store(work, id, k);
 		float margin = smaller(all.weight, CONTACT_NEAR * CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS));
 		if (!way_grow(slots, reach, work, need, s, id, k, margin, all.length))

@@ -23,7 +23,7 @@ static const struct {
 	{"scenes/billiard_break.json", 0x67a2d3b09229d3f4, 0xbe6530f293e25062, 0},
 	{"scenes/circles_1024.json", 0xb407392652c0fb4a, 0xaa3285fdc8f4d50f, 0},
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343, 0},
-	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x8fb479cfae22ea7b, 0x50e392f2a4d9750c},
+	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x8fb479cfae22ea7b, 0xc40dff4b9526f236},
 	{"scenes/mixed.json", 0xcc24b0a3369bcac1, 0xdca5a4f981ed5756, 0},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
 	{"scenes/pi.json", 0x9d624002521cac23, 0xd287219b381da045, 0},

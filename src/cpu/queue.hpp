@@ -303,12 +303,12 @@ private:
 						sign * normal.y(), sign * impulse.x(), sign * impulse.y(), 1, 0, 0, 0, 0, 0});
 		});
 		shock.each([&](int32_t m) {
-			Trajectory<T> way = work[m].trajectory(slots[clusters.active[m]]);
+			const int32_t s = clusters.active[m];
+			Trajectory<T> way = work[m].trajectory(slots[s]);
 			members[m].events += 2; /* the way there, and what it got: who looks at it knows that it is not as it was */
-			if (members[m].events > HOLD_LIMIT)
-				way.held = 1;
+			hold_at_last(s, members[m], STUCK_BORNE, way);
 			work[m].keep(way);
-			widen(clusters.active[m], m, way, shock.margin(m));
+			widen(s, m, way, shock.margin(m));
 		});
 		shock.each([&](int32_t m) { look_again(m); });
 		return true;
@@ -335,13 +335,19 @@ private:
 		member.rapid += rapid;
 		member.stuck = rapid && hit.slow ? member.stuck + 1 : 0;
 		member.fast |= hit.total > 0 && !hit.slow;
-		const bool is_stuck = member.stuck > (borne ? STUCK_BORNE : STUCK_MOST);
-		if (is_stuck && !member.fast)
-			limit(way, Trajectory<T>(slots[s]));
-		if (++member.events > HOLD_LIMIT || is_stuck)
-			way.held = 1;
+		member.events++;
+		hold_at_last(s, member, borne ? STUCK_BORNE : STUCK_MOST, way);
 		work[id].keep(way);
 		widen(s, id, way);
+	}
+
+	void hold_at_last(int32_t s, const Member &member, int32_t most_stuck, Trajectory<T> &way) const
+	{
+		const bool is_stuck = member.stuck > most_stuck;
+		if (is_stuck && !member.fast)
+			limit(way, Trajectory<T>(slots[s]));
+		if (member.events > HOLD_LIMIT || is_stuck)
+			way.held = 1;
 	}
 
 	/* Adds the way that is left to the box of all of it. If that leaves the reach the step begins again, but goes on as long as it tells what others

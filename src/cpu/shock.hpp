@@ -53,6 +53,7 @@ public:
 						const int32_t id = join(p->whom().slot());
 						if (id < 0)
 							return false;
+						count_event(id);
 						open(id, own);
 					}
 					more |= p->is_open() && push(parties[k], *p, rate);
@@ -118,6 +119,15 @@ private:
 		if (way.held > 0)
 			return 0;
 		return inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
+	}
+
+	/* Of one that joins; those that it began with had theirs. */
+	void count_event(int32_t id) const
+	{
+		Member &member = clusters.members[id];
+		const bool is_rapid = !(work[id].held > 0) && member.events > 0 && time - work[id].time < T(RAPID);
+		member.rapid += is_rapid;
+		member.stuck = is_rapid ? member.stuck + 1 : 0;
 	}
 
 	T rate_of(int32_t id, const ShockPoint<T> &p) const
