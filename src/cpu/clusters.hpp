@@ -17,6 +17,17 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 	member.kept = -1;
 }
 
+/* What clusters did. */
+struct Tally {
+	int32_t hits, ruled, held;
+
+	Tally &operator+=(const Tally &other)
+	{
+		hits += other.hits, ruled += other.ruled, held += other.held;
+		return *this;
+	}
+};
+
 /* What the threads that run clusters share. A number belongs to one cluster; only its thread changes what it numbers, but for what is
  * reached by the atomic functions here. */
 template <typename T> class Clusters : public Bodies<T>

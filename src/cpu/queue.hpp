@@ -13,17 +13,6 @@
 
 namespace carom::cpu {
 
-/* What clusters did. */
-struct Tally {
-	int32_t hits, ruled, held;
-
-	Tally &operator+=(const Tally &other)
-	{
-		hits += other.hits, ruled += other.ruled, held += other.held;
-		return *this;
-	}
-};
-
 /* One cluster, by its leader's number. */
 template <typename T> class Queue
 {
