@@ -193,12 +193,13 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	if (!answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, hits, rules, active[id], id, other_id,
 			next, length))
 		return (int2)(id, other_id);
-	shock all = shock_begin(TEX(uniforms), CHANNEL(next, NEXT_TIME), leader, head, round, length);
+	shock all;
+	shock_begin(TEX(uniforms), CHANNEL(next, NEXT_TIME), leader, head, round, length, &all);
 	bool in_order = other_id < 0 || slot_body(slots, active[id]) > slot_body(slots, other);
 	if (!shock_spread(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, parents, shocks, in_order ? id : other_id,
 			in_order ? other_id : id, &all, first))
 		return (int2)(LOOKS_LATER, LOOKS_NOT);
-	shock_end(slots, reach, status, members, active, work, need, hits, shocks, all);
+	shock_end(slots, reach, status, members, active, work, need, hits, shocks, &all);
 	*party = all.first;
 	return parties_take(members, party);
 }

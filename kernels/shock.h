@@ -9,10 +9,16 @@ typedef struct shock {
 	int leader, head, round; /* of the cluster */
 } shock;
 
-shock shock_begin(TEX_IN(uniforms), float time, int leader, int head, int round, float length)
+void shock_begin(TEX_IN(uniforms), float time, int leader, int head, int round, float length, shock *all)
 {
-	shock all = {-1, -1, 0, time, length, weight_of(TEX(uniforms), length), leader, head, round};
-	return all;
+	all->first = all->last = -1;
+	all->count = 0;
+	all->time = time;
+	all->length = length;
+	all->weight = weight_of(TEX(uniforms), length);
+	all->leader = leader;
+	all->head = head;
+	all->round = round;
 }
 
 /* The party after that one, -1 for none. */
@@ -268,18 +274,18 @@ int party_hit(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(act
 
 /* Counts what it did, and to whom. */
 void shock_end(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_OUT(need),
-	RECORD_OUT(hits), RECORD_OUT(shocks), shock all)
+	RECORD_OUT(hits), RECORD_OUT(shocks), const shock *all)
 {
-	for (int id = all.first; id >= 0; id = party_next(members, id)) {
+	for (int id = all->first; id >= 0; id = party_next(members, id)) {
 		int s = active[id];
 		for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(id, point) + SHOCK_PUSH]);)
-			point += party_hit(slots, status, members, active, work, hits, shocks, id, point, all.time);
+			point += party_hit(slots, status, members, active, work, hits, shocks, id, point, all->time);
 		trajectory k = work_load(work, id);
 		members[MEMBER(id, MEMBER_EVENTS)] += 2; /* the way there, and what it got: who looks at it knows that it is not as it was */
 		k = held_at_last(slots, members, s, id, k, STUCK_BORNE);
 		work_store(work, id, k);
-		float margin = smaller(all.weight, CONTACT_NEAR * CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS));
-		if (!way_grow(slots, reach, work, need, s, id, k, margin, all.length))
+		float margin = smaller(all->weight, CONTACT_NEAR * CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS));
+		if (!way_grow(slots, reach, work, need, s, id, k, margin, all->length))
 			atomic_or(&status[STATUS_LEFT], 1);
 	}
 }

@@ -4,7 +4,7 @@
 
 #include "cpu/resting.hpp"
 
-#include <array>
+#include <algorithm>
 #include <limits>
 
 namespace carom::cpu {
@@ -104,7 +104,7 @@ private:
 
 	const Slot<T> &slot_of(int32_t id) const { return clusters.slots[clusters.active[id]]; }
 	ShockPoint<T> *points_of(int32_t id) const { return points + SHOCK_POINTS * id; }
-	bool is_party(int32_t id) const { return id >= 0 && std::find(parties.begin(), parties.begin() + count, id) < parties.begin() + count; }
+	bool is_party(int32_t id) const { return id >= 0 && std::find(parties, parties + count, id) < parties + count; }
 
 	Give give_of(int32_t id) const
 	{
@@ -216,7 +216,7 @@ private:
 	ShockPoint<T> *const points;
 	RestFinder<T> finder;
 	const Nearness<T> nearness;
-	std::array<int32_t, SHOCK_PARTIES> parties;
+	int32_t parties[SHOCK_PARTIES];
 	int32_t count = 0;
 	T time = 0;
 };
