@@ -112,9 +112,11 @@ rules_of_hit event_rules(float restitution, float friction, bool rapid, int even
 	return rules;
 }
 
-/* Keeps a hit, where hits are kept, as one of the member's; false if there is no room. */
-bool hit_keep(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(hits), int id, float4 next, float4 j, impact hit)
+/* Counts a hit as one of the member's, and keeps it where hits are kept; false if there is no room. */
+bool hit_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(hits), int id, float4 next, float4 j, impact hit)
 {
+	members[MEMBER(id, MEMBER_HITS)]++;
+	members[MEMBER(id, MEMBER_RULED)] += hit.ruled ? 1 : 0;
 	if (status[STATUS_KEPT_ROOM] == 0)
 		return true;
 	int k = atomic_inc(&status[STATUS_KEPT]);
@@ -170,11 +172,8 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rub, enough && !shocks, events, borne, weight);
 		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &hit) : pair_push(VERTICES, c, b, 0.0f, how, length, &hit);
 	}
-	if (hit.total > 0.0f) {
-		members[MEMBER(id, MEMBER_HITS)]++;
-		members[MEMBER(id, MEMBER_RULED)] += hit.ruled ? 1 : 0;
-		stays = hit_keep(status, members, hits, id, next, j, hit);
-	}
+	if (hit.total > 0.0f)
+		stays = hit_count(status, members, hits, id, next, j, hit);
 	if (can_change(slots, s, was)) {
 		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), rapid,
 			borne, hit);

@@ -1,5 +1,12 @@
 /* How bodies become members of a cluster that is run, and clusters one. */
 
+/* The number of a body as a member of the cluster, else -1: of all others the way counts as the step began. */
+int number_of_own(LIST_OUT(members), LIST_IN(owners), int s, int leader)
+{
+	int id = PEEK(owners, s);
+	return id >= 0 && PEEK(members, MEMBER(id, MEMBER_OWNER)) == leader ? id : -1;
+}
+
 /* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
 int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int s,
 	int leader, int head)
@@ -41,8 +48,8 @@ void spread(LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int leader, int head,
 int join(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int s, int id, int leader, int head, int round,
 	int *first)
 {
-	int other = PEEK(owners, s);
-	if (other >= 0 && PEEK(members, MEMBER(other, MEMBER_OWNER)) == leader)
+	int other = number_of_own(members, owners, s, leader);
+	if (other >= 0)
 		return other; /* nobody else takes it away */
 	other = int_load(owners, s);
 	if (other < 0) {

@@ -205,14 +205,13 @@
 
 /* Members: fourteen ints a number */
 #define MEMBER_WIDTH 14
-#define MEMBER_STUCK 0  /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
-#define MEMBER_OWNER 1  /* number of the cluster's leader */
-#define MEMBER_LINK 2   /* next member of the cluster, -1 for none */
-#define MEMBER_HEAD 3   /* of a leader: the first member; -1 if it leads none */
-#define MEMBER_EVENTS 4 /* of the body in this step */
-#define MEMBER_RAPID 5  /* of these, rapid ones */
-#define MEMBER_SEEN \
-	6 /* events of the partner when NEXT was found; of a shock's party that has not looked again yet -1 if it is the last, else -2 - the next one's number */
+#define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
+#define MEMBER_OWNER 1    /* number of the cluster's leader */
+#define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
+#define MEMBER_HEAD 3     /* of a leader: the first member; -1 if it leads none */
+#define MEMBER_EVENTS 4   /* of the body in this step */
+#define MEMBER_RAPID 5    /* of these, rapid ones */
+#define MEMBER_SEEN 6     /* events of the partner when NEXT was found; below 0: a shock's party that is to look again, see party_next */
 #define MEMBER_HITS 8     /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7    /* of a leader: the round in which the cluster is to be done */
 #define MEMBER_CHILD 9    /* of the cluster's heap, where it is made of links: the first below this one, */

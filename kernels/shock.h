@@ -40,13 +40,6 @@ int2 parties_take(LIST_OUT(members), int *party)
 	return who;
 }
 
-/* The number of a body as a member of the cluster, else -1: of all others the way counts as the step began. */
-int number_of_own(LIST_OUT(members), LIST_IN(owners), int s, int leader)
-{
-	int id = PEEK(owners, s);
-	return id >= 0 && PEEK(members, MEMBER(id, MEMBER_OWNER)) == leader ? id : -1;
-}
-
 trajectory shock_way(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), int s, const shock *all)
 {
 	int id = number_of_own(members, owners, s, all->leader);
@@ -265,9 +258,7 @@ int party_hit(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(act
 	impact hit = {total, true, true, true,
 		(float4)(from.x + (grip_arm * n.x - arm * along.x), from.y + (grip_arm * n.y - arm * along.y), sign * n.x, sign * n.y)};
 	float4 j = (float4)(sign * (total * n.x + rub * along.x), sign * (total * n.y + rub * along.y), 0.0f, 0.0f);
-	members[MEMBER(id, MEMBER_HITS)]++;
-	members[MEMBER(id, MEMBER_RULED)]++;
-	if (!hit_keep(status, members, hits, id, (float4)(time, (float)max(row, column), (float)min(row, column), 0.0f), j, hit))
+	if (!hit_count(status, members, hits, id, (float4)(time, (float)max(row, column), (float)min(row, column), 0.0f), j, hit))
 		atomic_or(&status[STATUS_LEFT], 1);
 	return two ? 2 : 1;
 }
@@ -284,7 +275,7 @@ void shock_end(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(me
 		members[MEMBER(id, MEMBER_EVENTS)] += 2; /* the way there, and what it got: who looks at it knows that it is not as it was */
 		k = held_at_last(slots, members, s, id, k, STUCK_BORNE);
 		work_store(work, id, k);
-		float margin = smaller(all->weight, CONTACT_NEAR * CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS));
+		float margin = rest_force(all->weight, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS));
 		if (!way_grow(slots, reach, work, need, s, id, k, margin, all->length))
 			atomic_or(&status[STATUS_LEFT], 1);
 	}

@@ -136,6 +136,13 @@ carom_hit *runs_hits(carom_world *world, size_t *count)
 	return hits;
 }
 
+bool runs_same_hit(const carom_hit *a, const carom_hit *b)
+{
+	return a->body == b->body && a->other == b->other && memcmp(&a->point, &b->point, sizeof a->point) == 0
+		&& memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 && memcmp(&a->impulse, &b->impulse, sizeof a->impulse) == 0
+		&& a->is_ruled == b->is_ruled;
+}
+
 void runs_near(double found, double expected, double tolerance)
 {
 	if (!(fabs(found - expected) <= tolerance))

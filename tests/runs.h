@@ -30,6 +30,8 @@ carom_snapshot *runs_snapshot(carom_world *world);
 uint64_t runs_hash(carom_world *world);
 /* The hits of the last call, to be given to free. */
 carom_hit *runs_hits(carom_world *world, size_t *count);
+/* Are they alike to the bit, but for the time? */
+bool runs_same_hit(const carom_hit *a, const carom_hit *b);
 /* The hash after so many steps, in so many calls; destroys the world. */
 uint64_t runs_hash_after(carom_world *world, uint64_t steps, uint64_t calls);
 

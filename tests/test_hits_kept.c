@@ -9,13 +9,6 @@ enum { MOST_BODIES = 120 };
 
 /* ---- The same bits */
 
-static bool are_same(const carom_hit *a, const carom_hit *b)
-{
-	return a->body == b->body && a->other == b->other && memcmp(&a->point, &b->point, sizeof a->point) == 0
-		&& memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 && memcmp(&a->impulse, &b->impulse, sizeof a->impulse) == 0
-		&& a->is_ruled == b->is_ruled;
-}
-
 /* Those of so many calls, one after the other. */
 static carom_hit *collect(carom_world *world, uint64_t steps, uint64_t calls, size_t *count)
 {
@@ -62,7 +55,7 @@ static void devices_calls_and_threads_change_none(void **unused)
 				carom_hit *hits = collect(world, 4 * runs_affordable(10), cut, &count);
 				assert_true(!first || count == first_count);
 				for (size_t k = 0; first && k < count; k++) {
-					assert_true(are_same(&hits[k], &first[k]));
+					assert_true(runs_same_hit(&hits[k], &first[k]));
 					runs_near(hits[k].time, first[k].time, 1e-12);
 				}
 				free(first);

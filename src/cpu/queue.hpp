@@ -267,9 +267,22 @@ private:
 		}
 		if (other < 0 && changes)
 			push(s, id, way, hit, true, rapid, past.borne);
+		const T *next = work[id].next;
 		if (hit.total > 0)
-			count_hit(id, hit);
+			count_hit(id, u, next[NEXT_ROW], next[NEXT_COLUMN], hit.at, {hit.x, hit.y}, hit.ruled);
 		return past.rapid && past.shock && hit.lossy;
+	}
+
+	/* The number of a body that a shock gets to, as `member`: for it that is an event. */
+	int32_t join_shock(int32_t s, int32_t by, T u)
+	{
+		const int32_t id = member(s, by);
+		if (id >= 0) {
+			const bool rapid = is_rapid(id, work[id].trajectory(slots[s]), u);
+			members[id].rapid += rapid;
+			members[id].stuck = rapid ? members[id].stuck + 1 : 0;
+		}
+		return id;
 	}
 
 	/* The hit of these two passes on to others at once; false if the cluster has to be given up. */
@@ -277,25 +290,21 @@ private:
 	{
 		Shock<T> shock(clusters, rubs, work, shock_points);
 		const bool is_row = other_id < 0 || slots[clusters.active[id]].body() > slots[clusters.active[other_id]].body();
-		if (!shock.spread(
-				is_row ? id : other_id, is_row ? other_id : id, u, [&](int32_t s) { return own_number(s); },
-				[&](int32_t s) { return member(s, id); }))
+		const auto own = [&](int32_t s) { return own_number(s); };
+		const auto join = [&](int32_t s) { return join_shock(s, id, u); };
+		if (!shock.spread(is_row ? id : other_id, is_row ? other_id : id, u, own, join))
 			return false;
 		shock.each_hit([&](int32_t m, Partner partner, const Vec<T> &impulse, const Vec<T> &point, const Vec<T> &normal) {
 			const int32_t index = slots[clusters.active[m]].body(), other = partner.key(slots);
 			const T sign = index > other ? T(1) : T(-1);
-			members[m].hits++;
-			members[m].ruled++;
-			if (hits.are_kept())
-				hits.keep(members[m],
-					{u, static_cast<T>(std::max(index, other)), static_cast<T>(std::min(index, other)), 0, point.x(), point.y(), sign * normal.x(),
-						sign * normal.y(), sign * impulse.x(), sign * impulse.y(), 1, 0, 0, 0, 0, 0});
+			count_hit(m, u, static_cast<T>(std::max(index, other)), static_cast<T>(std::min(index, other)), {point, sign * normal}, sign * impulse,
+				true);
 		});
 		shock.each([&](int32_t m) {
 			const int32_t s = clusters.active[m];
 			Trajectory<T> way = work[m].trajectory(slots[s]);
 			members[m].events += 2; /* the way there, and what it got: who looks at it knows that it is not as it was */
-			hold_at_last(s, members[m], STUCK_BORNE, way);
+			hold_at_last(members[m], STUCK_BORNE, Trajectory<T>(slots[s]), way);
 			work[m].keep(way);
 			widen(s, m, way, shock.margin(m));
 		});
@@ -303,15 +312,14 @@ private:
 		return true;
 	}
 
-	void count_hit(int32_t id, const Impact<T> &hit)
+	/* As one of the member's, of that time, row and column; the impulse is on the row body. */
+	void count_hit(int32_t id, T u, T row, T column, const Where<T> &at, const Vec<T> &impulse, bool ruled)
 	{
-		const T *next = work[id].next;
 		members[id].hits++;
-		members[id].ruled += hit.ruled;
+		members[id].ruled += ruled;
 		if (hits.are_kept())
 			hits.keep(members[id],
-				{next[NEXT_TIME], next[NEXT_ROW], next[NEXT_COLUMN], 0, hit.at.point.x(), hit.at.point.y(), hit.at.normal.x(), hit.at.normal.y(),
-					hit.x, hit.y, T(hit.ruled), 0, 0, 0, 0, 0});
+				{u, row, column, 0, at.point.x(), at.point.y(), at.normal.x(), at.normal.y(), impulse.x(), impulse.y(), T(ruled), 0, 0, 0, 0, 0});
 	}
 
 	void push(int32_t s, int32_t id, Trajectory<T> &way, const Impact<T> &hit, bool is_row, bool rapid, bool borne)
@@ -325,18 +333,9 @@ private:
 		member.stuck = rapid && hit.slow ? member.stuck + 1 : 0;
 		member.fast |= hit.total > 0 && !hit.slow;
 		member.events++;
-		hold_at_last(s, member, borne ? STUCK_BORNE : STUCK_MOST, way);
+		hold_at_last(member, borne ? STUCK_BORNE : STUCK_MOST, Trajectory<T>(slots[s]), way);
 		work[id].keep(way);
 		widen(s, id, way);
-	}
-
-	void hold_at_last(int32_t s, const Member &member, int32_t most_stuck, Trajectory<T> &way) const
-	{
-		const bool is_stuck = member.stuck > most_stuck;
-		if (is_stuck && !member.fast)
-			limit(way, Trajectory<T>(slots[s]));
-		if (member.events > HOLD_LIMIT || is_stuck)
-			way.held = 1;
 	}
 
 	/* Adds the way that is left to the box of all of it. If that leaves the reach the step begins again, but goes on as long as it tells what others

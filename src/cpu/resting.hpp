@@ -98,6 +98,9 @@ template <typename T> struct Resting {
 template <typename T> struct Nearness {
 	T weight = 0; /* what pushes all of them; 0: each what pushes it */
 	T fast = T(CONTACT_FAST);
+
+	/* What the push moves, but no more than what is near beside the smaller body. */
+	T force(T push, T radius) const { return smaller(weight > 0 ? weight : push, T(CONTACT_NEAR) * radius); }
 };
 
 /* Finds the contacts of one body after the other. */
@@ -143,12 +146,9 @@ public:
 private:
 	/* What is known of a contact before its points are. */
 	struct Rules {
-		T force, slop, fast; /* force: what the push moves, but no more than what is near beside the smaller body */
+		T force, slop, fast;
 
-		Rules(T push, T radius, T rounding, const Nearness<T> &nearness)
-			: force(smaller(nearness.weight > 0 ? nearness.weight : push, T(CONTACT_NEAR) * radius)), slop(rounding), fast(nearness.fast)
-		{
-		}
+		Rules(T push, T radius, T rounding, const Nearness<T> &nearness) : force(nearness.force(push, radius)), slop(rounding), fast(nearness.fast) {}
 
 		T cushion() const { return smaller(T(CUSHION) * slop, T(0.5) * force); }
 	};

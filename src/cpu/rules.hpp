@@ -55,6 +55,16 @@ template <typename T> void limit(Trajectory<T> &way, const Trajectory<T> &begun)
 		way.velocity = begun.velocity;
 }
 
+/* What had too many events is held from now on, and so is what is stuck, which is slowed, too, unless it was in a fast hit. */
+template <typename T> void hold_at_last(const Member &member, int32_t most_stuck, const Trajectory<T> &begun, Trajectory<T> &way)
+{
+	const bool is_stuck = member.stuck > most_stuck;
+	if (is_stuck && !member.fast)
+		limit(way, begun);
+	if (member.events > HOLD_LIMIT || is_stuck)
+		way.held = 1;
+}
+
 }
 
 #endif

@@ -53,7 +53,6 @@ public:
 						const int32_t id = join(p->whom().slot());
 						if (id < 0)
 							return false;
-						count_event(id);
 						open(id, own);
 					}
 					more |= p->is_open() && push(parties[k], *p, rate);
@@ -93,7 +92,7 @@ public:
 	}
 
 	/* What it looks at beside a body's way. */
-	T margin(int32_t id) const { return smaller(nearness.weight, T(CONTACT_NEAR) * slot_of(id).radius()); }
+	T margin(int32_t id) const { return nearness.force(nearness.weight, slot_of(id).radius()); }
 
 private:
 	struct Give {
@@ -119,15 +118,6 @@ private:
 		if (way.held > 0)
 			return 0;
 		return inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
-	}
-
-	/* Of one that joins; those that it began with had theirs. */
-	void count_event(int32_t id) const
-	{
-		Member &member = clusters.members[id];
-		const bool is_rapid = !(work[id].held > 0) && member.events > 0 && time - work[id].time < T(RAPID);
-		member.rapid += is_rapid;
-		member.stuck = is_rapid ? member.stuck + 1 : 0;
 	}
 
 	T rate_of(int32_t id, const ShockPoint<T> &p) const
@@ -193,9 +183,9 @@ private:
 			return false;
 		p.impulse = impulse;
 		act(id, give, other, other_give, more * p.normal(), more * p.arm, more * p.other_arm);
-		const T grip_gives = give.at(p.grip_arm) + other_give.at(p.other_grip_arm);
 		if (!(p.friction > 0))
 			return true;
+		const T grip_gives = give.at(p.grip_arm) + other_give.at(p.other_grip_arm);
 		const T own_slip = speed(work[id], p.along(), p.grip_arm);
 		const T slip = other >= 0 ? own_slip - speed(work[other], p.along(), p.other_grip_arm) : own_slip;
 		const T most = p.friction * impulse, rub = larger(smaller(p.rub - slip / grip_gives, most), -most), change = rub - p.rub;
