@@ -124,6 +124,8 @@ typedef struct carom_body_def {
 	carom_vec2 force;           /**< N, constant, at the centre of mass; default (0, 0) */
 	float torque;               /**< N m, constant; default 0 */
 	bool is_static;             /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
+	bool is_kinematic;          /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
+	                               kinematic bodies and out of the room; forces must be 0. carom_world_set_states gives it other velocities */
 	uint32_t color;             /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
 	const char *name;           /**< for people; NULL (the default) for none */
 } carom_body_def;
@@ -143,14 +145,15 @@ typedef struct carom_body_info {
 	float radius;               /**< m, of a circle or a regular polygon, else of the circle about the centre of mass that holds the body */
 	uint32_t vertex_count;      /**< 1 for a circle */
 	const carom_vec2 *vertices; /**< m, about the centre of mass, counter-clockwise; NULL for a circle */
-	float mass;                 /**< kg; infinite for a static body */
-	float inertia;              /**< kg m^2 about the centre of mass; infinite for a static body */
+	float mass;                 /**< kg; infinite for a static body, and for a kinematic one */
+	float inertia;              /**< kg m^2 about the centre of mass; infinite likewise */
 	float density;              /**< kg/m^2, as given; 0 where the mass was given */
 	float restitution;          /**< 0..1 */
 	float friction;             /**< 0..1000 */
 	carom_vec2 force;           /**< N */
 	float torque;               /**< N m */
 	bool is_static;             /**< never moves */
+	bool is_kinematic;          /**< moves as its velocities say, and nothing changes them */
 	carom_vec2 recentred_by;    /**< m: the centre of mass of the vertices as they were given; (0, 0) if none was moved */
 	uint32_t color;             /**< 0xRRGGBB, or CAROM_COLOR_AUTO */
 	const char *name;           /**< NULL for none */
@@ -289,9 +292,10 @@ CAROM_API carom_status carom_world_get_body(const carom_world *world, uint32_t i
  * state is read: that after the steps that its report tells. */
 CAROM_API carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error);
 /** Writes the same, all or none. CAROM_INVALID_ARGUMENT: a number is not finite, a position outside the room by more
- * than a thousandth of it and what rounding makes of a step's way, a static body moves. */
+ * than a thousandth of it and what rounding makes of a step's way, unless the body is kinematic; a static body moves. */
 CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error);
-/** A constant force (N, at the centre of mass) and torque (N m), from now on. A static body takes none: for it anything but 0 is CAROM_INVALID_ARGUMENT. */
+/** A constant force (N, at the centre of mass) and torque (N m), from now on. A static or kinematic body takes none: for it anything but 0 is
+ * CAROM_INVALID_ARGUMENT. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
 
 /** Gravity (m/s^2, finite) from now on; carom_world_get_def has it, too. */
@@ -403,7 +407,7 @@ typedef struct carom_kernel_time {
  * `profile`. */
 CAROM_API bool carom_world_profile(carom_world *world, size_t index, carom_kernel_time *time);
 
-/** What is measured of a state, in double precision on the host. Static bodies do not count. */
+/** What is measured of a state, in double precision on the host. Static and kinematic bodies do not count. */
 typedef struct carom_measure {
 	double kinetic_energy;   /**< J */
 	double potential_energy; /**< J, of gravity, 0 at the origin */

@@ -83,7 +83,7 @@ bool had_enough(LIST_OUT(members), int id, bool rapid)
 /* Is it one that events change? */
 bool can_change(RECORD_IN(slots), int s, trajectory k)
 {
-	return !(k.held > 0.0f) && !slot_is_static(slots, s);
+	return !(k.held > 0.0f) && slot_is_dynamic(slots, s);
 }
 
 /* Would forces bear what lies in the slot, and on the other body or a wall, -1? They do by the step contacts, but not where there are too many. */
@@ -160,7 +160,7 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 		rules_of_hit how = event_rules(larger(b.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub, enough && !shocks, events, borne, weight);
 		j = wall_push(VERTICES, TEX_LOAD(uniforms, UNIFORMS_ROOM, 0), b, -1 - other, 0.0f, how, length, &hit);
 	} else if (!wall) {
-		o = other_was = slot_is_static(slots, other) ? trajectory_start(slots, other) : work_load(work, other_id);
+		o = other_was = slot_is_dynamic(slots, other) ? work_load(work, other_id) : trajectory_start(slots, other);
 		o = moved(slots, other, o, u, length);
 	}
 	if (!wall && !pause) {

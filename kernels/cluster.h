@@ -23,7 +23,7 @@ float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k
 /* So many steps are sure to be without a hit at a wall. */
 bool is_clear_of_walls(TEX_IN(uniforms), RECORD_IN(slots), float4 rules, int s, trajectory way, float length, float steps)
 {
-	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || slot_is_static(slots, s))
+	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || !slot_is_dynamic(slots, s))
 		return true;
 	float4 room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	body k = body_of(slots, s, way, length);

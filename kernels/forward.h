@@ -9,7 +9,7 @@ void body_forward(STATE_IN, int i, float t, float length, float4 *l, float4 *r)
 	float scale = t / length;
 	*l = (float4)(x.x, x.y, CHANNEL(old_linear, LINEAR_VX) + scale * k.a.x, CHANNEL(old_linear, LINEAR_VY) + scale * k.a.y);
 	*r = (float4)(wrapped(place1(k.r, k.w, k.b, t)), CHANNEL(old, ROTATIONAL_VELOCITY) + scale * k.b, k.radius, 0.0f);
-	if (!(k.inverse_mass > 0.0f)) {
+	if (!(k.inverse_mass > 0.0f) && k.v.x == 0.0f && k.v.y == 0.0f && k.w == 0.0f) { /* a static body is copied */
 		*l = old_linear;
 		*r = old;
 	}

@@ -21,8 +21,8 @@
 /* Geometry [2] */
 #define GEOMETRY_FIRST 0   /* index of the body's first texel in Vertices */
 #define GEOMETRY_COUNT 1   /* of vertices; 1 for a circle */
-#define GEOMETRY_MASS 2    /* kg; infinite for a static body */
-#define GEOMETRY_INERTIA 3 /* kg m^2; infinite for a static body */
+#define GEOMETRY_MASS 2    /* kg; infinite for a static or kinematic body */
+#define GEOMETRY_INERTIA 3 /* kg m^2; infinite likewise */
 
 /* Vertices [2]: two vertices a texel, counter-clockwise, about the centre of mass; a body begins at a new texel. A
  * circle's only vertex is (radius, 0). */
@@ -158,12 +158,12 @@
 #define TURN_RADIUS 2
 #define TURN_RESTITUTION 3
 #define SLOT_MASS 2    /* record */
-#define MASS_INVERSE 0 /* 1 / kg; 0 for a static body */
+#define MASS_INVERSE 0 /* 1 / kg; 0 for a static or kinematic body */
 #define MASS_INVERSE_INERTIA 1
 #define MASS_FIRST 2 /* in Outlines; GEOMETRY_COUNT */
 #define MASS_COUNT 3
 #define SLOT_PUSH 3 /* record */
-#define PUSH_X 0    /* m/s^2: gravity and force; 0 for a static body */
+#define PUSH_X 0    /* m/s^2: gravity and force; 0 of what has no inverse mass */
 #define PUSH_Y 1
 #define PUSH_TORQUE 2 /* rad/s^2 */
 #define PUSH_BODY 3   /* index of the body */
@@ -298,7 +298,7 @@
 #define FOUR_STEP 7      /* kg: by how much a rate changes a force in an iteration */
 #define FOUR_FORCE 8     /* kg m / step^2, 0 or more */
 #define FOUR_START 9     /* that from which the next iteration starts */
-/* The other's slot if it moves, else one of these. */
+/* The other's slot if it moves, as a kinematic body does, else one of these. */
 #define PARTNER_NONE (-1)
 #define PARTNER_WALL(wall) (-2 - (wall))
 #define PARTNER_STATIC(index) (-6 - (index))
@@ -328,7 +328,7 @@
 /* Touching: two ints a slot */
 #define TOUCHING_WIDTH 2
 #define TOUCHING_COUNT 0 /* of the slot's points; -1: too many contacts */
-#define TOUCHING_SLOT 1  /* a list: slots with contacts, in this step or in the last */
+#define TOUCHING_SLOT 1  /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
 
 /* Loads: three records a slot: how it moves in a step, x, y, angle, in the iterations with even numbers and in the others, and by itself; and its share.
  * Before them those of slot -1, of what does not move: zeros. */

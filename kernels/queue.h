@@ -182,7 +182,7 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	float4 next = work[WORK_WIDTH * id + WORK_NEXT];
 	int other = (int)CHANNEL(next, NEXT_PARTNER);
 	bool is_known = CHANNEL(next, NEXT_TIME) != NEXT_UNKNOWN;
-	if (is_known && other >= 0 && !slot_is_static(slots, other)) {
+	if (is_known && other >= 0 && slot_is_dynamic(slots, other)) {
 		other_id = join(slots, LISTS, work, owners, parents, other, id, leader, head, round, first);
 		if (other_id < 0)
 			return (int2)(LOOKS_LATER, LOOKS_NOT);

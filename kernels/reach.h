@@ -38,7 +38,7 @@ float4 pace_sample(RECORD_IN(slots), int count, float window, int lane, int lane
 	float4 sum = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 	for (int s = lane * step; s < count; s += lanes * step) {
 		float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), acceleration = SLOT_LOAD(slots, s, SLOT_PUSH);
-		if (slot_is_static(slots, s))
+		if (!slot_is_dynamic(slots, s))
 			continue;
 		float speed = norm((float2)(at.z, at.w)) + norm((float2)(acceleration.x, acceleration.y)) * window;
 		sum += (float4)(speed * speed, sqrt(speed), CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS), 1.0f);
@@ -58,8 +58,8 @@ void pace_choose(float4 sum, float window, float brief, float tenths, LIST_OUT(s
 	status[STATUS_BRIEF] = as_int(brief);
 }
 
-/* A static body's box is tight. */
-float4 static_box(VERTICES_IN, RECORD_IN(slots), int s)
+/* The box of a body that stands is tight. */
+float4 standing_box(VERTICES_IN, RECORD_IN(slots), int s)
 {
 	body k = body_of(slots, s, trajectory_start(slots, s), 1.0f);
 	float2 rotation = rotation_of(k.r), low = k.x, high = k.x;
@@ -89,7 +89,7 @@ float4 reach_about(RECORD_IN(slots), int s, float need, LIST_IN(status))
 
 float4 reach_box(VERTICES_IN, RECORD_IN(slots), int s, float need, LIST_IN(status))
 {
-	return slot_is_static(slots, s) ? static_box(VERTICES, slots, s) : reach_about(slots, s, need, status);
+	return slot_stands(slots, s) ? standing_box(VERTICES, slots, s) : reach_about(slots, s, need, status);
 }
 
 float level_side(LIST_IN(status), int level)
@@ -253,12 +253,12 @@ INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slo
 }
 
 /* The slots of one level in places [from, to) whose reach touches this one's. */
-INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, bool stands,
+INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, bool dynamic,
 	bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	for (int other = from; other < to; other++) {
 		int near = (other != s) & boxes_touch(box, reach[other]);
-		if (stands && near && slot_is_static(slots, other))
+		if (!dynamic && near && !slot_is_dynamic(slots, other))
 			near = 0;
 		near_add(list, neighbours, half_at, other, !same_level || other > s, near);
 		if (!same_level && near && half_at < 0)
@@ -271,7 +271,7 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 {
 	float4 box = reach[s];
 	int own = reach_level(box, as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
-	bool stands = slot_is_static(slots, s);
+	bool dynamic = slot_is_dynamic(slots, s);
 	for (int level = max(own - NEAR_LEVELS, 0); level < CELL_LEVELS; level++) {
 		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
 			continue;
@@ -282,11 +282,11 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 			int row = first - (first & (columns - 1));
 			int from = cells[CELL_WIDTH * first + CELL_START], to = cells[CELL_WIDTH * last + CELL_END];
 			if (last < first) {
-				near_range(slots, reach, status, nodes, members, s, box, stands, level == own, cells[CELL_WIDTH * row + CELL_START], to, list,
+				near_range(slots, reach, status, nodes, members, s, box, dynamic, level == own, cells[CELL_WIDTH * row + CELL_START], to, list,
 					neighbours, half_at);
 				to = cells[CELL_WIDTH * (row + columns - 1) + CELL_END];
 			}
-			near_range(slots, reach, status, nodes, members, s, box, stands, level == own, from, to, list, neighbours, half_at);
+			near_range(slots, reach, status, nodes, members, s, box, dynamic, level == own, from, to, list, neighbours, half_at);
 		}
 	}
 }

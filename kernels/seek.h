@@ -98,7 +98,7 @@ void seeds_keep(LISTS_IN, LIST_OUT(owners), const seeds *all, int entry, int id,
 void seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), float4 rules, int s, int other, float length, int round,
 	seeds *all)
 {
-	bool pause, changes = !slot_is_static(slots, s), other_changes = !slot_is_static(slots, other);
+	bool pause, changes = slot_is_dynamic(slots, s), other_changes = slot_is_dynamic(slots, other);
 	float t = pair_time(VERTICES, slots, rules, s, trajectory_start(slots, s), other, trajectory_start(slots, other), length, 1.0f, &pause);
 	if (!(t <= 1.0f))
 		return;

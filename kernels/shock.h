@@ -52,10 +52,11 @@ float way_speed(trajectory k, float2 n, float arm)
 	return k.held > 0.0f ? 0.0f : inner(n, (float2)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY))) + k.velocity * arm;
 }
 
-/* Is the point's partner a party, or one that does not move? */
-bool point_is_open(float4 push)
+/* Is the point's partner a party, or one that nothing pushes? */
+bool point_is_open(RECORD_IN(slots), float4 push)
 {
-	return !(CHANNEL(push, SHOCK_PARTNER) >= 0.0f) || CHANNEL(push, SHOCK_NUMBER) >= 0.0f;
+	int partner = (int)CHANNEL(push, SHOCK_PARTNER);
+	return partner < 0 || CHANNEL(push, SHOCK_NUMBER) >= 0.0f || !slot_is_dynamic(slots, partner);
 }
 
 bool point_is_none(float4 push)
@@ -63,14 +64,22 @@ bool point_is_none(float4 push)
 	return CHANNEL(push, SHOCK_PARTNER) == (float)PARTNER_NONE;
 }
 
-float point_rate(RECORD_OUT(work), int id, float4 normal, float4 push)
+/* How fast a party parts from the partner of an open point along n, which has the arms. */
+float parting(RECORD_IN(slots), RECORD_OUT(work), int id, float4 push, float2 n, float arm, float other_arm)
+{
+	float own = way_speed(work_load(work, id), n, arm);
+	int other = (int)CHANNEL(push, SHOCK_NUMBER), partner = (int)CHANNEL(push, SHOCK_PARTNER);
+	if (other < 0 && partner < 0)
+		return own;
+	return own - way_speed(other >= 0 ? work_load(work, other) : trajectory_start(slots, partner), n, other_arm);
+}
+
+float point_rate(RECORD_IN(slots), RECORD_OUT(work), int id, float4 normal, float4 push)
 {
 	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y));
-	float own = way_speed(work_load(work, id), n, CHANNEL(normal, SHOCK_ARM));
-	int other = (int)CHANNEL(push, SHOCK_NUMBER);
-	if (!point_is_open(push))
-		return own - CHANNEL(push, SHOCK_IMPULSE);
-	return other >= 0 ? own - way_speed(work_load(work, other), n, CHANNEL(normal, SHOCK_OTHER_ARM)) : own;
+	if (!point_is_open(slots, push))
+		return way_speed(work_load(work, id), n, CHANNEL(normal, SHOCK_ARM)) - CHANNEL(push, SHOCK_IMPULSE);
+	return parting(slots, work, id, push, n, CHANNEL(normal, SHOCK_ARM), CHANNEL(normal, SHOCK_OTHER_ARM));
 }
 
 /* A party's points, from those of its contacts with others. */
@@ -87,7 +96,7 @@ void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN
 		for (int i = 0; i < r->count && point < SHOCK_POINTS; i++, point++) {
 			rest_point at = r->points[i];
 			__global float4 *to = shocks + SHOCK(id, point);
-			float coming = r->partner >= 0 ? way_speed(shock_way(slots, members, work, owners, r->partner, all), r->n, at.other_arm) : 0.0f;
+			float coming = r->partner >= 0 && slot_is_dynamic(slots, r->partner) ? way_speed(shock_way(slots, members, work, owners, r->partner, all), r->n, at.other_arm) : 0.0f;
 			to[SHOCK_NORMAL] = (float4)(r->n.x, r->n.y, at.arm, at.other_arm);
 			to[SHOCK_GRIP] = (float4)(at.grip_arm, at.grip_other_arm, r->friction, part);
 			to[SHOCK_PUSH] = (float4)((float)r->partner, -1.0f, coming, 0.0f);
@@ -176,9 +185,7 @@ bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(
 	member_push(work, other, other_gives, (float2)(-(more * n.x), -(more * n.y)), -(more * other_arm));
 	if (CHANNEL(grip, SHOCK_FRICTION) > 0.0f) {
 		float grip_arm = CHANNEL(grip, SHOCK_GRIP_ARM), other_grip_arm = CHANNEL(grip, SHOCK_OTHER_GRIP_ARM), rubbed = CHANNEL(push, SHOCK_RUB);
-		float slip = way_speed(work_load(work, id), along, grip_arm), most = CHANNEL(grip, SHOCK_FRICTION) * impulse;
-		if (other >= 0)
-			slip = slip - way_speed(work_load(work, other), along, other_grip_arm);
+		float slip = parting(slots, work, id, push, along, grip_arm, other_grip_arm), most = CHANNEL(grip, SHOCK_FRICTION) * impulse;
 		float rub = larger(smaller(rubbed - slip / (gives_at(gives, grip_arm) + gives_at(other_gives, other_grip_arm)), most), -most);
 		float change = rub - rubbed;
 		CHANNEL(push, SHOCK_RUB) = rub;
@@ -213,8 +220,8 @@ bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 				float4 push = shocks[SHOCK(id, point) + SHOCK_PUSH];
 				if (point_is_none(push))
 					break;
-				float rate = point_rate(work, id, shocks[SHOCK(id, point) + SHOCK_NORMAL], push);
-				bool open = point_is_open(push);
+				float rate = point_rate(slots, work, id, shocks[SHOCK(id, point) + SHOCK_NORMAL], push);
+				bool open = point_is_open(slots, push);
 				if (!(rate < 0.0f) && !(open && CHANNEL(push, SHOCK_IMPULSE) > 0.0f))
 					continue;
 				if (!open && all->count < SHOCK_PARTIES) {
@@ -248,7 +255,7 @@ int party_hit(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(act
 		arm = arm + part * (CHANNEL(next[SHOCK_NORMAL], SHOCK_ARM) - arm);
 		grip_arm = grip_arm + part * (CHANNEL(next[SHOCK_GRIP], SHOCK_GRIP_ARM) - grip_arm);
 	}
-	if (!point_is_open(push) || !(total > 0.0f))
+	if (!point_is_open(slots, push) || !(total > 0.0f))
 		return two ? 2 : 1;
 	int partner = (int)CHANNEL(push, SHOCK_PARTNER), row = slot_body(slots, active[id]), column = partner_key(slots, partner);
 	float sign = row > column ? 1.0f : -1.0f;

@@ -43,9 +43,21 @@ void work_store(__global float4 *work, int id, trajectory k)
 	work[WORK_WIDTH * id + WORK_TURN] = (float4)(k.angle, k.velocity, k.time, k.held);
 }
 
-INLINE bool slot_is_static(RECORD_IN(slots), int s)
+/* Not static, nor kinematic: those have infinite mass, and no hit changes them. */
+INLINE bool slot_is_dynamic(RECORD_IN(slots), int s)
 {
-	return !(CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE) > 0.0f);
+	return CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE) > 0.0f;
+}
+
+/* Not dynamic, and without a velocity: it stays where it is. */
+INLINE bool stands(RECORD_IN(slots), int s, trajectory k)
+{
+	return !slot_is_dynamic(slots, s) && CHANNEL(k.place, LINEAR_VX) == 0.0f && CHANNEL(k.place, LINEAR_VY) == 0.0f && k.velocity == 0.0f;
+}
+
+bool slot_stands(RECORD_IN(slots), int s)
+{
+	return stands(slots, s, trajectory_start(slots, s));
 }
 
 int slot_body(RECORD_IN(slots), int s)
@@ -85,7 +97,7 @@ body body_of(RECORD_IN(slots), int s, trajectory k, float length)
 /* The trajectory, told from time u on. */
 trajectory moved(RECORD_IN(slots), int s, trajectory k, float u, float length)
 {
-	if (u == k.time || k.held > 0.0f || slot_is_static(slots, s))
+	if (u == k.time || k.held > 0.0f || stands(slots, s, k))
 		return k;
 	body b = body_of(slots, s, k, length);
 	float dt = u - k.time, scale = dt / length;

@@ -116,8 +116,11 @@ static carom_status check_numbers(const carom_body_def *def, size_t index, carom
 		return fail(error, index, "color", "must be 0xRRGGBB or CAROM_COLOR_AUTO");
 	if (def->is_static && (def->velocity.x != 0.0f || def->velocity.y != 0.0f || def->angular_velocity != 0.0f))
 		return fail(error, index, "velocity", "a static body does not move: leave out its velocities, or `static`");
-	if (def->is_static && (def->force.x != 0.0f || def->force.y != 0.0f || def->torque != 0.0f))
-		return fail(error, index, "force", "a static body feels no force: leave out force and torque, or `static`");
+	if (def->is_static && def->is_kinematic)
+		return fail(error, index, "is_kinematic", "a static body does not move, and a kinematic one does: leave out one of the two");
+	if ((def->is_static || def->is_kinematic) && (def->force.x != 0.0f || def->force.y != 0.0f || def->torque != 0.0f))
+		return fail(error, index, "force", def->is_static ? "a static body feels no force: leave out force and torque, or `static`"
+														  : "a kinematic body feels no force: leave out force and torque, or `kinematic`");
 	return CAROM_OK;
 }
 
@@ -207,8 +210,8 @@ static void set_mass(const carom_body_def *def, carom_body *body, double area, d
 {
 	double mass = def->mass > 0.0f ? (double)def->mass : (double)def->density * area;
 	body->density = def->mass > 0.0f ? 0.0f : def->density;
-	body->mass = def->is_static ? INFINITY : (float)mass;
-	body->inertia = def->is_static ? INFINITY : (float)(mass * second / area);
+	body->mass = carom_is_dynamic(body) ? (float)mass : INFINITY;
+	body->inertia = carom_is_dynamic(body) ? (float)(mass * second / area) : INFINITY;
 }
 
 static carom_status make_circle(const carom_body_def *def, carom_body *body)
@@ -252,7 +255,7 @@ static carom_status make_polygon(const carom_body_def *def, size_t index, carom_
 static bool is_computable(const carom_body *body)
 {
 	const float numbers[2] = {body->mass, body->inertia};
-	for (int i = 0; i < 2 && !body->is_static; i++)
+	for (int i = 0; i < 2 && carom_is_dynamic(body); i++)
 		if (!(numbers[i] >= FLT_MIN && numbers[i] <= 1.0f / FLT_MIN))
 			return false;
 	return body->bound >= 1e-12f && body->bound <= 1e12f;
@@ -274,6 +277,7 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world *world
 	body->torque = def->torque;
 	body->color = def->color;
 	body->is_static = def->is_static;
+	body->is_kinematic = def->is_kinematic;
 	status = def->shape == CAROM_CIRCLE ? make_circle(def, body) : make_polygon(def, index, body, vertices, error);
 	if (!status && !is_computable(body))
 		status = fail(error, index, "mass",

@@ -14,8 +14,8 @@ carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec
 	body = &carom_world_bodies(world)[index];
 	if (!carom_is_finite(force) || !isfinite(torque))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
-	if (body->is_static && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and feels no force", index);
+	if (!carom_is_dynamic(body) && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is %s and feels no force", index, body->is_static ? "static" : "kinematic");
 	body->force = force;
 	body->torque = torque;
 	world->bodies_current = false;

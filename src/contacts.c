@@ -9,9 +9,9 @@
 
 _Static_assert(CAROM_MAX_CONTACTS == CONTACTS_MOST, "the header tells it");
 
-static bool is_static(const carom_world *world, int32_t body)
+static bool is_dynamic(const carom_world *world, int32_t body)
 {
-	return body < 0 || carom_world_bodies(world)[body].is_static;
+	return body >= 0 && carom_is_dynamic(&carom_world_bodies(world)[body]);
 }
 
 static size_t contact_count(const carom_world *world)
@@ -65,7 +65,7 @@ static float *warm_at(const warm *w, uint32_t body, int32_t k)
 static void put_side(const carom_world *world, warm *w, uint32_t body, int32_t other, const carom_contact *contact)
 {
 	float *record;
-	if (is_static(world, (int32_t)body))
+	if (!is_dynamic(world, (int32_t)body))
 		return;
 	record = warm_at(w, body, w->counts[body]++);
 	record[WARM_PARTNER] = (float)other;
@@ -105,7 +105,7 @@ static bool take_body(carom_world *world, const warm *w, uint32_t body)
 		const float *record = warm_at(w, body, k);
 		const int32_t other = (int32_t)record[WARM_PARTNER];
 		carom_contact *contact;
-		if (other > (int32_t)body && !is_static(world, other))
+		if (other > (int32_t)body && is_dynamic(world, other))
 			continue;
 		contact = carom_array_grow(&world->contacts, sizeof *contact);
 		if (!contact)
@@ -184,8 +184,8 @@ static carom_status check_parties(const carom_world *world, size_t k, const caro
 			(int)contact->other, contact->body);
 	if (contact->other < 0 && !world->def.has_room)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu].other: found a wall, but there is no room", k);
-	if (is_static(world, (int32_t)contact->body) && is_static(world, contact->other))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu]: one of the two must move, and body %u is static", k, contact->body);
+	if (!is_dynamic(world, (int32_t)contact->body) && !is_dynamic(world, contact->other))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu]: one of the two must be neither static nor kinematic, and body %u is", k, contact->body);
 	return CAROM_OK;
 }
 
@@ -211,7 +211,7 @@ static carom_status check_together(const carom_world *world, size_t count, const
 			return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts: body %u has more than one with %s %d", contacts[k].body,
 				contacts[k].other < 0 ? "wall" : "body", (int)contacts[k].other);
 		for (int i = 0; i < 2; i++)
-			if (!is_static(world, parties[i]) && ++counts[parties[i]] > CONTACTS_MOST)
+			if (is_dynamic(world, parties[i]) && ++counts[parties[i]] > CONTACTS_MOST)
 				return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts: body %d has more than %d", (int)parties[i], CONTACTS_MOST);
 	}
 	return CAROM_OK;

@@ -21,7 +21,7 @@ typedef struct carom_placed {
 	double min_x, min_y, max_x, max_y; /* its box */
 	const carom_corner *corners;       /* NULL for a circle */
 	uint32_t corner_count, level;      /* its grid; CAROM_GRIDS: it is nowhere, for a number of it is not finite */
-	bool is_static;
+	bool is_dynamic;
 } carom_placed;
 
 /* The bodies of one size by cell: those of cell k are members[starts[k]] to members[starts[k + 1] - 1]. */

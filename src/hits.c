@@ -33,10 +33,10 @@ static bool is_at_once(const kept_hit *a, const kept_hit *b)
 	return a->when[WHEN_STEP] == b->when[WHEN_STEP] && a->who[WHO_TIME] == b->who[WHO_TIME];
 }
 
-/* What the hits do to a body that moves comes one after the other; NULL for what stands. */
+/* What the hits do to a body comes one after the other; NULL for what they do not change. */
 static float *order_of(const carom_world *world, float *orders, float party)
 {
-	return party < 0.0f || carom_world_bodies(world)[(int32_t)party].is_static ? NULL : &orders[(int32_t)party];
+	return party >= 0.0f && carom_is_dynamic(&carom_world_bodies(world)[(int32_t)party]) ? &orders[(int32_t)party] : NULL;
 }
 
 /* Hits at the same time, in the order in which the device answered those of each body: what leads to another gets a lower number, and what has

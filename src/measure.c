@@ -26,7 +26,7 @@ static carom_status add_bodies(carom_world *world, carom_measure *sum, carom_err
 		status = carom_world_get_body(world, k, &body, error);
 		if (status == CAROM_OK)
 			status = carom_world_get_states(world, k, 1, &state, error);
-		if (status == CAROM_OK && !body.is_static)
+		if (status == CAROM_OK && !body.is_static && !body.is_kinematic)
 			add_body(sum, &body, &state, gravity);
 	}
 	return status;

@@ -79,7 +79,7 @@ static double overlap_of_boxes(const carom_placed *a, const carom_placed *b)
 
 static void deepen_by_pair(double *deepest, const carom_placed *a, const carom_placed *b)
 {
-	if (overlap_of_boxes(a, b) <= *deepest || (a->is_static && b->is_static))
+	if (overlap_of_boxes(a, b) <= *deepest || !(a->is_dynamic || b->is_dynamic))
 		return;
 	double depth = -carom_separation(a, b, -*deepest);
 	if (depth > *deepest)
@@ -88,7 +88,7 @@ static void deepen_by_pair(double *deepest, const carom_placed *a, const carom_p
 
 static void deepen_by_walls(double *deepest, const carom_placed *body, const carom_world_def *def)
 {
-	if (body->is_static)
+	if (!body->is_dynamic)
 		return;
 	double x = carom_most((double)def->room_min.x - body->min_x, body->max_x - (double)def->room_max.x);
 	double y = carom_most((double)def->room_min.y - body->min_y, body->max_y - (double)def->room_max.y);

@@ -16,6 +16,7 @@
 typedef struct reached {
 	double place, speed, spin; /* m, m/s, rad/s */
 	double push;               /* m/s^2, or rad/s^2: by how much both may grow */
+	bool is_kept;              /* by the room */
 } reached;
 
 static double larger_of(carom_vec2 v)
@@ -27,9 +28,11 @@ static reached reach_of(const carom_world *world, size_t index)
 {
 	const carom_body *body = &carom_world_bodies(world)[index];
 	const float *l = (const float *)world->linear.items + 4 * index, *r = (const float *)world->rotational.items + 4 * index;
-	const double time = (double)world->def.time_step, push = larger_of(world->def.gravity) + larger_of(body->force) / (double)body->mass,
+	const double time = (double)world->def.time_step,
+				 push = carom_is_dynamic(body) ? larger_of(world->def.gravity) + larger_of(body->force) / (double)body->mass : 0.0,
 				 twist = fabs((double)body->torque) / (double)body->inertia;
 	reached most = {.place = fmax(larger_of((carom_vec2){l[LINEAR_X], l[LINEAR_Y]}), (double)body->bound)};
+	most.is_kept = world->def.has_room && carom_is_dynamic(body);
 	if (body->is_static)
 		return most;
 	most.spin = fabs((double)r[ROTATIONAL_VELOCITY]) + twist * time;
@@ -55,18 +58,18 @@ static const char *excess(const carom_world *world, const reached *most)
 	const double way = most->speed * (double)def->time_step;
 	if (fmax(way, most->spin * (double)def->time_step) > MOST_TRAVEL || (def->has_room && way > MOST_ROOMS * room_size(def)))
 		return "its way in one step";
-	if (!def->has_room && most->place + way > MOST)
+	if (!most->is_kept && most->place + way > MOST)
 		return "its place, or how far a step brings it,";
 	return NULL;
 }
 
 /* s: until what pushes add makes the speed too large; and the place, where no room keeps a body. What hits do is not foreseen. */
-static double good_for(const carom_world *world, const reached *most)
+static double good_for(const reached *most)
 {
 	const double speed = fmax(most->speed, most->spin), left = MOST - most->place;
 	const double by_speed = (MOST - speed) / most->push; /* infinite where nothing pushes */
 	const double by_place = 2.0 * left / (speed + sqrt(speed * speed + 2.0 * most->push * left));
-	return world->def.has_room ? by_speed : fmin(by_speed, by_place);
+	return most->is_kept ? by_speed : fmin(by_speed, by_place);
 }
 
 /* Bodies hit each other, so the heaviest may become the fastest. */
@@ -82,8 +85,8 @@ carom_status carom_check_range(carom_world *world, carom_error *error)
 			return carom_fail(error, CAROM_LIMIT, "body %zu: %s is too large for a step in 32-bit floats; allowed: up to 1e9 m, m/s and rad/s", i,
 				what);
 		if (!body->is_static)
-			good = fmin(good, good_for(world, &most));
-		heaviest = body->is_static ? heaviest : fmax(heaviest, fmax((double)body->mass, (double)body->inertia));
+			good = fmin(good, good_for(&most));
+		heaviest = carom_is_dynamic(body) ? fmax(heaviest, fmax((double)body->mass, (double)body->inertia)) : heaviest;
 		fastest = fmax(fastest, fmax(most.speed, most.spin));
 	}
 	if (heaviest * fastest > MOST_MOMENTUM)

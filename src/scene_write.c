@@ -152,7 +152,7 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 	put_number_key(stream, "angular_velocity", state->angular_velocity, defaults->angular_velocity);
 	if (info->density > 0) {
 		put_number_key(stream, "density", info->density, defaults->density);
-	} else if (!info->is_static) {
+	} else if (!info->is_static && !info->is_kinematic) {
 		put_number_key(stream, "mass", info->mass, defaults->mass);
 	}
 	put_number_key(stream, "restitution", info->restitution, writer->world->restitution);
@@ -161,6 +161,8 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 	put_number_key(stream, "torque", info->torque, defaults->torque);
 	if (info->is_static)
 		fputs(", \"static\": true", stream);
+	if (info->is_kinematic)
+		fputs(", \"kinematic\": true", stream);
 	if (info->color != CAROM_COLOR_AUTO)
 		fprintf(stream, ", \"color\": \"#%06x\"", (unsigned)(info->color & 0xFFFFFF));
 	if (info->name) {

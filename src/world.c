@@ -138,7 +138,7 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	carom_status status = carom_body_make(def, world, index, &body, vertices, error);
 	if (status)
 		return status;
-	if (carom_outside_room(&world->def, def->position, def->velocity))
+	if (!def->is_kinematic && carom_outside_room(&world->def, def->position, def->velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].position: (%g, %g) is outside the room", index, (double)def->position.x,
 			(double)def->position.y);
 	if (body.vertex_count > 1 && !carom_outlines_have_room(world, body.vertex_count))
@@ -265,6 +265,7 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 		.force = body->force,
 		.torque = body->torque,
 		.is_static = body->is_static,
+		.is_kinematic = body->is_kinematic,
 		.recentred_by = body->recentred_by,
 		.color = body->color,
 		.name = body->name ? (const char *)world->names.items + body->name - 1 : NULL,
@@ -288,12 +289,13 @@ carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t c
 
 static carom_status check_state(const carom_world *world, uint32_t index, const carom_body_state *s, carom_error *error)
 {
+	const carom_body *body = &carom_world_bodies(world)[index];
 	if (!carom_is_finite(s->position) || !carom_is_finite(s->velocity) || !isfinite(s->angle) || !isfinite(s->angular_velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the state of body %u has a number that is not finite", index);
-	if (carom_outside_room(&world->def, s->position, s->velocity))
+	if (!body->is_kinematic && carom_outside_room(&world->def, s->position, s->velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the position of body %u, (%g, %g), is outside the room", index, (double)s->position.x,
 			(double)s->position.y);
-	if (carom_world_bodies(world)[index].is_static && (s->velocity.x != 0.0f || s->velocity.y != 0.0f || s->angular_velocity != 0.0f))
+	if (body->is_static && (s->velocity.x != 0.0f || s->velocity.y != 0.0f || s->angular_velocity != 0.0f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and can't be given a velocity", index);
 	return CAROM_OK;
 }

@@ -16,9 +16,15 @@ typedef struct carom_body {
 	float mass, inertia, density, restitution, friction, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color;
-	bool is_static;
-	size_t name; /* offset + 1 in world->names, 0 for none */
+	bool is_static, is_kinematic; /* one of them, or none */
+	size_t name;                  /* offset + 1 in world->names, 0 for none */
 } carom_body;
+
+/* Of finite mass, so that hits and forces change how it moves. */
+static inline bool carom_is_dynamic(const carom_body *body)
+{
+	return !body->is_static && !body->is_kinematic;
+}
 
 /* A growing array of bytes. */
 typedef struct carom_array {

@@ -161,7 +161,7 @@ exact_body exact_of(carom_world *world, uint32_t index)
 		.vy = (double)s.velocity.y * length,
 		.angle = (double)s.angle,
 		.w = (double)s.angular_velocity * length};
-	if (!info.is_static) {
+	if (isfinite(info.mass)) {
 		k.ax = ((double)def->gravity.x + (double)info.force.x / (double)info.mass) * length * length;
 		k.ay = ((double)def->gravity.y + (double)info.force.y / (double)info.mass) * length * length;
 		k.b = (double)info.torque / (double)info.inertia * length * length;

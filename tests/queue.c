@@ -23,14 +23,15 @@ static void begin(queue_body *k, double length)
 	k->held = false;
 }
 
-static bool is_still(const queue_body *k)
+/* Does nothing change how it moves? */
+static bool is_driven(const queue_body *k)
 {
 	return k->held || !(k->inverse_mass > 0.0);
 }
 
 static void move(queue_body *k, double time)
 {
-	if (is_still(k))
+	if (k->held)
 		return;
 	touch_move(&k->at, time - k->time);
 	k->time = time;
@@ -49,7 +50,7 @@ static exact_body seen_at(const queue_body *k, double time)
 {
 	queue_body copy = *k;
 	move(&copy, time);
-	if (is_still(k))
+	if (k->held)
 		copy.at.vx = copy.at.vy = copy.at.w = copy.at.ax = copy.at.ay = copy.at.b = 0.0;
 	return copy.at;
 }
@@ -73,7 +74,7 @@ static double find(const queue *q, int row, int column)
 {
 	const queue_body *a = &q->bodies[row], *b = column < 0 ? NULL : &q->bodies[column];
 	const double from = b ? fmax(a->time, b->time) : a->time;
-	if ((is_still(a) && (!b || is_still(b))) || (b ? !can_meet(a, b) : !q->room.is_there))
+	if ((is_driven(a) && (!b || is_driven(b))) || (b ? !can_meet(a, b) : !q->room.is_there))
 		return INFINITY;
 	const exact_body first = seen_at(a, from);
 	if (!b)
@@ -114,7 +115,7 @@ typedef struct party {
 
 static party party_of(queue_body *k)
 {
-	if (!k || is_still(k))
+	if (!k || is_driven(k))
 		return (party){k, 0.0, 0.0};
 	return (party){k, k->inverse_mass, k->inverse_inertia};
 }
@@ -163,7 +164,7 @@ static void solve(const touch *t, const party *r, const party *k, const rules *h
 
 static void push(const touch *t, const party *p, const double (*levers)[2], const double *j, double sign)
 {
-	if (!p->body || is_still(p->body))
+	if (!p->body || is_driven(p->body))
 		return;
 	p->body->at.vx += sign * (j[0] + j[1]) * t->normal[0] * p->inverse_mass;
 	p->body->at.vy += sign * (j[0] + j[1]) * t->normal[1] * p->inverse_mass;
@@ -186,14 +187,14 @@ static void lever_of(const touch *t, const party *p, const double (*levers)[2], 
 /* How fast a point of the party moves along the surfaces. */
 static double sliding(const touch *t, const party *p, const double *lever)
 {
-	if (!p->body || is_still(p->body))
+	if (!p->body || p->body->held)
 		return 0.0;
 	return (p->body->at.vy + p->body->at.w * lever[0]) * t->normal[0] - (p->body->at.vx - p->body->at.w * lever[1]) * t->normal[1];
 }
 
 static void drag(const touch *t, const party *p, const double *lever, double impulse)
 {
-	if (!p->body || is_still(p->body))
+	if (!p->body || is_driven(p->body))
 		return;
 	p->body->at.vx -= impulse * t->normal[1] * p->inverse_mass;
 	p->body->at.vy += impulse * t->normal[0] * p->inverse_mass;
@@ -218,12 +219,12 @@ static void rub(const touch *t, const party *reference, const party *incident, d
 
 static bool is_rapid(const queue_body *k, double time)
 {
-	return k && !is_still(k) && k->events > 0 && time - k->time < (double)RAPID;
+	return k && !is_driven(k) && k->events > 0 && time - k->time < (double)RAPID;
 }
 
 static void count_event(queue *q, queue_body *k, bool rapid, bool slow)
 {
-	if (!k || is_still(k))
+	if (!k || is_driven(k))
 		return;
 	k->rapid += rapid;
 	k->stuck = rapid && slow ? k->stuck + 1 : 0;
@@ -264,7 +265,7 @@ static double pull_of(const touch *t, const exact_body *a, const exact_body *b)
 
 static void shake_party(const queue *q, queue_body *k)
 {
-	if (q->shaken_by && k && !is_still(k))
+	if (q->shaken_by && k && !is_driven(k))
 		queue_shake_body(&k->at, q->shaken_by, q->rounding);
 }
 

@@ -37,7 +37,7 @@ static void take_body(queue_body *k, carom_world *world, uint32_t index)
 	k->inverse_inertia = 1.0 / (double)info.inertia;
 	k->restitution = (double)info.restitution;
 	k->friction = (double)info.friction;
-	if (!info.is_static) {
+	if (k->inverse_mass > 0.0) {
 		k->push[0] = (double)def->gravity.x + (double)info.force.x * k->inverse_mass;
 		k->push[1] = (double)def->gravity.y + (double)info.force.y * k->inverse_mass;
 		k->push[2] = (double)info.torque * k->inverse_inertia;
@@ -110,7 +110,8 @@ void queue_shake_body(exact_body *k, scenery_random *random, double relative)
 void queue_shake(queue *q, scenery_random *random, double relative)
 {
 	for (queue_body *k = q->bodies; k < q->bodies + q->count; k++) {
-		if (k->inverse_mass > 0.0)
+		const bool is_static = !(k->inverse_mass > 0.0) && k->at.vx == 0.0 && k->at.vy == 0.0 && k->at.w == 0.0;
+		if (!is_static)
 			queue_shake_body(&k->at, random, relative);
 	}
 }

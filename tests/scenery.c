@@ -95,6 +95,18 @@ void scenery_bodies(scenery_random *random, scenery_shapes shapes, size_t count,
 	}
 }
 
+void scenery_drive(scenery_random *random, size_t count, float speed, carom_body_def *defs)
+{
+	for (size_t i = 0; i < count; i++) {
+		if (!defs[i].is_static || scenery_uniform(random, 0.0f, 1.0f) < 0.3f)
+			continue;
+		defs[i].is_static = false;
+		defs[i].is_kinematic = true;
+		defs[i].velocity = (carom_vec2){scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed)};
+		defs[i].angular_velocity = defs[i].shape == CAROM_CIRCLE ? 0.0f : scenery_uniform(random, -speed, speed);
+	}
+}
+
 carom_body_def scenery_circle(float x, float y, float vx, float vy, float radius)
 {
 	carom_body_def def = carom_default_body_def();

@@ -44,6 +44,9 @@ float scenery_uniform(scenery_random *random, float low, float high);
 typedef enum scenery_shapes { SCENERY_MIXED, SCENERY_CIRCLES, SCENERY_POLYGONS } scenery_shapes;
 void scenery_bodies(scenery_random *random, scenery_shapes shapes, size_t count, float pitch, float speed, carom_body_def *defs);
 
+/* Makes most of the static ones kinematic, with velocities up to so many m/s and rad/s. */
+void scenery_drive(scenery_random *random, size_t count, float speed, carom_body_def *defs);
+
 /* SCENERY_CROWD of them in a room, in which much is hit; NULL where there is no such device. */
 enum { SCENERY_CROWD = 40 };
 carom_world *scenery_crowd(const scenery_device *device, uint64_t seed, uint32_t threads);

@@ -15,25 +15,29 @@ typedef struct scene {
 	bool has_room, mixed_restitution;
 	float gravity, restitution, friction, time_step;
 	bool all_move;
+	float driven; /* m/s, rad/s: up to which most of what else is static is kinematic; 0: none */
 } scene;
 
 static const scene scenes[] = {
-	{"20 circles", SCENERY_CIRCLES, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false},
-	{"200 circles", SCENERY_CIRCLES, 200, 1.15f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false},
-	{"circles without a room", SCENERY_CIRCLES, 100, 1.15f, 2.0f, false, false, 0.0f, 1.0f, 0.0f, 0.02f, true},
-	{"circles that fall", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.8f, 0.0f, 1.0f / 60.0f, false},
-	{"20 polygons", SCENERY_POLYGONS, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false},
-	{"120 polygons", SCENERY_POLYGONS, 120, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false},
-	{"polygons without a room", SCENERY_POLYGONS, 80, 1.1f, 2.0f, false, false, 0.0f, 0.9f, 0.0f, 0.02f, true},
-	{"polygons that fall", SCENERY_POLYGONS, 60, 1.2f, 3.0f, true, true, -10.0f, 0.3f, 0.0f, 1.0f / 60.0f, false},
-	{"150 of all kinds", SCENERY_MIXED, 150, 1.2f, 3.0f, true, true, 0.0f, 0.7f, 0.0f, 1.0f / 60.0f, false},
-	{"all kinds that fall", SCENERY_MIXED, 100, 1.2f, 4.0f, true, true, -3.0f, 0.9f, 0.0f, 0.05f, false},
-	{"circles that don't bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 0.0f, 0.0f, 0.02f, false},
-	{"circles that fall and hardly bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.1f, 0.0f, 1.0f / 60.0f, false},
-	{"long steps", SCENERY_MIXED, 60, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.0f, 0.2f, false},
-	{"circles that rub", SCENERY_CIRCLES, 100, 1.15f, 3.0f, true, false, 0.0f, 0.9f, 0.3f, 0.02f, false},
-	{"polygons that rub", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.5f, 0.02f, false},
-	{"all kinds that fall and rub", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false},
+	{"20 circles", SCENERY_CIRCLES, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false, 0.0f},
+	{"200 circles", SCENERY_CIRCLES, 200, 1.15f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f},
+	{"circles without a room", SCENERY_CIRCLES, 100, 1.15f, 2.0f, false, false, 0.0f, 1.0f, 0.0f, 0.02f, true, 0.0f},
+	{"circles that fall", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.8f, 0.0f, 1.0f / 60.0f, false, 0.0f},
+	{"20 polygons", SCENERY_POLYGONS, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false, 0.0f},
+	{"120 polygons", SCENERY_POLYGONS, 120, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f},
+	{"polygons without a room", SCENERY_POLYGONS, 80, 1.1f, 2.0f, false, false, 0.0f, 0.9f, 0.0f, 0.02f, true, 0.0f},
+	{"polygons that fall", SCENERY_POLYGONS, 60, 1.2f, 3.0f, true, true, -10.0f, 0.3f, 0.0f, 1.0f / 60.0f, false, 0.0f},
+	{"150 of all kinds", SCENERY_MIXED, 150, 1.2f, 3.0f, true, true, 0.0f, 0.7f, 0.0f, 1.0f / 60.0f, false, 0.0f},
+	{"all kinds that fall", SCENERY_MIXED, 100, 1.2f, 4.0f, true, true, -3.0f, 0.9f, 0.0f, 0.05f, false, 0.0f},
+	{"circles that don't bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 0.0f, 0.0f, 0.02f, false, 0.0f},
+	{"circles that fall and hardly bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.1f, 0.0f, 1.0f / 60.0f, false, 0.0f},
+	{"long steps", SCENERY_MIXED, 60, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.0f, 0.2f, false, 0.0f},
+	{"circles that rub", SCENERY_CIRCLES, 100, 1.15f, 3.0f, true, false, 0.0f, 0.9f, 0.3f, 0.02f, false, 0.0f},
+	{"polygons that rub", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.5f, 0.02f, false, 0.0f},
+	{"all kinds that fall and rub", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false, 0.0f},
+	{"circles among kinematic ones", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 2.0f},
+	{"polygons among kinematic ones", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, -3.0f, 0.9f, 0.0f, 0.02f, false, 2.0f},
+	{"all kinds that fall and rub, driven", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false, 4.0f},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -43,6 +47,8 @@ static carom_world_def make(const scene *s, uint64_t seed, carom_body_def *bodie
 	carom_world_def def = s->has_room ? runs_room(half, half) : runs_def();
 	scenery_random random = {seed};
 	scenery_bodies(&random, s->shapes, s->count, s->pitch, s->speed, bodies);
+	if (s->driven > 0.0f)
+		scenery_drive(&random, s->count, s->driven, bodies);
 	for (size_t i = 0; i < s->count; i++) {
 		if (s->mixed_restitution)
 			bodies[i].restitution = scenery_uniform(&random, 0.3f, 1.0f);

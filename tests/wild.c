@@ -114,7 +114,7 @@ static void make_shot(scenery_random *random, wild_world *world)
 		world->bodies[i].angular_velocity = 0.0f;
 	}
 	carom_body_def *shot = &world->bodies[below(random, world->count)];
-	shot->is_static = false;
+	shot->is_static = shot->is_kinematic = false;
 	shot->mass = 1000.0f;
 	const float speed = 1.5f / world->def.time_step;
 	shot->velocity = (carom_vec2){scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed)};
@@ -166,6 +166,9 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 		body->vertices = world->outlines[below(&random, WILD_OUTLINES)];
 		body->vertex_count = WILD_CORNERS;
 	}
+	scenery_random driving = {seed ^ 1}; /* of its own: the bodies of a seed are kept */
+	if (one_in(&driving, 3))
+		scenery_drive(&driving, world->count, 5.0f, world->bodies);
 	if (one_in(&random, 6))
 		world->def.has_room = false;
 	if (one_in(&random, 3))

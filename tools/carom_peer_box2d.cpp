@@ -81,7 +81,7 @@ void add_shape_of(b2Body *body, const carom_body_info &info)
 b2Body *add_body(b2World &world, const carom_body_info &info, const carom_body_state &state, bool bullet)
 {
 	b2BodyDef def;
-	def.type = info.is_static ? b2_staticBody : b2_dynamicBody;
+	def.type = info.is_static ? b2_staticBody : info.is_kinematic ? b2_kinematicBody : b2_dynamicBody;
 	def.bullet = bullet;
 	def.position.Set(state.position.x, state.position.y);
 	def.angle = state.angle;
@@ -89,7 +89,7 @@ b2Body *add_body(b2World &world, const carom_body_info &info, const carom_body_s
 	def.angularVelocity = state.angular_velocity;
 	b2Body *body = world.CreateBody(&def);
 	add_shape_of(body, info);
-	if (info.is_static)
+	if (def.type != b2_dynamicBody)
 		return body;
 	b2MassData mass;
 	mass.mass = info.mass;

@@ -13,7 +13,7 @@ template <typename T> struct Body {
 	int32_t first, count; /* vertices */
 
 	bool is_circle() const { return count == 1; }
-	bool is_static() const { return inverse_mass == 0; }
+	bool is_dynamic() const { return inverse_mass > 0; } /* what is static, kinematic or held is not */
 	Vec<T> place_at(T t) const { return place(x, v, a, t); }
 	T angle_at(T t) const { return place(r, w, b, t); }
 	Vec<T> velocity_at(T t) const { return v + t * a; }
@@ -98,7 +98,11 @@ public:
 		return body;
 	}
 
-	bool is_static(int32_t i) const { return 1 / geometry.of(i, GEOMETRY_MASS) == 0; }
+	bool is_dynamic(int32_t i) const { return 1 / geometry.of(i, GEOMETRY_MASS) > 0; }
+	bool is_static(int32_t i) const
+	{
+		return !is_dynamic(i) && linear.of(i, LINEAR_VX) == 0 && linear.of(i, LINEAR_VY) == 0 && rotational.of(i, ROTATIONAL_VELOCITY) == 0;
+	}
 	T restitution(int32_t i) const { return forces.of(i, FORCES_RESTITUTION); }
 	T world(int32_t channel) const { return uniforms.fact(UNIFORMS_WORLD, channel); }
 	T room(int32_t channel) const { return uniforms.fact(UNIFORMS_ROOM, channel); }
@@ -112,7 +116,7 @@ private:
 	{
 		body.a = {0, 0};
 		body.b = 0;
-		if (body.is_static())
+		if (!body.is_dynamic())
 			return;
 		T im = body.inverse_mass;
 		body.a.x() = ((world(WORLD_GRAVITY_X) + forces.of(i, FORCES_X) * im) * length) * length;

@@ -52,7 +52,7 @@ private:
 		if (finished)
 			return false;
 		int32_t other_id = -1;
-		if (other >= 0 && !slots[other].is_static()) {
+		if (other >= 0 && slots[other].is_dynamic()) {
 			other_id = member(other, id);
 			if (other_id < 0)
 				return false;

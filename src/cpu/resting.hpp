@@ -115,7 +115,7 @@ public:
 		const Slot<T> &slot = clusters.slots[s];
 		const Nearness<T> nearness;
 		count = 0;
-		if (slot.is_static())
+		if (!slot.is_dynamic())
 			return 0;
 		if (!clusters.stays_inside(s, Trajectory<T>(slot), T(1)))
 			walls(s, Trajectory<T>(slot), nearness);

@@ -18,7 +18,6 @@ template <typename T> struct ShockPoint {
 	Vec<T> normal() const { return {normal_x, normal_y}; }
 	Vec<T> along() const { return {-normal_y, normal_x}; }
 	Partner whom() const { return Partner(partner); }
-	bool is_open() const { return !whom().moves() || number >= 0; }
 };
 
 static_assert(sizeof(ShockPoint<float>) == SHOCK_WIDTH * 4 * sizeof(float), "records");
@@ -47,15 +46,15 @@ public:
 			for (int32_t k = 0; k < count; k++) {
 				for (ShockPoint<T> *p = points_of(parties[k]), *end = p + SHOCK_POINTS; p < end && !p->whom().is_none(); p++) {
 					const T rate = rate_of(parties[k], *p);
-					if (!(rate < 0) && !(p->is_open() && p->impulse > 0))
+					if (!(rate < 0) && !(is_open(*p) && p->impulse > 0))
 						continue;
-					if (!p->is_open() && count < SHOCK_PARTIES) {
+					if (!is_open(*p) && count < SHOCK_PARTIES) {
 						const int32_t id = join(p->whom().slot());
 						if (id < 0)
 							return false;
 						open(id, own);
 					}
-					more |= p->is_open() && push(parties[k], *p, rate);
+					more |= is_open(*p) && push(parties[k], *p, rate);
 				}
 			}
 			if (!more)
@@ -81,7 +80,7 @@ public:
 				const bool has_second = p < end && p->partner == first.partner;
 				const ShockPoint<T> &second = has_second ? *p++ : first;
 				const T total = has_second ? first.impulse + second.impulse : first.impulse, rub = has_second ? first.rub + second.rub : first.rub;
-				if (!first.is_open() || !(total > 0))
+				if (!is_open(first) || !(total > 0))
 					continue;
 				const T part = has_second ? second.impulse / total : T(0);
 				const T arm = first.arm + part * (second.arm - first.arm), grip_arm = first.grip_arm + part * (second.grip_arm - first.grip_arm);
@@ -120,12 +119,21 @@ private:
 		return inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
 	}
 
+	/* Could the partner become a party? */
+	bool can_join(Partner partner) const { return partner.moves() && clusters.slots[partner.slot()].is_dynamic(); }
+	bool is_open(const ShockPoint<T> &p) const { return p.number >= 0 || !can_join(p.whom()); }
+
+	/* How fast the partner of an open point comes along n: a party, a kinematic body, or what does not move. */
+	T partners_speed(const ShockPoint<T> &p, const Vec<T> &n, T arm) const
+	{
+		if (p.number >= 0)
+			return speed(work[static_cast<int32_t>(p.number)], n, arm);
+		return p.whom().moves() ? speed(Trajectory<T>(clusters.slots[p.whom().slot()]), n, arm) : T(0);
+	}
+
 	T rate_of(int32_t id, const ShockPoint<T> &p) const
 	{
-		const T own = speed(work[id], p.normal(), p.arm);
-		if (!p.is_open())
-			return own - p.impulse;
-		return p.number >= 0 ? own - speed(work[static_cast<int32_t>(p.number)], p.normal(), p.other_arm) : own;
+		return speed(work[id], p.normal(), p.arm) - (is_open(p) ? partners_speed(p, p.normal(), p.other_arm) : p.impulse);
 	}
 
 	/* Moves a body to the time, and finds where it may be pushed, or push. */
@@ -143,14 +151,14 @@ private:
 			return other_way;
 		};
 		finder.each(s, way, nearness, way_of, [&](const Resting<T> &rest) {
-			const bool moves = rest.partner.moves();
-			if (moves && is_party(own(rest.partner.slot())))
+			const bool joins = can_join(rest.partner);
+			if (joins && is_party(own(rest.partner.slot())))
 				return; /* which has the points */
 			for (int32_t k = 0; k < rest.points && p < end; k++, p++) {
 				const auto &at = rest.at[k];
 				*p = {rest.n.x(), rest.n.y(), at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction,
 					((T(SHOCK_PARTING) * rest.force) * (1 - time)) / clusters.length, static_cast<T>(rest.partner.code), -1, 0, 0};
-				if (moves)
+				if (joins)
 					p->impulse = speed(way_of(rest.partner.slot()), rest.n, at.other_arm);
 			}
 		});
@@ -186,8 +194,7 @@ private:
 		if (!(p.friction > 0))
 			return true;
 		const T grip_gives = give.at(p.grip_arm) + other_give.at(p.other_grip_arm);
-		const T own_slip = speed(work[id], p.along(), p.grip_arm);
-		const T slip = other >= 0 ? own_slip - speed(work[other], p.along(), p.other_grip_arm) : own_slip;
+		const T slip = speed(work[id], p.along(), p.grip_arm) - partners_speed(p, p.along(), p.other_grip_arm);
 		const T most = p.friction * impulse, rub = larger(smaller(p.rub - slip / grip_gives, most), -most), change = rub - p.rub;
 		p.rub = rub;
 		act(id, give, other, other_give, change * p.along(), change * p.grip_arm, change * p.other_grip_arm);

@@ -12,7 +12,11 @@ template <typename T> struct Slot {
 	T place[4], turn[4], mass[4], push[4];
 
 	bool is_circle() const { return !(mass[MASS_COUNT] > 1); }
-	bool is_static() const { return !(mass[MASS_INVERSE] > 0); }
+	/* Not static, nor kinematic: those have infinite mass, and no hit changes them. */
+	bool is_dynamic() const { return mass[MASS_INVERSE] > 0; }
+	/* A kinematic body: it goes on as it does, whatever it hits. */
+	bool is_kinematic() const { return !is_dynamic() && !(place[LINEAR_VX] == 0 && place[LINEAR_VY] == 0 && turn[TURN_VELOCITY] == 0); }
+	bool is_static() const { return !is_dynamic() && !is_kinematic(); }
 	int32_t body() const { return static_cast<int32_t>(push[PUSH_BODY]); }
 	T radius() const { return turn[TURN_RADIUS]; }
 };
@@ -211,7 +215,7 @@ template <typename T> struct Mover {
 		body.count = static_cast<int32_t>(slot.mass[MASS_COUNT]);
 		body.x = {way.place[LINEAR_X], way.place[LINEAR_Y]};
 		body.r = way.angle;
-		const bool stands = way.held > 0, pushed = !stands && !slot.is_static();
+		const bool stands = way.held > 0, pushed = !stands && slot.is_dynamic();
 		body.inverse_mass = stands ? 0 : slot.mass[MASS_INVERSE];
 		body.inverse_inertia = stands ? 0 : slot.mass[MASS_INVERSE_INERTIA];
 		body.v = stands ? Vec<T>(0, 0) : Vec<T>(way.place[LINEAR_VX] * length, way.place[LINEAR_VY] * length);
@@ -280,7 +284,7 @@ public:
 		const bool in_order = slots[s].body() > slots[other].body();
 		fill(in_order ? a : b, slots[s], way);
 		fill(in_order ? b : a, slots[other], other_way);
-		if (a.is_static() && b.is_static())
+		if (!a.is_dynamic() && !b.is_dynamic())
 			return {NO_HIT, false};
 		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside, end), rules);
 		return {found.hit <= rest ? smaller(t0 + found.hit, T(1)) : T(NO_HIT), !(found.done > 0)};
@@ -307,7 +311,7 @@ public:
 	/* Is it sure to stay inside the room for so many steps? */
 	bool stays_inside(int32_t s, const Trajectory<T> &way, T steps) const
 	{
-		if (!has_room || slots[s].is_static())
+		if (!has_room || !slots[s].is_dynamic())
 			return true;
 		const Disc<T> disc(slots[s], way.place, way.time, false, length);
 		const T push = steps * steps * (std::abs(disc.ax()) + std::abs(disc.ay())), vx = steps * disc.vx(), vy = steps * disc.vy();

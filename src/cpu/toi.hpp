@@ -128,7 +128,7 @@ template <typename T, typename Find> void find_hits(const Job<T> &job, Find find
 {
 	const Shapes<T> shapes = shapes_before(job);
 	search_tiles(job, TOI_COUNT, [&](int32_t row, int32_t column, bool now) {
-		if (!now || (shapes.is_static(row) && shapes.is_static(column)))
+		if (!now || (!shapes.is_dynamic(row) && !shapes.is_dynamic(column)))
 			return no_hit<T>();
 		const HeldConvex<T> a = shapes.convex(row), b = shapes.convex(column);
 		return find(Pair<T>(a, b, job.inside));

@@ -256,7 +256,7 @@ static void move_body(bytes *b, const carom_world_def *world, carom_body_def *de
 		return;
 	def->velocity = state.velocity;
 	def->angular_velocity = state.angular_velocity;
-	if (bytes_chance(b, 8)) {
+	if (bytes_chance(b, 8) && !(def->is_kinematic && b->tame)) {
 		def->force = pair_between(b, -50.0f, 50.0f);
 		def->torque = bytes_between(b, -20.0f, 20.0f);
 	}
@@ -271,6 +271,7 @@ carom_body_def bytes_body_def(bytes *b, const carom_world_def *world, bytes_body
 	def.radius = radius_in(b, world);
 	def.sides = vertex_count(b);
 	def.is_static = (flags >> 2 & 7) == 7;
+	def.is_kinematic = (flags >> 2 & 7) == 6 || (def.is_static && !b->tame && bytes_chance(b, 8));
 	if (def.shape == CAROM_POLYGON) {
 		def.vertex_count = !b->tame && bytes_chance(b, 16) ? bytes_below(b, 70) : vertex_count(b);
 		def.vertices = room->vertices = make_vertices(b, def.vertex_count, def.radius);

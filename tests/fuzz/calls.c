@@ -114,7 +114,7 @@ static void get_body(calls *c)
 		FUZZ_EXPECT(info.radius == 12345 && index >= carom_world_body_count(*c->slot));
 		return;
 	}
-	FUZZ_EXPECT(info.mass > 0 && info.inertia > 0 && isinf(info.mass) == info.is_static && isinf(info.inertia) == info.is_static);
+	FUZZ_EXPECT(info.mass > 0 && info.inertia > 0 && isinf(info.mass) == (info.is_static || info.is_kinematic) && isinf(info.inertia) == isinf(info.mass));
 	FUZZ_EXPECT(info.radius > 0 && info.restitution >= 0 && info.restitution <= 1 && info.friction >= 0 && info.friction <= CAROM_MAX_FRICTION);
 	FUZZ_EXPECT((info.shape == CAROM_CIRCLE) == !info.vertices && info.vertex_count >= 1 && info.vertex_count <= CAROM_MAX_VERTICES);
 	for (uint32_t k = 0; info.vertices && k < info.vertex_count; k++)
@@ -196,7 +196,7 @@ static void set_force(calls *c)
 	carom_body_info info;
 	if (calls_judge(c, carom_world_set_force(*c->slot, index, force, force.x, &error), &error)) {
 		FUZZ_EXPECT(carom_world_get_body(*c->slot, index, &info, NULL) == CAROM_OK);
-		FUZZ_EXPECT(info.force.x == force.x && info.torque == force.x && !info.is_static);
+		FUZZ_EXPECT(info.force.x == force.x && info.torque == force.x && isfinite(info.mass));
 	}
 	calls_same(c, before);
 }

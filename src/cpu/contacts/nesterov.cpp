@@ -81,7 +81,8 @@ template <typename T> static void find(const Job<T> &job)
 		for (int32_t s = from; s < to; s++) {
 			kept[s].keep(clusters.slots[s]);
 			touching[s].count = finder.find(s, points + FOURS_MOST * s, grips + FOURS_MOST * s);
-			if (touching[s].count > 0 || last_counts[clusters.slots[s].body()] > 0)
+			/* what rests on a kinematic body goes by that one's load */
+			if (touching[s].count > 0 || last_counts[clusters.slots[s].body()] > 0 || clusters.slots[s].is_kinematic())
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
 	});

@@ -83,11 +83,11 @@ private:
 		const auto hit = clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot));
 		if (!(hit.time <= 1))
 			return;
-		if (!slot.is_static())
+		if (slot.is_dynamic())
 			seeds.push_back({s, other, hit});
-		if (!other_slot.is_static())
+		if (other_slot.is_dynamic())
 			seeds.push_back({other, s, hit});
-		if (!slot.is_static() && !other_slot.is_static())
+		if (slot.is_dynamic() && other_slot.is_dynamic())
 			clusters.unite(s, other);
 	}
 

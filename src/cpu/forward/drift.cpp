@@ -74,7 +74,7 @@ private:
 		Lanes<T> angle = turn[TURN_ANGLE] + (turn[TURN_VELOCITY] * length + half * b);
 		wrap<T>(angle);
 		const Lanes<T> inverse{four[0].mass[MASS_INVERSE], four[1].mass[MASS_INVERSE], four[2].mass[MASS_INVERSE], four[3].mass[MASS_INVERSE]};
-		const auto moves = inverse > 0;
+		const auto moves = (inverse > 0) | (place[LINEAR_VX] != 0) | (place[LINEAR_VY] != 0) | (turn[TURN_VELOCITY] != 0);
 		const auto becomes = [&moves](Lanes<T> &component, const Lanes<T> &next) { component = moves ? next : component; };
 		becomes(place[LINEAR_X], place[LINEAR_X] + (place[LINEAR_VX] * length + half * ax));
 		becomes(place[LINEAR_Y], place[LINEAR_Y] + (place[LINEAR_VY] * length + half * ay));

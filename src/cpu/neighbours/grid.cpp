@@ -24,7 +24,7 @@ template <typename T> static void pace(const Job<T> &job)
 	const float window = step_time * std::max(most_steps / (1 + hit_part * bustle), least_steps);
 	float squares = 0, roots = 0, radius = 0, many = 0;
 	for (int32_t s = 0; s < count; s += step) {
-		if (slots[s].is_static())
+		if (!slots[s].is_dynamic())
 			continue;
 		const float vx = static_cast<float>(slots[s].place[LINEAR_VX]), vy = static_cast<float>(slots[s].place[LINEAR_VY]);
 		const float speed = std::hypot(vx, vy) + static_cast<float>(std::hypot(slots[s].push[PUSH_X], slots[s].push[PUSH_Y])) * window;
@@ -210,11 +210,11 @@ private:
 	{
 		const Box<T> box = boxes[s];
 		const int32_t own = grid.level_of(box);
-		const bool stands = slots[s].is_static();
+		const bool dynamic = slots[s].is_dynamic();
 		for (int32_t level = std::max(own - levels_below, 0); levels >> level; level++) {
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
 				continue;
-			if (level == own && !stands) {
+			if (level == own && dynamic) {
 				search_alike(s, box, own, ahead, behind);
 				continue;
 			}
@@ -255,7 +255,7 @@ private:
 
 	bool are_near(int32_t s, const Box<T> &box, int32_t other) const
 	{
-		return box.touches(boxes[other]) && other != s && !(slots[s].is_static() && slots[other].is_static());
+		return box.touches(boxes[other]) && other != s && (slots[s].is_dynamic() || slots[other].is_dynamic());
 	}
 
 	void meet(int32_t s, int32_t other, bool alike, Finds &ahead, Finds &behind)

@@ -79,7 +79,7 @@ template <typename T> struct GroupHit {
 
 template <typename T> static void find_first(GroupHit<T> &first, const Shapes<T> &shapes, int32_t i)
 {
-	if (shapes.is_static(i))
+	if (!shapes.is_dynamic(i))
 		return;
 	const HeldConvex<T> convex = shapes.convex(i);
 	for (int32_t k = 0; k < wall_count; k++) {
