@@ -185,7 +185,8 @@ static carom_status check_parties(const carom_world *world, size_t k, const caro
 	if (contact->other < 0 && !world->def.has_room)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu].other: found a wall, but there is no room", k);
 	if (!is_dynamic(world, (int32_t)contact->body) && !is_dynamic(world, contact->other))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu]: one of the two must be neither static nor kinematic, and body %u is", k, contact->body);
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu]: one of the two must be dynamic, and body %u is %s", k, contact->body,
+			carom_world_bodies(world)[contact->body].is_static ? "static" : "kinematic");
 	return CAROM_OK;
 }
 

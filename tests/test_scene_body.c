@@ -14,6 +14,7 @@ static const char *const texts[] = {
 	"{" CIRCLE ", \"position\": [1, -2.5], \"velocity\": [0.1, -0.0], \"angle\": 3, \"angular_velocity\": -1e-3}",
 	" { " CIRCLE " , \"mass\" : 3 } , \n\t{" CIRCLE ",\"density\":7.8,\"restitution\":0.25,\"friction\":1e-1,\"force\":[1,2],\"torque\":-0}\r\n",
 	"{" CIRCLE ", \"static\": true}, {" CIRCLE ", \"static\": false}",
+	"{" CIRCLE ", \"kinematic\": true, \"velocity\": [1, 2]}, {" CIRCLE ", \"kinematic\": false}",
 	"{" CIRCLE ", \"color\": \"#c3f\", \"name\": \"a b\"}, {" CIRCLE ", \"color\": \"#01aBcD\", \"name\": \"\"}",
 	"{" CIRCLE ", \"name\": \"\\u00e9\\n\"}, {" CIRCLE ", \"name\": \"\xC3\xA9 ]}\"}",
 	"{\"regular\": {\"sides\": 5, \"radius\": 0.3}}, {\"regular\": {\"radius\": 1e0, \"sides\": 64.0}}",
@@ -110,6 +111,7 @@ static void assert_same_body(const carom_body_def *a, const carom_body_def *b, c
 		assert_same_bytes(a->vertices, b->vertices, a->vertex_count * sizeof *a->vertices, text);
 	assert_int_equal(x.shape, y.shape);
 	assert_int_equal(x.is_static, y.is_static);
+	assert_int_equal(x.is_kinematic, y.is_kinematic);
 	assert_true(x.sides == y.sides && x.vertex_count == y.vertex_count && x.color == y.color);
 	const float numbers[2][12] = {{x.radius, x.position.x, x.position.y, x.velocity.x, x.velocity.y, x.angle, x.angular_velocity, x.density, x.mass,
 									  x.restitution, x.friction, x.torque},
