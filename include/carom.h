@@ -124,10 +124,10 @@ typedef struct carom_body_def {
 	carom_vec2 force;           /**< N, constant, at the centre of mass; default (0, 0) */
 	float torque;               /**< N m, constant; default 0 */
 	bool is_static;             /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
-	bool is_kinematic;          /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
+	bool is_kinematic; /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
 	                               kinematic bodies and out of the room; forces must be 0. carom_world_set_states gives it other velocities */
-	uint32_t color;             /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
-	const char *name;           /**< for people; NULL (the default) for none */
+	uint32_t color;    /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
+	const char *name;  /**< for people; NULL (the default) for none */
 } carom_body_def;
 
 /** What moves. */
@@ -292,7 +292,7 @@ CAROM_API carom_status carom_world_get_body(const carom_world *world, uint32_t i
  * state is read: that after the steps that its report tells. */
 CAROM_API carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error);
 /** Writes the same, all or none. CAROM_INVALID_ARGUMENT: a number is not finite, a position outside the room by more
- * than a thousandth of it and what rounding makes of a step's way, unless the body is kinematic; a static body moves. */
+ * than a thousandth of it and what rounding makes of a step's way (a kinematic body may be anywhere), a static body moves. */
 CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error);
 /** A constant force (N, at the centre of mass) and torque (N m), from now on. A static or kinematic body takes none: for it anything but 0 is
  * CAROM_INVALID_ARGUMENT. */

@@ -96,7 +96,9 @@ void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN
 		for (int i = 0; i < r->count && point < SHOCK_POINTS; i++, point++) {
 			rest_point at = r->points[i];
 			__global float4 *to = shocks + SHOCK(id, point);
-			float coming = r->partner >= 0 && slot_is_dynamic(slots, r->partner) ? way_speed(shock_way(slots, members, work, owners, r->partner, all), r->n, at.other_arm) : 0.0f;
+			float coming = r->partner >= 0 && slot_is_dynamic(slots, r->partner)
+				? way_speed(shock_way(slots, members, work, owners, r->partner, all), r->n, at.other_arm)
+				: 0.0f;
 			to[SHOCK_NORMAL] = (float4)(r->n.x, r->n.y, at.arm, at.other_arm);
 			to[SHOCK_GRIP] = (float4)(at.grip_arm, at.grip_other_arm, r->friction, part);
 			to[SHOCK_PUSH] = (float4)((float)r->partner, -1.0f, coming, 0.0f);

@@ -119,8 +119,9 @@ static carom_status check_numbers(const carom_body_def *def, size_t index, carom
 	if (def->is_static && def->is_kinematic)
 		return fail(error, index, "is_kinematic", "a static body does not move, and a kinematic one does: leave out one of the two");
 	if ((def->is_static || def->is_kinematic) && (def->force.x != 0.0f || def->force.y != 0.0f || def->torque != 0.0f))
-		return fail(error, index, "force", def->is_static ? "a static body feels no force: leave out force and torque, or `static`"
-														  : "a kinematic body feels no force: leave out force and torque, or `kinematic`");
+		return fail(error, index, "force",
+			def->is_static ? "a static body feels no force: leave out force and torque, or `static`"
+						   : "a kinematic body feels no force: leave out force and torque, or `kinematic`");
 	return CAROM_OK;
 }
 

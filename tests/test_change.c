@@ -109,7 +109,8 @@ static void others_stay_as_they_are(carom_world *world)
 		state = runs_state(world, next++);
 		assert_memory_equal(&state, &states[i], sizeof state);
 		assert_true(after.mass == before[i].mass && after.inertia == before[i].inertia && after.friction == before[i].friction
-			&& after.is_static == before[i].is_static && after.is_kinematic == before[i].is_kinematic && after.vertex_count == before[i].vertex_count && after.shape == before[i].shape);
+			&& after.is_static == before[i].is_static && after.is_kinematic == before[i].is_kinematic && after.vertex_count == before[i].vertex_count
+			&& after.shape == before[i].shape);
 		assert_string_equal(after.name ? after.name : "", names[i]);
 	}
 }

@@ -25,6 +25,7 @@ static const struct {
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343, 0},
 	{"scenes/heap.json", 0x515bfcb74767cfd7, 0x8fb479cfae22ea7b, 0xc40dff4b9526f236},
 	{"scenes/mixed.json", 0xcc24b0a3369bcac1, 0xdca5a4f981ed5756, 0},
+	{"scenes/mixer.json", 0x9a455603469d877e, 0x1b3881029d95a20a, 0xc6dbdf036501849c},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca, 0},
 	{"scenes/pi.json", 0x9d624002521cac23, 0xd287219b381da045, 0},
 	{"scenes/piston.json", 0x2164404c393abf4d, 0x1a2d939507b78308, 0},

@@ -59,9 +59,9 @@ static cpShape *make_shape(cpBody *body, const carom_body_info *info)
 
 static cpBody *add_body(cpSpace *space, const carom_body_info *info, const carom_body_state *state, cpShape **shape)
 {
-	cpBody *body = info->is_static	? cpBodyNewStatic()
-				: info->is_kinematic ? cpBodyNewKinematic()
-									 : cpBodyNew((double)info->mass, (double)info->inertia);
+	cpBody *body = info->is_static ? cpBodyNewStatic()
+		: info->is_kinematic       ? cpBodyNewKinematic()
+								   : cpBodyNew((double)info->mass, (double)info->inertia);
 	cpSpaceAddBody(space, body);
 	cpBodySetPosition(body, cpv((double)state->position.x, (double)state->position.y));
 	cpBodySetAngle(body, (double)state->angle);

@@ -114,7 +114,8 @@ static void get_body(calls *c)
 		FUZZ_EXPECT(info.radius == 12345 && index >= carom_world_body_count(*c->slot));
 		return;
 	}
-	FUZZ_EXPECT(info.mass > 0 && info.inertia > 0 && isinf(info.mass) == (info.is_static || info.is_kinematic) && isinf(info.inertia) == isinf(info.mass));
+	FUZZ_EXPECT(info.mass > 0 && info.inertia > 0 && isinf(info.mass) == (info.is_static || info.is_kinematic)
+		&& isinf(info.inertia) == isinf(info.mass));
 	FUZZ_EXPECT(info.radius > 0 && info.restitution >= 0 && info.restitution <= 1 && info.friction >= 0 && info.friction <= CAROM_MAX_FRICTION);
 	FUZZ_EXPECT((info.shape == CAROM_CIRCLE) == !info.vertices && info.vertex_count >= 1 && info.vertex_count <= CAROM_MAX_VERTICES);
 	for (uint32_t k = 0; info.vertices && k < info.vertex_count; k++)
