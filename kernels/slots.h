@@ -55,7 +55,7 @@ INLINE bool stands(RECORD_IN(slots), int s, trajectory k)
 	return !slot_is_dynamic(slots, s) && CHANNEL(k.place, LINEAR_VX) == 0.0f && CHANNEL(k.place, LINEAR_VY) == 0.0f && k.velocity == 0.0f;
 }
 
-bool slot_stands(RECORD_IN(slots), int s)
+INLINE bool slot_stands(RECORD_IN(slots), int s)
 {
 	return stands(slots, s, trajectory_start(slots, s));
 }
@@ -95,7 +95,7 @@ body body_of(RECORD_IN(slots), int s, trajectory k, float length)
 }
 
 /* The trajectory, told from time u on. */
-trajectory moved(RECORD_IN(slots), int s, trajectory k, float u, float length)
+INLINE trajectory moved(RECORD_IN(slots), int s, trajectory k, float u, float length)
 {
 	if (u == k.time || k.held > 0.0f || stands(slots, s, k))
 		return k;
