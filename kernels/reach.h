@@ -58,8 +58,8 @@ void pace_choose(float4 sum, float window, float brief, float tenths, LIST_OUT(s
 	status[STATUS_BRIEF] = as_int(brief);
 }
 
-/* The box of a body that stands is tight. */
-float4 standing_box(VERTICES_IN, RECORD_IN(slots), int s)
+/* A static body's box is tight. */
+float4 static_box(VERTICES_IN, RECORD_IN(slots), int s)
 {
 	body k = body_of(slots, s, trajectory_start(slots, s), 1.0f);
 	float2 rotation = rotation_of(k.r), low = k.x, high = k.x;
@@ -89,7 +89,7 @@ float4 reach_about(RECORD_IN(slots), int s, float need, LIST_IN(status))
 
 float4 reach_box(VERTICES_IN, RECORD_IN(slots), int s, float need, LIST_IN(status))
 {
-	return slot_stands(slots, s) ? standing_box(VERTICES, slots, s) : reach_about(slots, s, need, status);
+	return slot_is_static(slots, s) ? static_box(VERTICES, slots, s) : reach_about(slots, s, need, status);
 }
 
 float level_side(LIST_IN(status), int level)

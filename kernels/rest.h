@@ -129,7 +129,7 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	bool is_incident = is_row == c.swapped;
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
 	float2 back = (float2)(-n.x, -n.y);
-	rest r = rest_begin(key, slot_stands(slots, other) ? PARTNER_STATIC(key) : other, n, force, slop, rub);
+	rest r = rest_begin(key, slot_is_static(slots, other) ? PARTNER_STATIC(key) : other, n, force, slop, rub);
 	for (int j = 0; j < c.count; j++) {
 		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
 		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
@@ -217,12 +217,6 @@ void rest_on_walls(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(sl
 		return;
 	for (int wall = 0; wall < 4; wall++)
 		rest_on_wall(VERTICES, room, k, wall, rub, near, all);
-}
-
-/* A kinematic body that moves: what rests on it goes by its load, but it has no contacts of its own. */
-bool slot_carries(RECORD_IN(slots), int s)
-{
-	return !slot_is_dynamic(slots, s) && !slot_stands(slots, s);
 }
 
 /* How many points the body in a slot rests on; -1: it has too many contacts. */

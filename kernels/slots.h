@@ -43,21 +43,23 @@ void work_store(__global float4 *work, int id, trajectory k)
 	work[WORK_WIDTH * id + WORK_TURN] = (float4)(k.angle, k.velocity, k.time, k.held);
 }
 
-/* Not static, nor kinematic: those have infinite mass, and no hit changes them. */
+/* Neither static nor kinematic: those have infinite mass, and no hit changes them. */
 INLINE bool slot_is_dynamic(RECORD_IN(slots), int s)
 {
 	return CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE) > 0.0f;
 }
 
-/* Not dynamic, and without a velocity: it stays where it is. */
-INLINE bool stands(RECORD_IN(slots), int s, trajectory k)
+INLINE bool slot_is_static(RECORD_IN(slots), int s)
 {
-	return !slot_is_dynamic(slots, s) && CHANNEL(k.place, LINEAR_VX) == 0.0f && CHANNEL(k.place, LINEAR_VY) == 0.0f && k.velocity == 0.0f;
+	if (slot_is_dynamic(slots, s))
+		return false;
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE);
+	return CHANNEL(at, LINEAR_VX) == 0.0f && CHANNEL(at, LINEAR_VY) == 0.0f && CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) == 0.0f;
 }
 
-INLINE bool slot_stands(RECORD_IN(slots), int s)
+INLINE bool slot_is_kinematic(RECORD_IN(slots), int s)
 {
-	return stands(slots, s, trajectory_start(slots, s));
+	return !slot_is_dynamic(slots, s) && !slot_is_static(slots, s);
 }
 
 int slot_body(RECORD_IN(slots), int s)
@@ -97,7 +99,7 @@ body body_of(RECORD_IN(slots), int s, trajectory k, float length)
 /* The trajectory, told from time u on. */
 INLINE trajectory moved(RECORD_IN(slots), int s, trajectory k, float u, float length)
 {
-	if (u == k.time || k.held > 0.0f || stands(slots, s, k))
+	if (u == k.time || k.held > 0.0f || slot_is_static(slots, s))
 		return k;
 	body b = body_of(slots, s, k, length);
 	float dt = u - k.time, scale = dt / length;

@@ -27,7 +27,7 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 	slot_keep(slots, pushes, s);
 	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, s, step_length(TEX(uniforms), TEX(clock)));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
-	if (count > 0 || warm_counts[slot_body(slots, s)] > 0 || slot_carries(slots, s))
+	if (count > 0 || warm_counts[slot_body(slots, s)] > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 

@@ -22,7 +22,7 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 		status[STATUS_PASS] = 0;
 	int id = owners[s];
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
-	if (status[STATUS_COMMIT] && !slot_stands(slots, s)) {
+	if (status[STATUS_COMMIT] && !slot_is_static(slots, s)) {
 		float4 constants = SLOT_LOAD(slots, s, SLOT_TURN);
 		trajectory k = moved(slots, s, id >= 0 ? work_load(work, id) : trajectory_start(slots, s), 1.0f, length);
 		slots[SLOT_WIDTH * s + SLOT_PLACE] = k.place;
