@@ -51,7 +51,7 @@ static void place_box(carom_placed *at)
 static uint32_t place_body(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners)
 {
 	*at = (carom_placed){.x = (double)state->position.x, .y = (double)state->position.y, .radius = (double)body->radius};
-	at->is_dynamic = !body->is_static && !body->is_kinematic;
+	at->is_dynamic = isfinite(body->mass);
 	if (body->vertices)
 		place_corners(at, body, state, corners);
 	place_box(at);

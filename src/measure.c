@@ -1,5 +1,7 @@
 /* What is measured of a state, in double precision: sums over the bodies, and the deepest overlap.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
+
 #include "penetration.h"
 #include "status.h"
 
@@ -26,7 +28,7 @@ static carom_status add_bodies(carom_world *world, carom_measure *sum, carom_err
 		status = carom_world_get_body(world, k, &body, error);
 		if (status == CAROM_OK)
 			status = carom_world_get_states(world, k, 1, &state, error);
-		if (status == CAROM_OK && !body.is_static && !body.is_kinematic)
+		if (status == CAROM_OK && isfinite(body.mass))
 			add_body(sum, &body, &state, gravity);
 	}
 	return status;

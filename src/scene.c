@@ -128,7 +128,7 @@ static carom_status blame_file(const carom_scene *scene, carom_error *error)
 	}
 	const char *field = text + length;
 	const char *outer = outer_key(scene, index, field);
-	if (strncmp(field, "is_static", 9) == 0 || strncmp(field, "is_kinematic", 12) == 0)
+	if (strncmp(field, "is_", strlen("is_")) == 0)
 		field += strlen("is_");
 	return carom_fail(error, CAROM_INVALID_SCENE, "%s: bodies[%lu].%s%s", storage->name, index, outer, field);
 }

@@ -152,7 +152,7 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 	put_number_key(stream, "angular_velocity", state->angular_velocity, defaults->angular_velocity);
 	if (info->density > 0) {
 		put_number_key(stream, "density", info->density, defaults->density);
-	} else if (!info->is_static && !info->is_kinematic) {
+	} else if (isfinite(info->mass)) {
 		put_number_key(stream, "mass", info->mass, defaults->mass);
 	}
 	put_number_key(stream, "restitution", info->restitution, writer->world->restitution);

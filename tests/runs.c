@@ -117,6 +117,19 @@ uint64_t runs_hash(carom_world *world)
 	return hash;
 }
 
+void runs_same_hits(carom_hit **first, size_t *first_count, carom_hit *hits, size_t count)
+{
+	if (!*first) {
+		*first = hits;
+		*first_count = count;
+		return;
+	}
+	assert_int_equal(count, *first_count);
+	for (size_t k = 0; k < count; k++)
+		assert_true(hits[k].time == (*first)[k].time && runs_same_hit(&hits[k], &(*first)[k]));
+	free(hits);
+}
+
 uint64_t runs_hash_after(carom_world *world, uint64_t steps, uint64_t calls)
 {
 	for (uint64_t i = 0; i < calls; i++)

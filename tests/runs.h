@@ -32,6 +32,8 @@ uint64_t runs_hash(carom_world *world);
 carom_hit *runs_hits(carom_world *world, size_t *count);
 /* Are they alike to the bit, but for the time? */
 bool runs_same_hit(const carom_hit *a, const carom_hit *b);
+/* The same hits on every device: *first is NULL before those of the first, which it keeps, to be given to free; others are freed. */
+void runs_same_hits(carom_hit **first, size_t *first_count, carom_hit *hits, size_t count);
 /* The hash after so many steps, in so many calls; destroys the world. */
 uint64_t runs_hash_after(carom_world *world, uint64_t steps, uint64_t calls);
 
