@@ -238,9 +238,11 @@
 /* Wake: two ints a slot, steps as STATUS_AGE counts them. Of two neighbours the one that was changed later watches the other; of two that were changed
  * alike the one that has the other in its span's first part. */
 #define WAKE_WIDTH 2
-#define WAKE_CHANGED 0 /* the step before which the body last changed its way, 0: not since all was looked at */
-#define WAKE_NEXT 1    /* the step in which to look again: before, it has no hit with what it watches, nor with a wall */
-#define HORIZON 6      /* steps that one look is good for; 1 where a BUSY-th of the bodies or more are in clusters: it would not pay */
+#define WAKE_CHANGED 0                       /* when the body last changed its way, as CHANGED_IN or CHANGED_AFTER, 0: not since all was looked at */
+#define WAKE_NEXT 1                          /* the step in which to look again: before, it has no hit with what it watches, nor with a wall */
+#define CHANGED_IN(next) (2 * (next))        /* by an event in the step before that one */
+#define CHANGED_AFTER(next) (2 * (next) + 1) /* between the two: what had an event has looked at it as it was */
+#define HORIZON 6 /* steps that one look is good for; 1 where a BUSY-th of the bodies or more are in clusters: it would not pay */
 #define BUSY 6
 
 /* Hits: four records a hit, where hits are kept: those of a cluster as they were answered, one after the other, but between them those of others; also some that did

@@ -297,6 +297,6 @@ void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocit
 /* A slot's push or velocities are others: all around looks at it again, and it may get farther. True if that is where it was not looked for. */
 bool slot_changed(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
 {
-	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
+	slot_rouse(status, wakes, s);
 	return reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
 }

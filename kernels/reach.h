@@ -327,6 +327,13 @@ void span_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neighbours), LIST_I
 	members[MEMBER(s, MEMBER_HEAD)] = -1;
 }
 
+/* Between two steps the slot has got another way: it looks at all around it in the next. */
+void slot_rouse(LIST_IN(status), LIST_OUT(wakes), int s)
+{
+	wakes[WAKE(s, WAKE_CHANGED)] = CHANGED_AFTER(status[STATUS_AGE]);
+	wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
+}
+
 /* How far the body may go in the next step. */
 float way_ahead(RECORD_IN(slots), int s, float step)
 {
@@ -358,6 +365,6 @@ bool reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(
 	else
 		atomic_or(&status[STATUS_STALE], 1);
 	reach[s] = reach_about(slots, s, 0.0f, status);
-	wakes[WAKE(s, WAKE_CHANGED)] = wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
+	slot_rouse(status, wakes, s);
 	return true;
 }

@@ -32,8 +32,10 @@ __kernel void forward_drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), 
 	if (id >= 0) {
 		if (status[STATUS_COMMIT])
 			hits_confirm(TEX(clock), members, hits, id, length);
-		/* one that no event changed has not looked how it goes on */
-		wakes[WAKE(s, members[MEMBER(id, MEMBER_EVENTS)] > 0 ? WAKE_CHANGED : WAKE_NEXT)] = status[STATUS_AGE];
+		if (members[MEMBER(id, MEMBER_EVENTS)] > 0)
+			wakes[WAKE(s, WAKE_CHANGED)] = CHANGED_IN(status[STATUS_AGE]);
+		else /* it has not looked how it goes on */
+			wakes[WAKE(s, WAKE_NEXT)] = status[STATUS_AGE];
 		member_reset(members, id);
 		owners[s] = -1;
 		parents[s] = s;

@@ -230,7 +230,7 @@ public:
 	}
 
 private:
-	void rouse(int32_t s) const { wakes[s].changed = wakes[s].next = status[STATUS_AGE]; }
+	void rouse(int32_t s) const { wakes[s] = {CHANGED_AFTER(status[STATUS_AGE]), status[STATUS_AGE]}; }
 
 	[[gnu::always_inline]] bool may_leave(const Slot<T> &slot, const Box<T> &box) const
 	{

@@ -50,8 +50,10 @@ private:
 			move(s, work[id].trajectory(slots[s]));
 			hits.confirm(members[id], clock);
 		}
-		/* one that no event changed has not looked how it goes on */
-		(members[id].events > 0 ? wakes[s].changed : wakes[s].next) = status[STATUS_AGE];
+		if (members[id].events > 0)
+			wakes[s].changed = CHANGED_IN(status[STATUS_AGE]);
+		else /* it has not looked how it goes on */
+			wakes[s].next = status[STATUS_AGE];
 		members[id].reset();
 		owners[s] = -1;
 		parents[s] = s;
