@@ -222,6 +222,18 @@
 
 /* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 
+/* Places: an int a body, its slot */
+
+/* Changes: three records a body that the host has changed between two steps */
+#define CHANGES_WIDTH 3
+#define CHANGES_PLACE 0 /* record: as in Linear */
+#define CHANGES_TURN 1  /* record */
+#define CHANGE_ANGLE 0
+#define CHANGE_VELOCITY 1
+#define CHANGE_BODY 2
+#define CHANGE_MOVES 3   /* 1: that is its state now; 0: only its forces are others */
+#define CHANGES_FORCES 2 /* record: as in Forces */
+
 /* Spans: four ints a slot */
 #define SPAN_WIDTH 4
 #define SPAN_START 0 /* in Neighbours: those to test a pair with, */

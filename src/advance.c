@@ -167,8 +167,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 /* What the device has made itself is good to go on from, for a while. */
 static carom_status get_ready(carom_world *world, carom_error *error)
 {
-	const bool is_changed = !world->bodies_current || !world->device_current,
-			   is_good = !is_changed && world->good_for >= (double)world->def.time_step;
+	const bool is_changed = !world->bodies_current || !world->device_current, is_good = !is_changed && carom_range_holds(world);
 	carom_status status = is_good ? CAROM_OK : carom_textures_fetch(world, error);
 	if (is_changed)
 		world->stalled = 0; /* what stood still did so as it was before */

@@ -1,26 +1,9 @@
-/* What may be changed of a world once it is made: what pushes its bodies, how long its steps are, and which bodies there are. */
+/* What may be changed of a whole world once it is made: its gravity, how long its steps are, and which bodies there are. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "status.h"
 #include "world.h"
-
-carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error)
-{
-	carom_body *body;
-	GIVEN(world, error);
-	TRY(carom_check_idle(world, error));
-	TRY(carom_check_bodies(world, index, 1, error));
-	body = &carom_world_bodies(world)[index];
-	if (!carom_is_finite(force) || !isfinite(torque))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
-	if (!carom_is_dynamic(body) && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is %s and feels no force", index, body->is_static ? "static" : "kinematic");
-	body->force = force;
-	body->torque = torque;
-	world->bodies_current = false;
-	return CAROM_OK;
-}
 
 /* What the def says from now on, if that is allowed. */
 static carom_status change_def(carom_world *world, const carom_world_def *def, carom_error *error)

@@ -12,33 +12,50 @@
 #define MOST_ROOMS 4294967296.0 /* of ways in a step: in more, times that floats can't tell from each other lie on both sides of a wall */
 #define MOST_MOMENTUM 1e36      /* kg m/s, kg m^2/s */
 
-/* What a body may be at the end of a step, if nothing is in its way: turning counts as speed at the rim. */
-typedef struct reached {
-	double place, speed, spin; /* m, m/s, rad/s */
-	double push;               /* m/s^2, or rad/s^2: by how much both may grow */
-	bool is_kept;              /* by the room */
-} reached;
-
 static double larger_of(carom_vec2 v)
 {
 	return fmax(fabs((double)v.x), fabs((double)v.y));
 }
 
-static reached reach_of(const carom_world *world, size_t index)
+/* What a body may be at the end of a step, if nothing is in its way: turning counts as speed at the rim. From its texels of Linear and Rotational. */
+static carom_range range_of(const carom_world *world, const carom_body *body, const float *l, const float *r)
 {
-	const carom_body *body = &carom_world_bodies(world)[index];
-	const float *l = (const float *)world->linear.items + 4 * index, *r = (const float *)world->rotational.items + 4 * index;
 	const double time = (double)world->def.time_step,
 				 push = carom_is_dynamic(body) ? larger_of(world->def.gravity) + larger_of(body->force) / (double)body->mass : 0.0,
 				 twist = fabs((double)body->torque) / (double)body->inertia;
-	reached most = {.place = fmax(larger_of((carom_vec2){l[LINEAR_X], l[LINEAR_Y]}), (double)body->bound)};
-	most.is_kept = world->def.has_room && carom_is_dynamic(body);
+	carom_range most = {.place = fmax(larger_of((carom_vec2){l[LINEAR_X], l[LINEAR_Y]}), (double)body->bound), .is_kept = true, .time = world->time};
 	if (body->is_static)
 		return most;
+	most.is_kept = world->def.has_room && carom_is_dynamic(body);
 	most.spin = fabs((double)r[ROTATIONAL_VELOCITY]) + twist * time;
 	most.speed = larger_of((carom_vec2){l[LINEAR_VX], l[LINEAR_VY]}) + push * time + most.spin * (double)body->bound;
 	most.push = push + twist * fmax((double)body->bound, 1.0);
+	most.heaviest = carom_is_dynamic(body) ? fmax((double)body->mass, (double)body->inertia) : 0.0;
 	return most;
+}
+
+/* Of all bodies of the two. */
+static carom_range both(const carom_range *a, const carom_range *b)
+{
+	return (carom_range){.place = fmax(a->place, b->place),
+		.speed = fmax(a->speed, b->speed),
+		.spin = fmax(a->spin, b->spin),
+		.push = fmax(a->push, b->push),
+		.heaviest = fmax(a->heaviest, b->heaviest),
+		.is_kept = a->is_kept && b->is_kept,
+		.time = a->time};
+}
+
+/* What may have become of it since, if no hit made a body faster. */
+static carom_range grown(const carom_range *range, double time)
+{
+	const double passed = time - range->time, faster = range->push * passed;
+	carom_range now = *range;
+	now.speed += faster;
+	now.spin += faster;
+	now.place += now.speed * passed;
+	now.time = time;
+	return now;
 }
 
 static double room_size(const carom_world_def *def)
@@ -46,7 +63,7 @@ static double room_size(const carom_world_def *def)
 	return fmax((double)def->room_max.x - (double)def->room_min.x, (double)def->room_max.y - (double)def->room_min.y);
 }
 
-static const char *excess(const carom_world *world, const reached *most)
+static const char *excess(const carom_world *world, const carom_range *most)
 {
 	const carom_world_def *def = &world->def;
 	if (def->has_room && (larger_of(def->room_min) > MOST || larger_of(def->room_max) > MOST))
@@ -64,7 +81,7 @@ static const char *excess(const carom_world *world, const reached *most)
 }
 
 /* s: until what pushes add makes the speed too large; and the place, where no room keeps a body. What hits do is not foreseen. */
-static double good_for(const reached *most)
+static double good_for(const carom_range *most)
 {
 	const double speed = fmax(most->speed, most->spin), left = MOST - most->place;
 	const double by_speed = (MOST - speed) / most->push; /* infinite where nothing pushes */
@@ -73,27 +90,58 @@ static double good_for(const reached *most)
 }
 
 /* Bodies hit each other, so the heaviest may become the fastest. */
+static bool has_momentum(const carom_range *all)
+{
+	return all->heaviest * fmax(all->speed, all->spin) > MOST_MOMENTUM;
+}
+
 carom_status carom_check_range(carom_world *world, carom_error *error)
 {
-	double heaviest = 0.0, fastest = 0.0, good = INFINITY;
+	carom_range all = {.is_kept = true, .time = world->time};
+	double good = INFINITY;
 	world->good_for = 0.0; /* if this fails, the next step looks again */
 	for (size_t i = 0; i < world->body_count; i++) {
-		const carom_body *body = &carom_world_bodies(world)[i];
-		const reached most = reach_of(world, i);
+		const carom_range most = range_of(world, &carom_world_bodies(world)[i], (const float *)world->linear.items + 4 * i,
+			(const float *)world->rotational.items + 4 * i);
 		const char *what = excess(world, &most);
 		if (what)
 			return carom_fail(error, CAROM_LIMIT, "body %zu: %s is too large for a step in 32-bit floats; allowed: up to 1e9 m, m/s and rad/s", i,
 				what);
-		if (!body->is_static)
-			good = fmin(good, good_for(&most));
-		heaviest = carom_is_dynamic(body) ? fmax(heaviest, fmax((double)body->mass, (double)body->inertia)) : heaviest;
-		fastest = fmax(fastest, fmax(most.speed, most.spin));
+		good = fmin(good, good_for(&most));
+		all = both(&all, &most);
 	}
-	if (heaviest * fastest > MOST_MOMENTUM)
+	if (has_momentum(&all))
 		return carom_fail(error, CAROM_LIMIT,
-			"a body of %g kg or kg m^2 and a speed of %g m/s or rad/s make a momentum too large for a step in 32-bit floats", heaviest, fastest);
+			"a body of %g kg or kg m^2 and a speed of %g m/s or rad/s make a momentum too large for a step in 32-bit floats", all.heaviest,
+			fmax(all.speed, all.spin));
+	world->range = all;
 	world->good_for = good;
 	return CAROM_OK;
+}
+
+/* As all bodies together had changed bodies' pushes, and were as fast as the fastest: mostly that is still far from what can't be computed. */
+bool carom_range_holds(carom_world *world)
+{
+	static const float still[4] = {0.0f};
+	const carom_change *changes = world->changes.items;
+	const size_t count = world->changes.used / sizeof *changes;
+	const carom_range before = grown(&world->range, world->time);
+	carom_range all = before;
+	for (size_t k = 0; k < count; k++) {
+		const bool moves = changes[k].moves;
+		carom_range most = range_of(world, &carom_world_bodies(world)[changes[k].body], moves ? changes[k].linear : still,
+			moves ? changes[k].rotational : still);
+		most.speed += moves ? 0.0 : before.speed;
+		most.spin += moves ? 0.0 : before.spin;
+		all = both(&all, &most);
+	}
+	if (count > 0) {
+		if (excess(world, &all) || has_momentum(&all))
+			return false;
+		world->range = all;
+		world->good_for = fmin(world->good_for, good_for(&all));
+	}
+	return world->good_for >= (double)world->def.time_step;
 }
 
 static bool is_between(float x, float least, float most, double slack)

@@ -29,9 +29,9 @@ static carom_texel_format format_of(carom_role role)
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED
 		|| role == ROLE_TOUCHING || role == ROLE_WARM_COUNT)
 		return TEXELS_LIST;
-	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES || role == ROLE_SHAPES
-		|| role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS || role == ROLE_PUSHES
-		|| role == ROLE_WARM || role == ROLE_HITS || role == ROLE_SHOCKS)
+	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_CHANGES || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES
+		|| role == ROLE_SHAPES || role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS
+		|| role == ROLE_PUSHES || role == ROLE_WARM || role == ROLE_HITS || role == ROLE_SHOCKS)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -57,9 +57,11 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_OUTLINES] = "Outlines",
 	[ROLE_SLOTS] = "Slots",
 	[ROLE_NEED] = "Need",
+	[ROLE_CHANGES] = "Changes",
 	[ROLE_REACH] = "Reach",
 	[ROLE_WORK] = "Work",
 	[ROLE_MEMBERS] = "Members",
+	[ROLE_PLACES] = "Places",
 	[ROLE_OWNERS] = "Owners",
 	[ROLE_PARENTS] = "Parents",
 	[ROLE_ACTIVE] = "Active",
@@ -252,7 +254,9 @@ static carom_status transfer(carom_world *world, bool down, carom_error *error)
 /* The textures of the state, where the step has a newer one of its own. */
 static carom_status unload(carom_world *world, carom_error *error)
 {
-	carom_status status = world->events.ahead ? world->step->unload(world, error) : CAROM_OK;
+	carom_status status = carom_changes_send(world, error);
+	if (!status && world->events.ahead)
+		status = world->step->unload(world, error);
 	if (!status)
 		world->events.ahead = false;
 	return status;
@@ -299,7 +303,7 @@ carom_status carom_textures_update(carom_world *world, carom_error *error)
 {
 	carom_status status;
 	if (world->prepared && world->bodies_current && world->device_current)
-		return CAROM_OK;
+		return carom_changes_send(world, error);
 	status = carom_textures_hold(world, error);
 	if (status || world->prepared)
 		return status;

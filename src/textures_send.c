@@ -40,15 +40,18 @@ static void fill_geometry(const carom_world *world, float *texels)
 	}
 }
 
+void carom_forces_fill(const carom_body *body, float texel[4])
+{
+	texel[FORCES_X] = body->force.x;
+	texel[FORCES_Y] = body->force.y;
+	texel[FORCES_TORQUE] = body->torque;
+	texel[FORCES_RESTITUTION] = body->restitution;
+}
+
 static void fill_forces(const carom_world *world, float *texels)
 {
-	for (size_t i = 0; i < world->body_count; i++, texels += 4) {
-		const carom_body *body = &carom_world_bodies(world)[i];
-		texels[FORCES_X] = body->force.x;
-		texels[FORCES_Y] = body->force.y;
-		texels[FORCES_TORQUE] = body->torque;
-		texels[FORCES_RESTITUTION] = body->restitution;
-	}
+	for (size_t i = 0; i < world->body_count; i++)
+		carom_forces_fill(&carom_world_bodies(world)[i], texels + 4 * i);
 }
 
 static void fill_friction(const carom_world *world, float *texels)

@@ -87,12 +87,13 @@ void carom_world_destroy(carom_world *world)
 	free(world->linear.items);
 	free(world->rotational.items);
 	free(world->contacts.items);
+	free(world->changes.items);
 	free(world->hits.items);
 	free(world);
 }
 
 /* Into [-pi, pi]; what the kernels' rounding left a little outside stays, or a state that is read and set would change. */
-static float wrapped(float angle)
+float carom_wrapped(float angle)
 {
 	return fabsf(angle) <= ANGLE_MOST ? angle : (float)remainder((double)angle, 6.28318530717958647692);
 }
@@ -106,7 +107,7 @@ static bool append_state(carom_world *world, const carom_body_def *def, const ca
 	linear[LINEAR_Y] = def->position.y;
 	linear[LINEAR_VX] = def->velocity.x;
 	linear[LINEAR_VY] = def->velocity.y;
-	rotational[ROTATIONAL_ANGLE] = wrapped(def->angle);
+	rotational[ROTATIONAL_ANGLE] = carom_wrapped(def->angle);
 	rotational[ROTATIONAL_VELOCITY] = def->angular_velocity;
 	rotational[ROTATIONAL_RADIUS] = body->bound;
 	rotational[3] = 0.0f;
@@ -284,42 +285,6 @@ carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t c
 		const float *l = (const float *)world->linear.items + 4 * (first + i), *r = (const float *)world->rotational.items + 4 * (first + i);
 		states[i] = (carom_body_state){{l[LINEAR_X], l[LINEAR_Y]}, r[ROTATIONAL_ANGLE], {l[LINEAR_VX], l[LINEAR_VY]}, r[ROTATIONAL_VELOCITY]};
 	}
-	return CAROM_OK;
-}
-
-static carom_status check_state(const carom_world *world, uint32_t index, const carom_body_state *s, carom_error *error)
-{
-	const carom_body *body = &carom_world_bodies(world)[index];
-	if (!carom_is_finite(s->position) || !carom_is_finite(s->velocity) || !isfinite(s->angle) || !isfinite(s->angular_velocity))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the state of body %u has a number that is not finite", index);
-	if (!body->is_kinematic && carom_outside_room(&world->def, s->position, s->velocity))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the position of body %u, (%g, %g), is outside the room", index, (double)s->position.x,
-			(double)s->position.y);
-	if (body->is_static && (s->velocity.x != 0.0f || s->velocity.y != 0.0f || s->angular_velocity != 0.0f))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and can't be given a velocity", index);
-	return CAROM_OK;
-}
-
-carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
-{
-	GIVEN(world, error);
-	TRY(carom_check_idle(world, error));
-	if (count > 0)
-		GIVEN(states, error);
-	TRY(carom_check_bodies(world, first, count, error));
-	for (size_t i = 0; i < count; i++)
-		TRY(check_state(world, first + (uint32_t)i, &states[i], error));
-	TRY(carom_textures_fetch(world, error));
-	for (size_t i = 0; i < count; i++) {
-		float *l = (float *)world->linear.items + 4 * (first + i), *r = (float *)world->rotational.items + 4 * (first + i);
-		l[LINEAR_X] = states[i].position.x;
-		l[LINEAR_Y] = states[i].position.y;
-		l[LINEAR_VX] = states[i].velocity.x;
-		l[LINEAR_VY] = states[i].velocity.y;
-		r[ROTATIONAL_ANGLE] = wrapped(states[i].angle);
-		r[ROTATIONAL_VELOCITY] = states[i].angular_velocity;
-	}
-	world->device_current = false;
 	return CAROM_OK;
 }
 

@@ -17,8 +17,16 @@ typedef struct carom_body {
 	carom_vec2 force, recentred_by;
 	uint32_t color;
 	bool is_static, is_kinematic; /* one of them, or none */
+	uint32_t change;              /* number + 1 in world->changes, 0 for none */
 	size_t name;                  /* offset + 1 in world->names, 0 for none */
 } carom_body;
+
+/* A body that the device goes on with, as soon as it is told. */
+typedef struct carom_change {
+	uint32_t body;
+	bool moves;                     /* to this state; else its force and torque alone are others */
+	float linear[4], rotational[4]; /* as in the textures */
+} carom_change;
 
 /* Of finite mass, so that hits and forces change how it moves. */
 static inline bool carom_is_dynamic(const carom_body *body)
@@ -64,7 +72,8 @@ typedef struct carom_events {
 	uint32_t good;            /* makings since one died before its time */
 	int32_t round, iteration; /* numbers of the last ones handed over */
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */
-	bool within;              /* the last one ended within a step of contacts, whose forces were being found */
+	bool within;              /* the last one ended within a step: of clusters that are under way, or whose forces were being found */
+	uint32_t change_room;     /* bodies of Changes */
 	uint32_t idle;            /* batches in a row that ended no step, */
 	uint32_t stale;           /* and of these those that ended with lists that were too old, or too short */
 	uint32_t doublings;       /* of how far the slowest bodies are taken to get, until such a step has come to its end */
@@ -82,6 +91,15 @@ typedef struct carom_canvas {
 	uint32_t bodies, vertices, edges, shapes;      /* that these have */
 } carom_canvas;
 
+/* What a body may be at the end of a step, or the most that any of some may be. */
+typedef struct carom_range {
+	double place, speed, spin; /* m, m/s, rad/s */
+	double push;               /* m/s^2, or rad/s^2: by how much both may grow */
+	double heaviest;           /* kg or kg m^2, of dynamic bodies */
+	bool is_kept;              /* by the room, or it does not move */
+	double time;               /* s: when that was so */
+} carom_range;
+
 struct carom_world {
 	carom_world_def def;     /* as given, its pipeline too */
 	carom_pipeline pipeline; /* resolved */
@@ -95,6 +113,7 @@ struct carom_world {
 	carom_array names;
 	carom_array linear, rotational; /* four floats a body */
 	carom_array contacts;           /* carom_contact, in order */
+	carom_array changes;            /* carom_change, of bodies that each has one alone */
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count;
 	bool rubs;                            /* a body has friction */
@@ -114,7 +133,8 @@ struct carom_world {
 	float stalled;      /* steps in a row that did not get on */
 	double time;        /* s */
 	double begun;       /* s: when the clock was started */
-	double good_for;    /* s: the time in which no body leaves what the floats can hold */
+	double good_for;    /* s: the time in which no body leaves what the floats can hold, */
+	carom_range range;  /* of all of them, when that was looked at */
 	double target;      /* s: where the clock was set to end; NAN for nowhere */
 	float remaining[2]; /* s, until then, as the clock has it: a sum of two */
 	uint64_t batch;     /* steps handed over at once */
@@ -130,6 +150,8 @@ carom_body *carom_world_bodies(const carom_world *world);
 /* world.c: are there so many things from number `first` on? If not, the error says what `there_are`. And of bodies: */
 carom_status carom_check_span(const char *things, size_t first, size_t count, const char *there_are, size_t known, carom_error *error);
 carom_status carom_check_bodies(const carom_world *world, uint32_t first, size_t count, carom_error *error);
+/* An angle within a turn, as kernels keep it. */
+float carom_wrapped(float angle);
 /* Once something rubs, or nothing does any more, the step needs other textures: of bodies from that index on that are new, or of all from 0. */
 void carom_look_for_friction(carom_world *world, size_t first);
 
@@ -146,6 +168,10 @@ carom_status carom_outlines_send(carom_world *world, carom_error *error);
 carom_status carom_check_idle(const carom_world *world, carom_error *error);
 /* range.c: CAROM_LIMIT where a step from here would leave the floats; else says how long none will, in good_for */
 carom_status carom_check_range(carom_world *world, carom_error *error);
+/* Is a step good without that, for all that is known? Changes that the device has not been told of are considered. */
+bool carom_range_holds(carom_world *world);
+/* steer.c: tells the device what has been changed of single bodies */
+carom_status carom_changes_send(carom_world *world, carom_error *error);
 /* Can a body not be here, at this speed? */
 bool carom_outside_room(const carom_world_def *def, carom_vec2 p, carom_vec2 v);
 
@@ -176,6 +202,7 @@ carom_status carom_hits_take(carom_world *world, uint32_t first, uint32_t end, c
 carom_status carom_hits_add(carom_world *world, const carom_hit *hit, carom_error *error);
 /* textures_send.c: what bodies are, as the device has it */
 carom_status carom_textures_send(carom_world *world, carom_error *error);
+void carom_forces_fill(const carom_body *body, float texel[4]); /* of Forces */
 /* Is the world's device one that runs many work-items at once, and slowly each? */
 bool carom_is_gpu(const carom_world *world);
 /* Runs a stage over the world's textures: fronts to read, backs to write. */

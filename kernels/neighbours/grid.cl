@@ -60,7 +60,7 @@ __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 }
 
 __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells), RECORD_OUT(new_slots),
-	LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+	LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(places), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x)
@@ -70,6 +70,7 @@ __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST
 		new_slots[SLOT_WIDTH * to + k] = SLOT_LOAD(slots, s, k);
 	reach[to] = reach_box(VERTICES, slots, s, as_float(need[s]), status);
 	new_need[to] = status[STATUS_COMMIT] ? 0 : need[s];
+	places[slot_body(slots, s)] = to;
 	litter_clear(status, members, owners, parents, s, domain.x);
 }
 

@@ -278,7 +278,7 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 	if (status[STATUS_STALE])
 		carom_events_drop_lists(world);
 	world->events.in_batch = false;
-	world->events.within = status[STATUS_PASS] > 0;
+	world->events.within = status[STATUS_PASS] > 0 || status[STATUS_UNDER_WAY];
 	if (!status[STATUS_UNDER_WAY])
 		status[STATUS_KEPT] = status[STATUS_KEPT_BEFORE] = (int32_t)(world->events.hits_taken = 0);
 	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;
@@ -315,7 +315,7 @@ static void choose_cells(carom_events *events, uint32_t capacity)
 uint64_t carom_events_memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	const uint64_t n = carom_capacity(body_count), records = 2 * SLOT_WIDTH + 1,
-				   lists = 2 + 2 + WAKE_WIDTH + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
+				   lists = 3 + 2 + WAKE_WIDTH + SPAN_WIDTH + FIRST_NEIGHBOURS + NODE_WIDTH / 2;
 	carom_events cells = {0};
 	(void)pipeline;
 	const uint64_t corners = vertex_count > body_count ? 2 * (uint64_t)carom_capacity((vertex_count + body_count) / 2) : 1;
@@ -341,6 +341,8 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_REACH, false, n, error));
 	TRY(carom_events_create_list(world, ROLE_WORK, false, WORK_WIDTH * carom_events_numbers(n), error));
 	TRY(carom_events_create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * carom_events_numbers(n), error));
+	TRY(carom_events_create_list(world, ROLE_PLACES, false, n, error));
+	TRY(carom_events_create_list(world, ROLE_CHANGES, false, 1, error)); /* until there are some */
 	TRY(carom_events_create_list(world, ROLE_OWNERS, false, n, error));
 	TRY(carom_events_create_list(world, ROLE_PARENTS, false, n, error));
 	TRY(carom_events_create_list(world, ROLE_ACTIVE, false, carom_events_numbers(n), error));

@@ -108,7 +108,7 @@ template <typename T> static void sort(const Job<T> &job)
 	Member *members = reinterpret_cast<Member *>(job.list(9));
 	const Span *spans = reinterpret_cast<const Span *>(job.list(4));
 	const int32_t *need = job.list(2), *status = job.list(3);
-	int32_t *all = job.list(5), *new_need = job.list(7), *owners = job.list(10), *parents = job.list(11);
+	int32_t *all = job.list(5), *new_need = job.list(7), *owners = job.list(10), *parents = job.list(11), *new_places = job.list(12);
 	const ReachRules<T> rules(status);
 	const bool forget = status[STATUS_COMMIT] != 0;
 	for (int32_t id = job.domain[0]; id < status[STATUS_NUMBERS]; id++)
@@ -122,6 +122,7 @@ template <typename T> static void sort(const Job<T> &job)
 			members[place].reset();
 			owners[place] = -1;
 			parents[place] = place;
+			new_places[slots[s].body()] = place;
 		}
 	});
 }

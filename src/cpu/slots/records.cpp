@@ -1,4 +1,4 @@
-#include "cpu/slots.hpp"
+#include "cpu/reach.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -12,31 +12,66 @@ template <typename T> static Slot<T> *slots_of(const Job<T> &job, int index)
 	return reinterpret_cast<Slot<T> *>(job.records(index));
 }
 
+/* What gravity and a body's own force and torque, a texel of Forces, do to it. */
+template <typename T> static void push(Slot<T> &slot, T gravity_x, T gravity_y, T force_x, T force_y, T torque)
+{
+	const T im = slot.mass[MASS_INVERSE];
+	const bool moves = im > 0;
+	slot.push[PUSH_X] = moves ? gravity_x + force_x * im : 0;
+	slot.push[PUSH_Y] = moves ? gravity_y + force_y * im : 0;
+	slot.push[PUSH_TORQUE] = moves ? torque * slot.mass[MASS_INVERSE_INERTIA] : 0;
+}
+
 template <typename T> static void load(const Job<T> &job)
 {
 	const State<T> state(job, 1);
 	Slot<T> *slots = slots_of(job, STATE_COUNT);
-	int32_t *need = job.list(STATE_COUNT + 1);
+	int32_t *need = job.list(STATE_COUNT + 1), *places = job.list(STATE_COUNT + 2);
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		for (int32_t i = begin; i < end; i++) {
 			Slot<T> &slot = slots[i];
-			const T im = 1 / state.geometry.of(i, GEOMETRY_MASS), ii = 1 / state.geometry.of(i, GEOMETRY_INERTIA);
 			for (int32_t k = 0; k < 4; k++)
 				slot.place[k] = state.linear.of(i, k);
 			slot.turn[TURN_ANGLE] = state.rotational.of(i, ROTATIONAL_ANGLE);
 			slot.turn[TURN_VELOCITY] = state.rotational.of(i, ROTATIONAL_VELOCITY);
 			slot.turn[TURN_RADIUS] = state.rotational.of(i, ROTATIONAL_RADIUS);
 			slot.turn[TURN_RESTITUTION] = state.restitution(i);
-			slot.mass[MASS_INVERSE] = im;
-			slot.mass[MASS_INVERSE_INERTIA] = ii;
+			slot.mass[MASS_INVERSE] = 1 / state.geometry.of(i, GEOMETRY_MASS);
+			slot.mass[MASS_INVERSE_INERTIA] = 1 / state.geometry.of(i, GEOMETRY_INERTIA);
 			slot.mass[MASS_FIRST] = 2 * state.geometry.of(i, GEOMETRY_FIRST);
 			slot.mass[MASS_COUNT] = state.geometry.of(i, GEOMETRY_COUNT);
-			const bool moves = im > 0;
-			slot.push[PUSH_X] = moves ? state.world(WORLD_GRAVITY_X) + state.forces.of(i, FORCES_X) * im : 0;
-			slot.push[PUSH_Y] = moves ? state.world(WORLD_GRAVITY_Y) + state.forces.of(i, FORCES_Y) * im : 0;
-			slot.push[PUSH_TORQUE] = moves ? state.forces.of(i, FORCES_TORQUE) * ii : 0;
+			push(slot, state.world(WORLD_GRAVITY_X), state.world(WORLD_GRAVITY_Y), state.forces.of(i, FORCES_X), state.forces.of(i, FORCES_Y),
+				state.forces.of(i, FORCES_TORQUE));
 			slot.push[PUSH_BODY] = static_cast<T>(i);
 			need[i] = 0;
+			places[i] = i;
+		}
+	});
+}
+
+/* Some bodies, as the host has changed them between two steps. */
+template <typename T> static void change(const Job<T> &job)
+{
+	const Texels<T> uniforms = job.texels(0), forces = job.texels(8);
+	const Records<T> changes(job.records(1));
+	const int32_t *places = job.list(2), *status = job.list(5);
+	Slot<T> *slots = slots_of(job, 3);
+	const ReachKeeper<T> keeper(slots, job.records(4), job.list(5), job.list(6), job.list(7), job.domain[2], uniforms);
+	const T gravity_x = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_X), gravity_y = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_Y);
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
+		for (int32_t k = begin; k < end; k++) {
+			const int32_t record = CHANGES_WIDTH * k, turn = record + CHANGES_TURN, body = static_cast<int32_t>(changes.of(turn, CHANGE_BODY));
+			const T *const f = &changes.of(record + CHANGES_FORCES, 0);
+			Slot<T> &slot = slots[places[body]];
+			if (changes.of(turn, CHANGE_MOVES) > 0) {
+				std::copy_n(&changes.of(record + CHANGES_PLACE, 0), 4, slot.place);
+				slot.turn[TURN_ANGLE] = changes.of(turn, CHANGE_ANGLE);
+				slot.turn[TURN_VELOCITY] = changes.of(turn, CHANGE_VELOCITY);
+			}
+			push(slot, gravity_x, gravity_y, f[FORCES_X], f[FORCES_Y], f[FORCES_TORQUE]);
+			forces.set(body & (ROW_SIZE - 1), body >> ROW_LOG2, f[FORCES_X], f[FORCES_Y], f[FORCES_TORQUE], f[FORCES_RESTITUTION]);
+			if (!__atomic_load_n(&status[STATUS_STALE], __ATOMIC_RELAXED))
+				keeper.pushed(places[body]);
 		}
 	});
 }
@@ -74,7 +109,8 @@ template <typename T> static void unload(const Job<T> &job)
 }
 
 extern const Stage slots_records;
-const Stage slots_records{
-	"slots", "records", {{STAGE_LOAD, load<float>, load<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}}, nullptr, nullptr};
+const Stage slots_records{"slots", "records",
+	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}}, nullptr,
+	nullptr};
 
 }

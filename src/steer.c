@@ -1,0 +1,172 @@
+/* What is changed of single bodies between two steps: their states, and what pushes them. Where the step events has them in its slots, changes are noted, and handed
+ * over together before it goes on, with its lists as they are. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout.h"
+#include "status.h"
+#include "step/events.h"
+
+#define FIRST_CHANGES 64 /* bodies that Changes has room for */
+
+static size_t count_of(const carom_world *world)
+{
+	return world->changes.used / sizeof(carom_change);
+}
+
+/* Can the device go on with a body that is changed, without being loaded anew? */
+static bool goes_on(const carom_world *world)
+{
+	return world->events.loaded && !world->events.within && world->prepared && world->bodies_current && world->device_current;
+}
+
+/* Room for so many changes more, which then do not fail. */
+static carom_status reserve(carom_world *world, size_t count, carom_error *error)
+{
+	const size_t size = count * sizeof(carom_change);
+	if (size > 0 && !carom_array_grow(&world->changes, size))
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to change %zu bodies", count);
+	world->changes.used -= size;
+	return CAROM_OK;
+}
+
+/* The body's change: the one it has already, or a new one. */
+static carom_change *change_of(carom_world *world, uint32_t index)
+{
+	carom_body *body = &carom_world_bodies(world)[index];
+	carom_change *changes = world->changes.items;
+	if (!body->change) {
+		changes[count_of(world)] = (carom_change){.body = index};
+		world->changes.used += sizeof *changes;
+		body->change = (uint32_t)count_of(world);
+	}
+	return &changes[body->change - 1];
+}
+
+static void fill(const carom_world *world, float *texels)
+{
+	const carom_change *changes = world->changes.items;
+	for (size_t k = 0; k < count_of(world); k++, texels += 4 * CHANGES_WIDTH) {
+		float *turn = texels + 4 * CHANGES_TURN;
+		memcpy(texels + 4 * CHANGES_PLACE, changes[k].linear, sizeof changes[k].linear);
+		turn[CHANGE_ANGLE] = changes[k].rotational[ROTATIONAL_ANGLE];
+		turn[CHANGE_VELOCITY] = changes[k].rotational[ROTATIONAL_VELOCITY];
+		turn[CHANGE_BODY] = (float)changes[k].body;
+		turn[CHANGE_MOVES] = changes[k].moves ? 1.0f : 0.0f;
+		carom_forces_fill(&carom_world_bodies(world)[changes[k].body], texels + 4 * CHANGES_FORCES);
+	}
+}
+
+static carom_status make_room(carom_world *world, uint32_t count, carom_error *error)
+{
+	uint32_t room = FIRST_CHANGES;
+	if (count <= world->events.change_room)
+		return CAROM_OK;
+	while (room < count)
+		room *= 2;
+	world->events.change_room = 0;
+	TRY(carom_events_create_list(world, ROLE_CHANGES, false, CHANGES_WIDTH * (uint64_t)room, error));
+	world->events.change_room = room;
+	return CAROM_OK;
+}
+
+static carom_status upload(carom_world *world, uint32_t count, carom_error *error)
+{
+	const uint32_t rows = carom_row_count(CHANGES_WIDTH * count), width = carom_row_width(CHANGES_WIDTH * world->events.change_room);
+	float *texels = calloc((size_t)rows * width, 4 * sizeof *texels);
+	if (!texels)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to change %u bodies", count);
+	fill(world, texels);
+	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, rows, texels, error);
+	free(texels);
+	return status;
+}
+
+carom_status carom_changes_send(carom_world *world, carom_error *error)
+{
+	const uint32_t count = (uint32_t)count_of(world);
+	const carom_change *changes = world->changes.items;
+	if (!count)
+		return CAROM_OK;
+	TRY(make_room(world, count, error));
+	TRY(upload(world, count, error));
+	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
+	for (uint32_t k = 0; k < count; k++)
+		carom_world_bodies(world)[changes[k].body].change = 0;
+	world->changes.used = 0;
+	world->events.ahead = true;
+	return CAROM_OK;
+}
+
+static carom_status check_state(const carom_world *world, uint32_t index, const carom_body_state *s, carom_error *error)
+{
+	const carom_body *body = &carom_world_bodies(world)[index];
+	if (!carom_is_finite(s->position) || !carom_is_finite(s->velocity) || !isfinite(s->angle) || !isfinite(s->angular_velocity))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the state of body %u has a number that is not finite", index);
+	if (!body->is_kinematic && carom_outside_room(&world->def, s->position, s->velocity))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the position of body %u, (%g, %g), is outside the room", index, (double)s->position.x,
+			(double)s->position.y);
+	if (body->is_static && (s->velocity.x != 0.0f || s->velocity.y != 0.0f || s->angular_velocity != 0.0f))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is static and can't be given a velocity", index);
+	return CAROM_OK;
+}
+
+static void set_state(carom_world *world, uint32_t index, const carom_body_state *s)
+{
+	const float linear[4] = {[LINEAR_X] = s->position.x, [LINEAR_Y] = s->position.y, [LINEAR_VX] = s->velocity.x, [LINEAR_VY] = s->velocity.y};
+	const float rotational[4] = {[ROTATIONAL_ANGLE] = carom_wrapped(s->angle),
+		[ROTATIONAL_VELOCITY] = s->angular_velocity,
+		[ROTATIONAL_RADIUS] = carom_world_bodies(world)[index].bound};
+	if (goes_on(world)) {
+		carom_change *change = change_of(world, index);
+		change->moves = true;
+		memcpy(change->linear, linear, sizeof linear);
+		memcpy(change->rotational, rotational, sizeof rotational);
+	} else {
+		world->device_current = false;
+	}
+	if (world->host_current) {
+		memcpy((float *)world->linear.items + 4 * (size_t)index, linear, sizeof linear);
+		memcpy((float *)world->rotational.items + 4 * (size_t)index, rotational, sizeof rotational);
+	}
+}
+
+carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
+{
+	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
+	if (count > 0)
+		GIVEN(states, error);
+	TRY(carom_check_bodies(world, first, count, error));
+	for (size_t i = 0; i < count; i++)
+		TRY(check_state(world, first + (uint32_t)i, &states[i], error));
+	if (!goes_on(world))
+		TRY(carom_textures_fetch(world, error));
+	TRY(reserve(world, count, error));
+	for (size_t i = 0; i < count; i++)
+		set_state(world, first + (uint32_t)i, &states[i]);
+	return CAROM_OK;
+}
+
+carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error)
+{
+	carom_body *body;
+	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_bodies(world, index, 1, error));
+	body = &carom_world_bodies(world)[index];
+	if (!carom_is_finite(force) || !isfinite(torque))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
+	if (!carom_is_dynamic(body) && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is %s and feels no force", index, body->is_static ? "static" : "kinematic");
+	if (goes_on(world)) {
+		TRY(reserve(world, 1, error));
+		change_of(world, index);
+	} else {
+		world->bodies_current = false;
+	}
+	body->force = force;
+	body->torque = torque;
+	return CAROM_OK;
+}
