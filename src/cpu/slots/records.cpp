@@ -6,6 +6,7 @@
 namespace carom::cpu {
 
 constexpr int32_t chunk = 1024; /* slots */
+constexpr int32_t ahead = 8;    /* so many later ones are fetched already */
 
 template <typename T> static Slot<T> *slots_of(const Job<T> &job, int index)
 {
@@ -58,9 +59,11 @@ template <typename T> static void change(const Job<T> &job)
 	Slot<T> *slots = slots_of(job, 3);
 	const ReachKeeper<T> keeper(slots, job.records(4), job.list(5), job.list(6), job.list(7), job.domain[2], uniforms);
 	const T gravity_x = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_X), gravity_y = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_Y);
+	const auto body_of = [&changes](int32_t k) { return static_cast<int32_t>(changes.of(CHANGES_WIDTH * k + CHANGES_TURN, CHANGE_BODY)); };
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		for (int32_t k = begin; k < end; k++) {
-			const int32_t record = CHANGES_WIDTH * k, turn = record + CHANGES_TURN, body = static_cast<int32_t>(changes.of(turn, CHANGE_BODY));
+			__builtin_prefetch(&slots[places[body_of(std::min(k + ahead, end - 1))]], 1);
+			const int32_t record = CHANGES_WIDTH * k, turn = record + CHANGES_TURN, body = body_of(k);
 			const T *const f = &changes.of(record + CHANGES_FORCES, 0);
 			Slot<T> &slot = slots[places[body]];
 			if (changes.of(turn, CHANGE_MOVES) > 0) {
@@ -84,7 +87,6 @@ template <typename T> struct Moved {
 /* The state lies channel by channel: bodies are put into order as records first, for to write channels out of order would touch eight lines a body. */
 template <typename T> static void unload(const Job<T> &job)
 {
-	constexpr int32_t ahead = 8;
 	const Slot<T> *slots = slots_of(job, 0);
 	const Texels<T> linear = job.texels(1), rotational = job.texels(2);
 	const int32_t count = job.domain[0];
