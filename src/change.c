@@ -155,6 +155,7 @@ carom_status carom_world_remove(carom_world *world, const uint32_t *indices, siz
 		return CAROM_OK;
 	GIVEN(indices, error);
 	TRY(carom_textures_fetch(world, error));
+	TRY(carom_changes_send(world, error));
 	TRY(carom_contacts_fetch(world, error));
 	numbers = malloc((world->body_count + 1) * sizeof *numbers);
 	if (!numbers)

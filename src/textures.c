@@ -251,11 +251,11 @@ static carom_status transfer(carom_world *world, bool down, carom_error *error)
 	return status;
 }
 
-/* The textures of the state, where the step has a newer one of its own. */
+/* The textures of the state, where the step has a newer one of its own, and the host has none. */
 static carom_status unload(carom_world *world, carom_error *error)
 {
 	carom_status status = carom_changes_send(world, error);
-	if (!status && world->events.ahead)
+	if (!status && world->events.ahead && world->device_current)
 		status = world->step->unload(world, error);
 	if (!status)
 		world->events.ahead = false;
