@@ -224,7 +224,7 @@
 
 /* Places: an int a body, its slot */
 
-/* Changes: three records a body that the host has changed between two steps */
+/* Changes: three records a body that the host changes between two steps, or picks to read its state */
 #define CHANGES_WIDTH 3
 #define CHANGES_PLACE 0 /* record: as in Linear */
 #define CHANGES_TURN 1  /* record */

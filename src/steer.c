@@ -1,5 +1,5 @@
-/* What is changed of single bodies between two steps: their states, and what pushes them. Where the step events has them in its slots, changes are noted, and handed
- * over together before it goes on, with its lists as they are. */
+/* Single bodies between two steps: their states are read and changed, and what pushes them. Where the step events has them in its slots, it tells of few alone,
+ * and changes are noted, and handed over together before it goes on, with its lists as they are. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +9,7 @@
 #include "step/events.h"
 
 #define FIRST_CHANGES 64 /* bodies that Changes has room for */
+#define PICKED_PART 4    /* of all bodies: more are read with all others */
 
 static size_t count_of(const carom_world *world)
 {
@@ -71,31 +72,83 @@ static carom_status make_room(carom_world *world, uint32_t count, carom_error *e
 	return CAROM_OK;
 }
 
+static uint32_t rows_of(uint32_t count)
+{
+	return carom_row_count(CHANGES_WIDTH * count);
+}
+
+/* For so many bodies' rows of Changes; to be given to free. */
+static carom_status create_texels(const carom_world *world, uint32_t count, float **texels, carom_error *error)
+{
+	*texels = calloc((size_t)rows_of(count) * carom_row_width(CHANGES_WIDTH * world->events.change_room), 4 * sizeof **texels);
+	return *texels ? CAROM_OK : carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for the states of %u bodies", count);
+}
+
 static carom_status upload(carom_world *world, uint32_t count, carom_error *error)
 {
-	const uint32_t rows = carom_row_count(CHANGES_WIDTH * count), width = carom_row_width(CHANGES_WIDTH * world->events.change_room);
-	float *texels = calloc((size_t)rows * width, 4 * sizeof *texels);
-	if (!texels)
-		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to change %u bodies", count);
+	float *texels;
+	TRY(create_texels(world, count, &texels, error));
 	fill(world, texels);
-	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, rows, texels, error);
+	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, rows_of(count), texels, error);
 	free(texels);
 	return status;
+}
+
+static carom_status tell(carom_world *world, uint32_t count, carom_error *error)
+{
+	TRY(make_room(world, count, error));
+	TRY(upload(world, count, error));
+	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
+	world->events.ahead = true;
+	return CAROM_OK;
 }
 
 carom_status carom_changes_send(carom_world *world, carom_error *error)
 {
 	const uint32_t count = (uint32_t)count_of(world);
 	const carom_change *changes = world->changes.items;
-	if (!count)
-		return CAROM_OK;
-	TRY(make_room(world, count, error));
-	TRY(upload(world, count, error));
-	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
+	if (count > 0 && world->device_current)
+		TRY(tell(world, count, error));
+	else if (count > 0)
+		world->bodies_current = false; /* the host has all of it, and the device is to be loaded anew */
 	for (uint32_t k = 0; k < count; k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
 	world->changes.used = 0;
-	world->events.ahead = true;
+	return CAROM_OK;
+}
+
+static carom_body_state state_of(const float *linear, const float *rotational)
+{
+	return (carom_body_state){
+		{linear[LINEAR_X], linear[LINEAR_Y]}, rotational[ROTATIONAL_ANGLE], {linear[LINEAR_VX], linear[LINEAR_VY]}, rotational[ROTATIONAL_VELOCITY]};
+}
+
+/* Of few bodies, from their slots alone. */
+static carom_status pick(carom_world *world, uint32_t first, uint32_t count, carom_body_state *states, carom_error *error)
+{
+	float *texels;
+	TRY(carom_changes_send(world, error));
+	TRY(make_room(world, count, error));
+	TRY(carom_run(world, STAGE_PICK, (int32_t)count, 1, (int32_t)first, 0, error));
+	TRY(create_texels(world, count, &texels, error));
+	const carom_status status = world->device->kind->download(world->device, world->textures[ROLE_CHANGES].front, rows_of(count), texels, error);
+	for (uint32_t k = 0; !status && k < count; k++)
+		states[k] = state_of(texels + 4 * (CHANGES_WIDTH * k + CHANGES_PLACE), texels + 4 * (CHANGES_WIDTH * k + CHANGES_TURN));
+	free(texels);
+	return status;
+}
+
+carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error)
+{
+	GIVEN(world, error);
+	if (count > 0)
+		GIVEN(states, error);
+	TRY(carom_check_bodies(world, first, count, error));
+	if (count > 0 && count < world->body_count / PICKED_PART && !world->host_current && goes_on(world))
+		return pick(world, first, (uint32_t)count, states, error);
+	TRY(carom_textures_fetch(world, error));
+	for (size_t i = 0; i < count; i++)
+		states[i] = state_of((const float *)world->linear.items + 4 * (first + i), (const float *)world->rotational.items + 4 * (first + i));
 	return CAROM_OK;
 }
 

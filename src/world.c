@@ -276,20 +276,6 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 	return CAROM_OK;
 }
 
-carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error)
-{
-	GIVEN(world, error);
-	if (count > 0)
-		GIVEN(states, error);
-	TRY(carom_check_bodies(world, first, count, error));
-	TRY(carom_textures_fetch(world, error));
-	for (size_t i = 0; i < count; i++) {
-		const float *l = (const float *)world->linear.items + 4 * (first + i), *r = (const float *)world->rotational.items + 4 * (first + i);
-		states[i] = (carom_body_state){{l[LINEAR_X], l[LINEAR_Y]}, r[ROTATIONAL_ANGLE], {l[LINEAR_VX], l[LINEAR_VY]}, r[ROTATIONAL_VELOCITY]};
-	}
-	return CAROM_OK;
-}
-
 uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	carom_pipeline pipeline;

@@ -30,8 +30,7 @@ __kernel void neighbours_reach(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIS
 		atomic_or(&status[STATUS_LEVELS], 1 << level);
 }
 
-/* A row of cells, and so a group, gets its places together, so that cells beside each other are so in memory. Levels that have no bodies are not looked
- * at. */
+/* A row of cells, and so a group, gets its places together, so that cells beside each other are so in memory. Levels without bodies are skipped. */
 __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 {
 	__local int wanted[GROUP_MOST], first, next;

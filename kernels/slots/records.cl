@@ -1,4 +1,4 @@
-/* The state as records in slots, one a body, and back; and what the host changes of some in between. */
+/* The state as records in slots, one a body, and back; and of some bodies alone, what the host changes and reads. */
 
 /* A body's push, from its texel of Forces. */
 float4 push_of(TEX_IN(uniforms), float4 f, float inverse_mass, float inverse_inertia, int i)
@@ -44,6 +44,17 @@ __kernel void slots_change(TEX_IN(uniforms), RECORD_IN(changes), LIST_IN(places)
 	ROW_STORE(forces, i, f);
 	if (!PEEK(status, STATUS_STALE))
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
+}
+
+__kernel void slots_pick(LIST_IN(places), RECORD_IN(slots), RECORD_OUT(changes), int4 domain)
+{
+	int k = get_global_id(0);
+	if (k >= domain.x)
+		return;
+	int i = domain.z + k, s = places[i];
+	float4 r = SLOT_LOAD(slots, s, SLOT_TURN);
+	changes[CHANGES_WIDTH * k + CHANGES_PLACE] = SLOT_LOAD(slots, s, SLOT_PLACE);
+	changes[CHANGES_WIDTH * k + CHANGES_TURN] = (float4)(CHANNEL(r, TURN_ANGLE), CHANNEL(r, TURN_VELOCITY), (float)i, 1.0f);
 }
 
 __kernel void slots_unload(RECORD_IN(slots), TEX_OUT(linear), TEX_OUT(rotational), int4 domain)

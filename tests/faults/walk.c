@@ -177,6 +177,7 @@ static void begin_anew(walk *w)
 	carom_error error;
 	scenery_check(carom_world_set_states(w->world, 0, BODIES, w->start, &error), &error);
 	scenery_check(carom_world_set_contacts(w->world, 0, NULL, &error), &error);
+	scenery_check(carom_textures_fetch(w->world, &error), &error); /* or what was set would be lost, too */
 	carom_textures_destroy(w->world);
 	profile(w, &error); /* the device forgets its launches */
 	if (w->grows) {

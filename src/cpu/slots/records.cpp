@@ -79,6 +79,21 @@ template <typename T> static void change(const Job<T> &job)
 	});
 }
 
+/* The states of some, one after the other. */
+template <typename T> static void pick(const Job<T> &job)
+{
+	const int32_t *places = job.list(0), first = job.domain[2];
+	const Slot<T> *slots = slots_of(job, 1);
+	const Records<T> states(job.records(2));
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
+		for (int32_t k = begin; k < end; k++) {
+			const Slot<T> &slot = slots[places[first + k]];
+			std::copy_n(slot.place, 4, &states.of(CHANGES_WIDTH * k + CHANGES_PLACE, 0));
+			states.put(CHANGES_WIDTH * k + CHANGES_TURN, slot.turn[TURN_ANGLE], slot.turn[TURN_VELOCITY], static_cast<T>(first + k), 1);
+		}
+	});
+}
+
 /* What a slot tells of the state. */
 template <typename T> struct Moved {
 	T place[4], turn[4];
@@ -112,7 +127,8 @@ template <typename T> static void unload(const Job<T> &job)
 
 extern const Stage slots_records;
 const Stage slots_records{"slots", "records",
-	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}}, nullptr,
-	nullptr};
+	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_PICK, pick<float>, pick<double>},
+		{STAGE_UNLOAD, unload<float>, unload<double>}},
+	nullptr, nullptr};
 
 }
