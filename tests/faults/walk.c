@@ -309,3 +309,59 @@ bool walk_growing(const scenery_device *device, faults_kind kind, walk_judge *ju
 {
 	return walk_world(device, "events", true, kind, judge);
 }
+
+/* ---- Steering */
+
+static const carom_body_state steered[2] = {{{-2.5f, -2.5f}, 0.0f, {4.0f, 3.0f}, 0.0f}, {{-1.25f, -2.5f}, 0.5f, {-3.0f, 5.0f}, 2.0f}};
+
+/* The states that were read are those of the body that is not steered. */
+static carom_status steer(carom_world *world, carom_body_state *read, carom_report *report, carom_error *error)
+{
+	carom_status status = carom_world_set_states(world, 0, 2, steered, error);
+	if (!status)
+		status = carom_world_set_force(world, 2, (carom_vec2){3.0f, -2.0f}, 1.0f, error);
+	if (!status)
+		status = carom_world_get_states(world, 3, 1, read, error);
+	return status ? status : carom_world_step(world, 1, report, error);
+}
+
+static void restart(carom_world *world, const carom_body_state *start)
+{
+	carom_error error;
+	scenery_check(carom_world_set_states(world, 0, BODIES, start, &error), &error);
+	scenery_check(carom_world_set_force(world, 2, (carom_vec2){0.0f, 0.0f}, 0.0f, &error), &error);
+	runs_step(world, 1);
+	world->events.change_room = 0; /* say so: it grows */
+}
+
+bool walk_steering(const scenery_device *device, faults_kind kind, walk_judge *judge)
+{
+	carom_world *world = crowd(device, "events");
+	carom_body_state start[BODIES], other;
+	const char *failed = "";
+	uint64_t n, first = 0;
+	carom_error error;
+	if (!world)
+		return false;
+	scenery_check(carom_world_get_states(world, 0, BODIES, start, &error), &error);
+	restart(world, start);
+	other = runs_state(world, 3);
+	for (n = 1; failed; n++) {
+		carom_body_state read = other;
+		carom_report report = {0};
+		restart(world, start);
+		faults_arm(kind, n, walk_code(n));
+		const carom_status status = steer(world, &read, &report, &error);
+		failed = faults_disarm();
+		if (status)
+			judge(failed, status, &error);
+		if (status && report.steps == 0)
+			scenery_check(steer(world, &read, &report, &error), &error);
+		assert_memory_equal(&read, &other, sizeof read);
+		runs_same_hash(&first, runs_hash(world), device);
+	}
+	print_message("%s, steered: %llu calls\n", device->name, (unsigned long long)n - 1);
+	carom_world_destroy(world);
+	nothing_is_alive(NULL);
+	return true;
+}

@@ -20,6 +20,9 @@ void walk_running(const scenery_device *device, const char *step, faults_kind ki
 /* The first steps of events alone, whose lists of neighbours are too small and grow, likewise. False where there is no such device. */
 bool walk_growing(const scenery_device *device, faults_kind kind, walk_judge *judge);
 
+/* Bodies of a world that goes on are changed and read, and it takes a step, likewise. False where there is no such device. */
+bool walk_steering(const scenery_device *device, faults_kind kind, walk_judge *judge);
+
 /* The code that the n-th call gives. */
 int walk_code(uint64_t nth);
 
