@@ -9,7 +9,7 @@
 #include "step/events.h"
 
 #define FIRST_CHANGES 64 /* bodies that Changes has room for */
-#define PICKED_PART 4    /* of all bodies: more are read with all others */
+#define PICKED_PART 4    /* of all bodies: more than that are many */
 
 static size_t count_of(const carom_world *world)
 {
@@ -26,7 +26,7 @@ static bool goes_on(const carom_world *world)
 static carom_status reserve(carom_world *world, size_t count, carom_error *error)
 {
 	const size_t size = count * sizeof(carom_change);
-	if (size > 0 && !carom_array_grow(&world->changes, size))
+	if (!carom_array_grow(&world->changes, size))
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to change %zu bodies", count);
 	world->changes.used -= size;
 	return CAROM_OK;
@@ -144,7 +144,7 @@ carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t c
 	if (count > 0)
 		GIVEN(states, error);
 	TRY(carom_check_bodies(world, first, count, error));
-	if (count > 0 && count < world->body_count / PICKED_PART && !world->host_current && goes_on(world))
+	if (count > 0 && count <= world->body_count / PICKED_PART && !world->host_current && goes_on(world))
 		return pick(world, first, (uint32_t)count, states, error);
 	TRY(carom_textures_fetch(world, error));
 	for (size_t i = 0; i < count; i++)
@@ -176,13 +176,17 @@ static void set_state(carom_world *world, uint32_t index, const carom_body_state
 		change->moves = true;
 		memcpy(change->linear, linear, sizeof linear);
 		memcpy(change->rotational, rotational, sizeof rotational);
-	} else {
-		world->device_current = false;
 	}
 	if (world->host_current) {
 		memcpy((float *)world->linear.items + 4 * (size_t)index, linear, sizeof linear);
 		memcpy((float *)world->rotational.items + 4 * (size_t)index, rotational, sizeof rotational);
 	}
+}
+
+/* Who sets many and has not read them goes back to where they were, far from where they are: then it costs less to load all than to look for what is around each. */
+static bool is_set_anew(const carom_world *world, size_t count)
+{
+	return !world->host_current && count > world->body_count / PICKED_PART;
 }
 
 carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
@@ -194,9 +198,13 @@ carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t c
 	TRY(carom_check_bodies(world, first, count, error));
 	for (size_t i = 0; i < count; i++)
 		TRY(check_state(world, first + (uint32_t)i, &states[i], error));
-	if (!goes_on(world))
-		TRY(carom_textures_fetch(world, error));
+	if (count == 0)
+		return CAROM_OK;
 	TRY(reserve(world, count, error));
+	if (!goes_on(world) || is_set_anew(world, count)) {
+		TRY(carom_textures_fetch(world, error));
+		world->device_current = false;
+	}
 	for (size_t i = 0; i < count; i++)
 		set_state(world, first + (uint32_t)i, &states[i]);
 	return CAROM_OK;
