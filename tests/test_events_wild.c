@@ -1,9 +1,10 @@
-/* Whatever comes of a wild world, it is the same on every device, with any number of threads, and when a run stops and goes on. */
+/* Whatever comes of a wild world, it is the same on every device, with any number of threads, when a run stops and goes on, and whoever looks at whom. */
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "runs.h"
+#include "step/events.h"
 #include "wild.h"
 
 /* What a run came to. */
@@ -54,6 +55,52 @@ static outcome run_in_halves(carom_world *world, uint32_t steps)
 	return o;
 }
 
+/* With new lists for each step, so that all look at each other in it. */
+static outcome run_looking(carom_world *world, uint32_t steps)
+{
+	outcome o = {0};
+	for (uint32_t i = 0; i < steps; i++) {
+		carom_events_drop_lists(world);
+		go_on(world, 1, 1, &o);
+	}
+	o.hash = runs_hash(world);
+	carom_world_destroy(world);
+	return o;
+}
+
+/* A body gets another velocity, if it may have one. */
+static void steer(carom_world *world, uint32_t index)
+{
+	carom_body_state state = runs_state(world, index);
+	carom_body_info info;
+	carom_error error;
+	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
+	if (info.is_static)
+		return;
+	state.velocity = (carom_vec2){1.0f - state.velocity.y, state.velocity.x};
+	scenery_check(carom_world_set_states(world, index, 1, &state, &error), &error);
+	if (!info.is_kinematic)
+		scenery_check(carom_world_set_force(world, index, (carom_vec2){3.0f * info.mass, info.mass}, 0.0f, &error), &error);
+}
+
+/* Bodies are steered before each third step; `anew`: and then all are loaded anew. */
+static outcome run_steered(carom_world *world, uint32_t steps, bool anew)
+{
+	const uint32_t count = (uint32_t)carom_world_body_count(world);
+	outcome o = {0};
+	carom_error error;
+	for (uint32_t i = 0; i < steps; i++) {
+		if (i % 3 == 0)
+			steer(world, 7 * i % count);
+		if (anew)
+			scenery_check(carom_world_set_gravity(world, carom_world_get_def(world)->gravity, &error), &error);
+		go_on(world, 1, 1, &o);
+	}
+	o.hash = runs_hash(world);
+	carom_world_destroy(world);
+	return o;
+}
+
 static void check_same(const outcome *first, outcome found, const scenery_device *device, const char *how)
 {
 	if (found.hash != first->hash || found.hits != first->hits || found.ruled != first->ruled || found.held != first->held)
@@ -70,6 +117,9 @@ static void check_one_outcome(wild_world *wild, uint32_t steps)
 	wild->def.threads = 1;
 	const outcome first = run(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, 1);
 	print_message("%u bodies, %llu hits\n", (unsigned)wild->count, (unsigned long long)first.hits);
+	check_same(&first, run_looking(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps), cpu, "looking each step");
+	const outcome steered = run_steered(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, true);
+	check_same(&steered, run_steered(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, false), cpu, "steered");
 	wild->def.threads = 2;
 	check_same(&first, run_in_halves(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps), cpu, "in halves");
 	for (; wild->def.threads <= 3; wild->def.threads++)
@@ -105,6 +155,8 @@ static void other_worlds_have_one_outcome(void **unused)
 	for (uint64_t seed = from ? strtoull(from, NULL, 10) : 1; difftime(time(NULL), begun) < seconds; seed++) {
 		print_message("CAROM_WILD_SEED=%llu: ", (unsigned long long)seed);
 		wild_make_wider(seed, &wild);
+		if (seed % 2)
+			wild_add_watchers(&wild);
 		check_one_outcome(&wild, (uint32_t)runs_affordable(60));
 	}
 }

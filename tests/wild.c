@@ -180,3 +180,14 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 	if (one_in(&random, 12))
 		make_tight(&random, world);
 }
+
+/* Tiny static bodies in a row below all others, where few get. */
+void wild_add_watchers(wild_world *world)
+{
+	const carom_vec2 low = world->def.room_min, high = world->def.room_max;
+	for (uint32_t i = 0; i < WILD_WATCHERS; i++) {
+		carom_body_def *watcher = &world->bodies[world->count++];
+		*watcher = scenery_circle(low.x + (high.x - low.x) * ((float)i + 0.5f) / (float)WILD_WATCHERS, low.y + 0.004f, 0.0f, 0.0f, 0.002f);
+		watcher->is_static = true;
+	}
+}
