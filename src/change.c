@@ -1,34 +1,20 @@
-/* What may be changed of a whole world once it is made: its gravity, how long its steps are, and which bodies there are. */
+/* What may be changed of a world once it is made, so that the device is loaded anew: how long its steps are, and which bodies there are. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "status.h"
 #include "world.h"
 
-/* What the def says from now on, if that is allowed. */
-static carom_status change_def(carom_world *world, const carom_world_def *def, carom_error *error)
-{
-	TRY(carom_check_idle(world, error));
-	TRY(carom_check_world_def(def, error));
-	world->def = *def;
-	world->bodies_current = false;
-	return CAROM_OK;
-}
-
-carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, carom_error *error)
-{
-	GIVEN(world, error);
-	carom_world_def def = world->def;
-	def.gravity = gravity;
-	return change_def(world, &def, error);
-}
-
 carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error)
 {
 	GIVEN(world, error);
 	carom_world_def def = world->def;
 	def.time_step = time_step;
-	return change_def(world, &def, error);
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_world_def(&def, error));
+	world->def = def;
+	world->bodies_current = false;
+	return CAROM_OK;
 }
 
 /* ---- Bodies that go ---- */

@@ -127,6 +127,10 @@ bool carom_range_holds(carom_world *world)
 	const size_t count = world->changes.used / sizeof *changes;
 	const carom_range before = grown(&world->range, world->time);
 	carom_range all = before;
+	if (!world->gravity_sent) {
+		all.push += larger_of(world->def.gravity);
+		all.speed += all.push * (double)world->def.time_step;
+	}
 	for (size_t k = 0; k < count; k++) {
 		const bool moves = changes[k].moves;
 		carom_range most = range_of(world, &carom_world_bodies(world)[changes[k].body], moves ? changes[k].linear : still,
@@ -135,7 +139,7 @@ bool carom_range_holds(carom_world *world)
 		most.spin += moves ? 0.0 : before.spin;
 		all = both(&all, &most);
 	}
-	if (count > 0) {
+	if (count > 0 || !world->gravity_sent) {
 		if (excess(world, &all) || has_momentum(&all))
 			return false;
 		world->range = all;

@@ -29,6 +29,7 @@ const carom_stage_def carom_stages[STAGE_COUNT] = {
 	[STAGE_LOAD] = {"slots", NULL, "slots_load", 5, 3, {STATE, ROLE_SLOTS, ROLE_NEED, ROLE_PLACES}},
 	[STAGE_CHANGE] = {"slots", NULL, "slots_change", 8, 1,
 		{ROLE_UNIFORMS, ROLE_CHANGES, ROLE_PLACES, ROLE_SLOTS, ROLE_REACH, ROLE_STATUS, ROLE_WAKE, ROLE_MOVERS, ROLE_FORCES}},
+	[STAGE_PUSH] = {"slots", NULL, "slots_push", 7, 0, {ROLE_UNIFORMS, ROLE_FORCES, ROLE_SLOTS, ROLE_REACH, ROLE_STATUS, ROLE_WAKE, ROLE_MOVERS}},
 	[STAGE_PICK] = {"slots", NULL, "slots_pick", 3, 0, {ROLE_PLACES, ROLE_SLOTS, ROLE_CHANGES}},
 	[STAGE_PACE] = {"neighbours", NULL, "neighbours_pace", 3, 0, {ROLE_UNIFORMS, ROLE_SLOTS, ROLE_STATUS}},
 	[STAGE_REACH] = {"neighbours", NULL, "neighbours_reach", 6, 0, {ROLE_OUTLINES, ROLE_SLOTS, ROLE_NEED, ROLE_STATUS, ROLE_SPANS, ROLE_CELLS}},

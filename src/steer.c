@@ -1,4 +1,4 @@
-/* Single bodies between two steps: their states are read and changed, and what pushes them. Where the step events has them in its slots, it tells of few alone,
+/* Bodies between two steps: their states are read and changed, and what pushes them. Where the step events has them in its slots, it tells of few alone,
  * and changes are noted, and handed over together before it goes on, with its lists as they are. */
 #include <math.h>
 #include <stdlib.h>
@@ -103,14 +103,25 @@ static carom_status tell(carom_world *world, uint32_t count, carom_error *error)
 	return CAROM_OK;
 }
 
+static carom_status tell_gravity(carom_world *world, carom_error *error)
+{
+	TRY(carom_uniforms_send(world, error));
+	return carom_run(world, STAGE_PUSH, (int32_t)world->body_count, 1, carom_events_movers(world), 0, error);
+}
+
 carom_status carom_changes_send(carom_world *world, carom_error *error)
 {
 	const uint32_t count = (uint32_t)count_of(world);
 	const carom_change *changes = world->changes.items;
-	if (count > 0 && world->device_current)
-		TRY(tell(world, count, error));
-	else if (count > 0)
+	if (count == 0 && world->gravity_sent)
+		return CAROM_OK;
+	if (!world->device_current)
 		world->bodies_current = false; /* the host has all of it, and the device is to be loaded anew */
+	if (world->device_current && !world->gravity_sent)
+		TRY(tell_gravity(world, error));
+	world->gravity_sent = true;
+	if (world->device_current && count > 0)
+		TRY(tell(world, count, error));
 	for (uint32_t k = 0; k < count; k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
 	world->changes.used = 0;
@@ -229,5 +240,20 @@ carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec
 	}
 	body->force = force;
 	body->torque = torque;
+	return CAROM_OK;
+}
+
+carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, carom_error *error)
+{
+	GIVEN(world, error);
+	carom_world_def def = world->def;
+	def.gravity = gravity;
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_world_def(&def, error));
+	world->def = def;
+	if (goes_on(world))
+		world->gravity_sent = false;
+	else
+		world->bodies_current = false;
 	return CAROM_OK;
 }

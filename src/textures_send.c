@@ -75,30 +75,31 @@ static void fill_vertices(const carom_world *world, float *texels)
 	}
 }
 
-/* Uploads `count` texels, padded with zeros to whole rows; `texels` has room for that. */
-static carom_status upload(carom_world *world, carom_role role, uint32_t count, const float *texels, carom_error *error)
+typedef void fill_texels(const carom_world *world, float *texels);
+
+/* Uploads `count` texels, padded with zeros to whole rows. */
+static carom_status send(carom_world *world, carom_role role, uint32_t count, fill_texels *fill, carom_error *error)
 {
-	return world->device->kind->upload(world->device, world->textures[role].front, carom_row_count(count), texels, error);
+	float *texels = calloc(count, 4 * sizeof *texels);
+	if (!texels)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
+	fill(world, texels);
+	const carom_status status = world->device->kind->upload(world->device, world->textures[role].front, carom_row_count(count), texels, error);
+	free(texels);
+	return status;
+}
+
+carom_status carom_uniforms_send(carom_world *world, carom_error *error)
+{
+	return send(world, ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms, error);
 }
 
 /* One after the other, since of millions of bodies each takes much memory. */
 carom_status carom_textures_send(carom_world *world, carom_error *error)
 {
-	const struct {
-		carom_role role;
-		uint32_t count;
-		void (*fill)(const carom_world *world, float *texels);
-	} parts[] = {{ROLE_GEOMETRY, world->capacity, fill_geometry}, {ROLE_FORCES, world->capacity, fill_forces},
-		{ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction}, {ROLE_VERTICES, world->vertex_capacity, fill_vertices},
-		{ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms}};
-	carom_status status = CAROM_OK;
-	for (size_t i = 0; !status && i < sizeof parts / sizeof *parts; i++) {
-		float *texels = calloc(parts[i].count, 4 * sizeof *texels);
-		if (!texels)
-			return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
-		parts[i].fill(world, texels);
-		status = upload(world, parts[i].role, parts[i].count, texels, error);
-		free(texels);
-	}
-	return status;
+	TRY(send(world, ROLE_GEOMETRY, world->capacity, fill_geometry, error));
+	TRY(send(world, ROLE_FORCES, world->capacity, fill_forces, error));
+	TRY(send(world, ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction, error));
+	TRY(send(world, ROLE_VERTICES, world->vertex_capacity, fill_vertices, error));
+	return carom_uniforms_send(world, error);
 }

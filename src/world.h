@@ -120,6 +120,7 @@ struct carom_world {
 	bool bodies_current;                  /* the device's constant textures are those of the bodies */
 	bool device_current;                  /* the device has the host's state */
 	bool host_current;                    /* the host has the device's state */
+	bool gravity_sent;                    /* the device has that, too */
 	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
@@ -202,6 +203,7 @@ carom_status carom_hits_take(carom_world *world, uint32_t first, uint32_t end, c
 carom_status carom_hits_add(carom_world *world, const carom_hit *hit, carom_error *error);
 /* textures_send.c: what bodies are, as the device has it */
 carom_status carom_textures_send(carom_world *world, carom_error *error);
+carom_status carom_uniforms_send(carom_world *world, carom_error *error);
 void carom_forces_fill(const carom_body *body, float texel[4]); /* of Forces */
 /* Is the world's device one that runs many work-items at once, and slowly each? */
 bool carom_is_gpu(const carom_world *world);

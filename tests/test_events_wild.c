@@ -92,8 +92,10 @@ static outcome run_steered(carom_world *world, uint32_t steps, bool anew)
 	for (uint32_t i = 0; i < steps; i++) {
 		if (i % 3 == 0)
 			steer(world, 7 * i % count);
+		if (i % 12 == 9)
+			scenery_check(carom_world_set_gravity(world, (carom_vec2){(float)(i % 5) - 2.0f, -1.0f}, &error), &error);
 		if (anew)
-			scenery_check(carom_world_set_gravity(world, carom_world_get_def(world)->gravity, &error), &error);
+			scenery_check(carom_world_set_time_step(world, carom_world_get_def(world)->time_step, &error), &error);
 		go_on(world, 1, 1, &o);
 	}
 	o.hash = runs_hash(world);

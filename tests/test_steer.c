@@ -82,7 +82,7 @@ static carom_world *crowd(const scenery_device *device, const char *step)
 	return runs_world(&def, device, bodies, CROWD);
 }
 
-/* The bits of a world that is loaded anew before each step, as it is once gravity was set. */
+/* The bits of a world that is loaded anew before each step, as it is once a time step was set. */
 static void it_is_as_loaded_anew(void **unused)
 {
 	static const char *const steps[] = {"events", "contacts"};
@@ -101,8 +101,10 @@ static void it_is_as_loaded_anew(void **unused)
 					if (step % 10 == 5)
 						steer_all(world, &random, step % 20 == 5);
 					carom_error error;
+					if (step % 7 == 6)
+						scenery_check(carom_world_set_gravity(world, (carom_vec2){0.5f * (float)step, -9.0f}, &error), &error);
 					if (anew)
-						scenery_check(carom_world_set_gravity(world, (carom_vec2){0.0f, -9.81f}, &error), &error);
+						scenery_check(carom_world_set_time_step(world, carom_world_get_def(world)->time_step, &error), &error);
 					runs_step(world, 1 + (uint64_t)(step % 2));
 				}
 				if (world)

@@ -46,6 +46,21 @@ __kernel void slots_change(TEX_IN(uniforms), RECORD_IN(changes), LIST_IN(places)
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 }
 
+/* Gravity is another one. */
+__kernel void slots_push(TEX_IN(uniforms), TEX_IN(forces), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers),
+	int4 domain)
+{
+	int s = get_global_id(0), i;
+	if (s >= domain.x || !slot_is_dynamic(slots, s))
+		return;
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	i = slot_body(slots, s);
+	slots[SLOT_WIDTH * s + SLOT_PUSH] = push_of(TEX(uniforms), ROW_LOAD(forces, i), CHANNEL(mass, MASS_INVERSE), CHANNEL(mass, MASS_INVERSE_INERTIA),
+		i);
+	if (!PEEK(status, STATUS_STALE))
+		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
+}
+
 __kernel void slots_pick(LIST_IN(places), RECORD_IN(slots), RECORD_OUT(changes), int4 domain)
 {
 	int k = get_global_id(0);

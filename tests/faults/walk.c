@@ -321,6 +321,8 @@ static carom_status steer(carom_world *world, carom_body_state *read, carom_repo
 	if (!status)
 		status = carom_world_set_force(world, 2, (carom_vec2){3.0f, -2.0f}, 1.0f, error);
 	if (!status)
+		status = carom_world_set_gravity(world, (carom_vec2){1.0f, -2.0f}, error);
+	if (!status)
 		status = carom_world_get_states(world, 3, 1, read, error);
 	return status ? status : carom_world_step(world, 1, report, error);
 }
@@ -330,6 +332,7 @@ static void restart(carom_world *world, const carom_body_state *start)
 	carom_error error;
 	scenery_check(carom_world_set_states(world, 0, BODIES, start, &error), &error);
 	scenery_check(carom_world_set_force(world, 2, (carom_vec2){0.0f, 0.0f}, 0.0f, &error), &error);
+	scenery_check(carom_world_set_gravity(world, (carom_vec2){0.0f, 0.0f}, &error), &error);
 	runs_step(world, 1);
 	world->events.change_room = 0; /* say so: it grows */
 }

@@ -79,6 +79,26 @@ template <typename T> static void change(const Job<T> &job)
 	});
 }
 
+/* All that gravity pushes, once it is another one. */
+template <typename T> static void push_all(const Job<T> &job)
+{
+	const Texels<T> uniforms = job.texels(0), forces = job.texels(1);
+	Slot<T> *slots = slots_of(job, 2);
+	const int32_t *status = job.list(4);
+	const ReachKeeper<T> keeper(slots, job.records(3), job.list(4), job.list(5), job.list(6), job.domain[2], uniforms);
+	const T gravity_x = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_X), gravity_y = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_Y);
+	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
+		for (int32_t s = begin; s < end; s++) {
+			if (!slots[s].is_dynamic())
+				continue;
+			const int32_t body = slots[s].body();
+			push(slots[s], gravity_x, gravity_y, forces.of(body, FORCES_X), forces.of(body, FORCES_Y), forces.of(body, FORCES_TORQUE));
+			if (!__atomic_load_n(&status[STATUS_STALE], __ATOMIC_RELAXED))
+				keeper.pushed(s);
+		}
+	});
+}
+
 /* The states of some, one after the other. */
 template <typename T> static void pick(const Job<T> &job)
 {
@@ -127,8 +147,8 @@ template <typename T> static void unload(const Job<T> &job)
 
 extern const Stage slots_records;
 const Stage slots_records{"slots", "records",
-	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_PICK, pick<float>, pick<double>},
-		{STAGE_UNLOAD, unload<float>, unload<double>}},
+	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_PUSH, push_all<float>, push_all<double>},
+		{STAGE_PICK, pick<float>, pick<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}},
 	nullptr, nullptr};
 
 }
