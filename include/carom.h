@@ -299,7 +299,8 @@ CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first
  * kinematic body takes none: for it anything but 0 is CAROM_INVALID_ARGUMENT. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
 
-/** Gravity (m/s^2, finite) from now on; carom_world_get_def has it, too. */
+/** Gravity (m/s^2, finite) from now on; carom_world_get_def has it, too. It may be another one before each step: by events and contacts all bodies then look for hits in it, but none
+ * is loaded anew. */
 CAROM_API carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, carom_error *error);
 /** The time step (s) from now on, as in carom_world_def; carom_world_get_def has it, too. */
 CAROM_API carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error);
