@@ -11,9 +11,9 @@ static void fill(scenery_random *random, scenery_shapes shapes, int side, float 
 {
 	const float pitch = shapes == SCENERY_CIRCLES ? 2.8f * radius : 2.1f * radius; /* pi / 2.8^2 = 0.40, 1.3 / 2.1^2 = 0.29 */
 	for (int i = 0; i < side * side; i++) {
-		carom_body_def def = scenery_circle(pitch * ((float)(i % side) - 0.5f * (float)(side - 1)),
-			pitch * ((float)(i / side) - 0.5f * (float)(side - 1)), scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed),
-			radius);
+		const float vy = scenery_uniform(random, -speed, speed), vx = scenery_uniform(random, -speed, speed);
+		const float middle = 0.5f * (float)(side - 1);
+		carom_body_def def = scenery_circle(pitch * ((float)(i % side) - middle), pitch * ((float)(i / side) - middle), vx, vy, radius);
 		if (shapes == SCENERY_POLYGONS || (shapes == SCENERY_MIXED && i % 2)) {
 			def.shape = CAROM_REGULAR;
 			def.sides = shapes == SCENERY_POLYGONS ? 3 : 3 + (uint32_t)(i / 2) % 4;

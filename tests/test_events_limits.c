@@ -174,7 +174,8 @@ static void spinning_bars(void **unused)
 	for (int i = 0; i < COUNT; i++) {
 		const float x = 1.2f * (float)(i % 3 - 1), y = 1.2f * (float)(i / 3 - 1), speed = 20.0f;
 		static carom_vec2 corners[4] = {{-0.5f, -0.005f}, {0.5f, -0.005f}, {0.5f, 0.005f}, {-0.5f, 0.005f}};
-		bodies[i] = scenery_box(x, y, scenery_uniform(&random, -speed, speed), scenery_uniform(&random, -speed, speed), 1.0f, 1.0f);
+		const float vy = scenery_uniform(&random, -speed, speed), vx = scenery_uniform(&random, -speed, speed);
+		bodies[i] = scenery_box(x, y, vx, vy, 1.0f, 1.0f);
 		bodies[i].vertices = corners;
 		bodies[i].angle = scenery_uniform(&random, -3.0f, 3.0f);
 		bodies[i].is_static = i == 4;

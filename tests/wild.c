@@ -18,7 +18,8 @@ static bool one_in(scenery_random *random, uint32_t many)
 static carom_body_def wild_body(scenery_random *random, uint32_t shapes, float speed)
 {
 	const float small = one_in(random, 6) ? 0.02f : 0.6f, radius = 0.5f * scenery_uniform(random, small, 1.0f);
-	carom_body_def body = scenery_circle(0.0f, 0.0f, scenery_uniform(random, -speed, speed), scenery_uniform(random, -speed, speed), radius);
+	const float vy = scenery_uniform(random, -speed, speed), vx = scenery_uniform(random, -speed, speed);
+	carom_body_def body = scenery_circle(0.0f, 0.0f, vx, vy, radius);
 	if (shapes == 1 || (shapes == 2 && one_in(random, 2))) {
 		body.shape = CAROM_REGULAR;
 		body.sides = 3 + below(random, 5);
