@@ -78,9 +78,9 @@ static carom_status read_clock(carom_world *world, carom_report *report, carom_e
 static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *error)
 {
 	carom_status status = world->step->begin ? world->step->begin(world, error) : CAROM_OK;
-	world->host_current = false;
 	if (status)
 		return status;
+	world->newest = world->newest & PLACE_SLOTS ? PLACE_SLOTS : PLACE_TEXTURES;
 	world->contacts_current = false; /* not before: what is not sent the host alone has */
 	for (uint64_t i = 0; !status && i < steps; i++)
 		status = world->step->run(world, error);
@@ -167,7 +167,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 /* What the device has made itself is good to go on from, for a while. */
 static carom_status get_ready(carom_world *world, carom_error *error)
 {
-	const bool is_changed = !world->bodies_current || !world->device_current, is_good = !is_changed && carom_range_holds(world);
+	const bool is_changed = !world->bodies_current || world->newest == PLACE_HOST, is_good = !is_changed && carom_range_holds(world);
 	carom_status status = is_good ? CAROM_OK : carom_textures_fetch(world, error);
 	if (is_changed)
 		world->stalled = 0; /* what stood still did so as it was before */

@@ -198,7 +198,7 @@ carom_status carom_canvas_send_transforms(carom_world *world, carom_error *error
 	TRY(carom_canvas_hold(world, ROLE_TRANSFORMS, count, error)); /* kernels have it as an argument, read or not */
 	if (!count)
 		return CAROM_OK;
-	world->host_current = false;
+	world->newest &= ~(unsigned)PLACE_HOST;
 	TRY(carom_textures_fetch(world, error));
 	texels = texels_for(world, ROLE_TRANSFORMS);
 	if (!texels)

@@ -155,6 +155,7 @@ carom_status carom_world_remove(carom_world *world, const uint32_t *indices, siz
 	carom_look_for_friction(world, 0);
 	world->hits.used = 0; /* which were of other indices */
 	world->canvas.body_count = SIZE_MAX;
-	world->bodies_current = world->device_current = false;
+	world->bodies_current = false;
+	world->newest = PLACE_HOST;
 	return CAROM_OK;
 }

@@ -19,7 +19,7 @@ static size_t count_of(const carom_world *world)
 /* Can the device go on with a body that is changed, without being loaded anew? */
 static bool goes_on(const carom_world *world)
 {
-	return world->events.loaded && !world->events.within && world->prepared && world->bodies_current && world->device_current;
+	return world->newest & PLACE_SLOTS && !world->events.within && world->prepared && world->bodies_current;
 }
 
 /* Room for so many changes more, which then do not fail. */
@@ -99,7 +99,7 @@ static carom_status tell(carom_world *world, uint32_t count, carom_error *error)
 	TRY(make_room(world, count, error));
 	TRY(upload(world, count, error));
 	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
-	world->events.ahead = true;
+	world->newest &= ~(unsigned)PLACE_TEXTURES;
 	return CAROM_OK;
 }
 
@@ -115,12 +115,12 @@ carom_status carom_changes_send(carom_world *world, carom_error *error)
 	const carom_change *changes = world->changes.items;
 	if (count == 0 && world->gravity_sent)
 		return CAROM_OK;
-	if (!world->device_current)
+	if (!(world->newest & PLACE_SLOTS))
 		world->bodies_current = false; /* the host has all of it, and the device is to be loaded anew */
-	if (world->device_current && !world->gravity_sent)
+	else if (!world->gravity_sent)
 		TRY(tell_gravity(world, error));
 	world->gravity_sent = true;
-	if (world->device_current && count > 0)
+	if (world->newest & PLACE_SLOTS && count > 0)
 		TRY(tell(world, count, error));
 	for (uint32_t k = 0; k < count; k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
@@ -155,7 +155,7 @@ carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t c
 	if (count > 0)
 		GIVEN(states, error);
 	TRY(carom_check_bodies(world, first, count, error));
-	if (count > 0 && count <= world->body_count / PICKED_PART && !world->host_current && goes_on(world))
+	if (count > 0 && count <= world->body_count / PICKED_PART && !(world->newest & PLACE_HOST) && goes_on(world))
 		return pick(world, first, (uint32_t)count, states, error);
 	TRY(carom_textures_fetch(world, error));
 	for (size_t i = 0; i < count; i++)
@@ -188,7 +188,7 @@ static void set_state(carom_world *world, uint32_t index, const carom_body_state
 		memcpy(change->linear, linear, sizeof linear);
 		memcpy(change->rotational, rotational, sizeof rotational);
 	}
-	if (world->host_current) {
+	if (world->newest & PLACE_HOST) {
 		memcpy((float *)world->linear.items + 4 * (size_t)index, linear, sizeof linear);
 		memcpy((float *)world->rotational.items + 4 * (size_t)index, rotational, sizeof rotational);
 	}
@@ -197,7 +197,7 @@ static void set_state(carom_world *world, uint32_t index, const carom_body_state
 /* Who sets many and has not read them goes back to where they were, far from where they are: then it costs less to load all than to look for what is around each. */
 static bool is_set_anew(const carom_world *world, size_t count)
 {
-	return !world->host_current && count > world->body_count / PICKED_PART;
+	return !(world->newest & PLACE_HOST) && count > world->body_count / PICKED_PART;
 }
 
 carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
@@ -214,7 +214,7 @@ carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t c
 	TRY(reserve(world, count, error));
 	if (!goes_on(world) || is_set_anew(world, count)) {
 		TRY(carom_textures_fetch(world, error));
-		world->device_current = false;
+		world->newest = PLACE_HOST;
 	}
 	for (size_t i = 0; i < count; i++)
 		set_state(world, first + (uint32_t)i, &states[i]);

@@ -141,8 +141,8 @@ void carom_textures_destroy(carom_world *world)
 		world->levels[i] = NULL;
 	}
 	world->capacity = world->vertex_capacity = world->polygon_capacity = 0;
-	world->bodies_current = world->device_current = world->prepared = false;
-	world->events.loaded = world->events.ahead = false;
+	world->bodies_current = world->prepared = false;
+	world->newest &= PLACE_HOST;
 	world->canvas = (carom_canvas){0};
 }
 
@@ -251,15 +251,11 @@ static carom_status transfer(carom_world *world, bool down, carom_error *error)
 	return status;
 }
 
-/* The textures of the state, where the step has a newer one of its own, and the host has none. */
+/* The textures of the state, where the slots have a newer one. */
 static carom_status unload(carom_world *world, carom_error *error)
 {
-	carom_status status = carom_changes_send(world, error);
-	if (!status && world->events.ahead && world->device_current)
-		status = world->step->unload(world, error);
-	if (!status)
-		world->events.ahead = false;
-	return status;
+	TRY(carom_changes_send(world, error));
+	return world->newest & PLACE_SLOTS && !(world->newest & PLACE_TEXTURES) ? world->step->unload(world, error) : CAROM_OK;
 }
 
 static carom_status hold(carom_world *world, carom_error *error)
@@ -279,30 +275,27 @@ static carom_status hold(carom_world *world, carom_error *error)
 		world->vertex_capacity = vertex_capacity;
 		world->polygon_capacity = polygon_capacity;
 	}
-	if (!world->bodies_current || !world->device_current)
-		world->events.loaded = false;
-	if (!world->bodies_current)
-		status = carom_textures_send(world, error);
-	if (status)
-		return status;
+	if (!world->bodies_current) {
+		world->newest &= ~(unsigned)PLACE_SLOTS; /* which know of the bodies, too */
+		TRY(carom_textures_send(world, error));
+	}
 	world->bodies_current = true;
-	if (!world->device_current)
-		status = transfer(world, false, error);
-	if (!status)
-		world->device_current = true;
-	return status;
+	if (!(world->newest & PLACE_TEXTURES))
+		TRY(transfer(world, false, error));
+	world->newest |= PLACE_TEXTURES;
+	return CAROM_OK;
 }
 
 carom_status carom_textures_hold(carom_world *world, carom_error *error)
 {
 	carom_status status = unload(world, error);
-	return status || (world->bodies_current && world->device_current) ? status : hold(world, error);
+	return status || (world->bodies_current && world->newest & PLACE_TEXTURES) ? status : hold(world, error);
 }
 
 carom_status carom_textures_update(carom_world *world, carom_error *error)
 {
 	carom_status status;
-	if (world->prepared && world->bodies_current && world->device_current)
+	if (world->prepared && world->bodies_current && world->newest != PLACE_HOST)
 		return carom_changes_send(world, error);
 	status = carom_textures_hold(world, error);
 	if (status || world->prepared)
@@ -322,12 +315,12 @@ carom_status carom_textures_update(carom_world *world, carom_error *error)
 carom_status carom_textures_fetch(carom_world *world, carom_error *error)
 {
 	carom_status status;
-	if (world->host_current)
+	if (world->newest & PLACE_HOST)
 		return CAROM_OK;
 	status = unload(world, error);
 	if (!status)
 		status = transfer(world, true, error);
 	if (!status)
-		world->host_current = true;
+		world->newest |= PLACE_HOST;
 	return status;
 }

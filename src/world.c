@@ -58,7 +58,8 @@ carom_status carom_world_create(const carom_world_def *def, carom_world **world,
 	w->pipeline = device_def.pipeline;
 	keep_names(&w->def.pipeline, &w->pipeline);
 	w->step = step_named(w->pipeline.step);
-	w->host_current = w->contacts_current = w->gravity_sent = true;
+	w->contacts_current = w->gravity_sent = true;
+	w->newest = PLACE_HOST;
 	w->target = NAN;
 	w->batch = 1;
 	if (def->device) {
@@ -189,7 +190,8 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 	carom_look_for_friction(world, before);
 	if (first)
 		*first = (uint32_t)before;
-	world->bodies_current = world->device_current = world->contacts_sent = false; /* where others were before, the device still has their contacts */
+	world->newest = PLACE_HOST;
+	world->bodies_current = world->contacts_sent = false; /* where others were before, the device still has their contacts */
 	return CAROM_OK;
 }
 

@@ -58,8 +58,6 @@ typedef struct carom_note {
 
 /* What the step events has on the device, and how it is driven: none of it changes a result. */
 typedef struct carom_events {
-	bool loaded;              /* the slots have the state, or are ahead of the textures */
-	bool ahead;               /* the textures of the state are older than the slots */
 	uint32_t room, node_room; /* ints of Neighbours, nodes of Nodes */
 	uint32_t hit_room;        /* hits of Hits; 0: none are kept */
 	uint32_t hits_taken;      /* of those in Hits, which has some of a step that is under way */
@@ -91,6 +89,13 @@ typedef struct carom_canvas {
 	uint32_t bodies, vertices, edges, shapes;      /* that these have */
 } carom_canvas;
 
+/* Where a state of all bodies may be. */
+typedef enum carom_place {
+	PLACE_HOST = 1,     /* linear and rotational */
+	PLACE_TEXTURES = 2, /* Linear and Rotational */
+	PLACE_SLOTS = 4,    /* of the step events */
+} carom_place;
+
 /* What a body may be at the end of a step, or the most that any of some may be. */
 typedef struct carom_range {
 	double place, speed, spin; /* m, m/s, rad/s */
@@ -117,9 +122,8 @@ struct carom_world {
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count;
 	bool rubs;                            /* a body has friction */
+	unsigned newest;                      /* carom_place: all that have the newest state, but for `changes` */
 	bool bodies_current;                  /* the device's constant textures are those of the bodies */
-	bool device_current;                  /* the device has the host's state */
-	bool host_current;                    /* the host has the device's state */
 	bool gravity_sent;                    /* the device has that, too */
 	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
 

@@ -98,9 +98,9 @@ static void only_to_cpu_reads_the_state_back(void **state)
 				continue;
 			fill(world);
 			scenery_check(carom_world_step(world, 3, NULL, &error), &error);
-			assert_false(world->host_current);
+			assert_false(world->newest & PLACE_HOST);
 			free(picture_of(world, sized(64, 48)).pixels);
-			assert_int_equal(world->host_current, k == 1);
+			assert_int_equal(world->newest & PLACE_HOST, k == 1);
 			carom_world_destroy(world);
 		}
 	}

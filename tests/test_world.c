@@ -175,7 +175,7 @@ static void states_come_back(void **unused)
 			scenery_check(carom_world_add(world, &body, 1, NULL, &error), &error);
 			scenery_check(carom_world_set_states(world, (uint32_t)i, 1, &set, &error), &error);
 			scenery_check(carom_textures_update(world, &error), &error);
-			world->host_current = false; /* as after a step */
+			world->newest &= ~(unsigned)PLACE_HOST; /* as after a step */
 			scenery_check(carom_world_get_states(world, (uint32_t)i, 1, read, &error), &error);
 			assert_memory_equal(read, &set, sizeof set);
 			scenery_check(carom_world_set_states(world, (uint32_t)i, 1, &turned, &error), &error);

@@ -149,21 +149,21 @@ carom_status carom_events_unload(carom_world *world, carom_error *error)
 	TRY(carom_run(world, STAGE_UNLOAD, (int32_t)world->body_count, 1, 0, 0, error));
 	carom_swap(world, ROLE_LINEAR);
 	carom_swap(world, ROLE_ROTATIONAL);
+	world->newest |= PLACE_TEXTURES;
 	return CAROM_OK;
 }
 
 carom_status carom_events_begin(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
-	if (world->events.loaded && (world->events.round > LAST_NUMBER || world->events.iteration > LAST_NUMBER)) { /* numbers begin anew */
+	if (world->newest & PLACE_SLOTS && (world->events.round > LAST_NUMBER || world->events.iteration > LAST_NUMBER)) { /* numbers begin anew */
 		TRY(world->step->unload(world, error));
-		world->events.loaded = false;
+		world->newest &= ~(unsigned)PLACE_SLOTS;
 	}
-	world->events.ahead = world->events.loaded; /* not yet, but a batch follows */
 	if (world->events.in_batch)
 		carom_events_drop_lists(world);
 	world->events.in_batch = true;
-	if (world->events.loaded)
+	if (world->newest & PLACE_SLOTS)
 		return CAROM_OK;
 	status[STATUS_ROOM] = (int32_t)world->events.room;
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
@@ -176,8 +176,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	TRY(carom_run(world, STAGE_LOAD, (int32_t)world->body_count, 1, 0, 0, error));
 	carom_swap(world, ROLE_SLOTS);
 	carom_swap(world, ROLE_NEED);
-	world->events.loaded = true;
-	world->events.ahead = true;
+	world->newest |= PLACE_SLOTS;
 	carom_events_drop_lists(world);
 	world->events.round = world->events.iteration = 0;
 	return CAROM_OK;
@@ -329,6 +328,7 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 {
 	const uint64_t n = world->capacity;
 	carom_events *events = &world->events;
+	world->newest &= ~(unsigned)PLACE_SLOTS;
 	*events = (carom_events){.room = FIRST_NEIGHBOURS * (uint32_t)n,
 		.node_room = (uint32_t)n / 2 + 1,
 		.hit_room = (uint32_t)first_hits(&world->def, n),

@@ -16,7 +16,7 @@ typedef struct carom_step {
 	/* The next three may be NULL. Before and after a batch of runs; the device may be at work while the first is called. */
 	carom_status (*begin)(struct carom_world *world, carom_error *error);
 	carom_status (*finish)(struct carom_world *world, carom_error *error);
-	/* Brings the textures of the state up to date, of a step that keeps the state elsewhere (world->events.ahead). */
+	/* Brings the textures of the state up to date, of a step that keeps the state elsewhere (PLACE_SLOTS). */
 	carom_status (*unload)(struct carom_world *world, carom_error *error);
 	/* Where the world's def has hits kept: takes those of the runs since begin, before finish is called. */
 	carom_status (*take_hits)(struct carom_world *world, carom_error *error);
