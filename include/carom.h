@@ -466,6 +466,19 @@ CAROM_API carom_status carom_snapshot_cast_rays(const carom_snapshot *snapshot, 
 CAROM_API carom_status carom_snapshot_find(const carom_snapshot *snapshot, carom_vec2 min, carom_vec2 max, uint32_t *indices, size_t room,
 	size_t *count, carom_error *error);
 
+/** The body nearest to a point. */
+typedef struct carom_nearest {
+	int32_t body;      /**< its index, or CAROM_NOTHING */
+	double distance;   /**< m, from the point to the body; 0 for a point in it; what was allowed for CAROM_NOTHING */
+	carom_vec2 point;  /**< m, of the body's points the nearest; the point itself where it is in the body, and for CAROM_NOTHING */
+	carom_vec2 normal; /**< 1 long, from there to the point; (0, 0) where it is in the body, on it, or for CAROM_NOTHING */
+} carom_nearest;
+
+/** Of each of `count` points (m) the body nearest to it, if that is at most `within` away (m, >= 0; INFINITY for any). Of bodies that are equally near, as all are that the point is in,
+ * the one with the lowest index; walls are none. CAROM_INVALID_ARGUMENT names what is not finite (as `points[k]`), or a `within` that is below 0 or no number. */
+CAROM_API carom_status carom_snapshot_find_nearest(const carom_snapshot *snapshot, size_t count, const carom_vec2 *points, float within,
+	carom_nearest *nearest, carom_error *error);
+
 /* ---- Scenes: worlds as JSON files ----------------------------------------------------------------------------- */
 
 /** What a picture shows; its width follows from the picture's. */

@@ -1,5 +1,6 @@
 /* What is where in a world: rays and boxes are asked of a copy of its bodies, which never changes.
  * SPDX-License-Identifier: MIT */
+#include "nearest.h"
 #include "penetration.h"
 #include "ray.h"
 #include "status.h"
@@ -219,5 +220,32 @@ carom_status carom_snapshot_find(const carom_snapshot *snapshot, carom_vec2 min,
 	if (f.count > 1 && room > 1)
 		qsort(indices, f.count < room ? f.count : room, sizeof *indices, compare_indices);
 	*count = f.count;
+	return CAROM_OK;
+}
+
+/* ---- The nearest body ----------------------------------------------------------------------------------------- */
+
+carom_status carom_snapshot_find_nearest(const carom_snapshot *snapshot, size_t count, const carom_vec2 *points, float within, carom_nearest *nearest,
+	carom_error *error)
+{
+	GIVEN(snapshot, error);
+	if (!(within >= 0))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "within: found %g; allowed: a number, 0 or more", (double)within);
+	if (count == 0)
+		return CAROM_OK;
+	GIVEN(points, error);
+	GIVEN(nearest, error);
+	for (size_t k = 0; k < count; k++)
+		if (!isfinite(points[k].x) || !isfinite(points[k].y))
+			return carom_fail(error, CAROM_INVALID_ARGUMENT, "points[%zu]: found (%g, %g); allowed: finite numbers", k, (double)points[k].x,
+				(double)points[k].y);
+	for (size_t k = 0; k < count; k++) {
+		const carom_closest found = carom_find_closest(&snapshot->crowd, (double)points[k].x, (double)points[k].y, (double)within);
+		if (found.body < 0)
+			nearest[k] = (carom_nearest){CAROM_NOTHING, (double)within, points[k], {0, 0}};
+		else
+			nearest[k] = (carom_nearest){
+				found.body, found.distance, {(float)found.x, (float)found.y}, {(float)found.normal_x, (float)found.normal_y}};
+	}
 	return CAROM_OK;
 }

@@ -134,6 +134,7 @@ static void what_has_to_be_given_of_a_snapshot(void **unused)
 	const carom_ray ray = {{0, 0}, {1, 1}, 0};
 	carom_ray_hit hit;
 	const carom_vec2 point = {0, 0};
+	carom_nearest nearest;
 	uint32_t index;
 	size_t count;
 	REFUSE("world", carom_snapshot_create(NULL, &snapshot, &error));
@@ -142,6 +143,9 @@ static void what_has_to_be_given_of_a_snapshot(void **unused)
 	REFUSE("snapshot", carom_snapshot_cast_rays(NULL, 1, &ray, &hit, &error));
 	REFUSE("rays", carom_snapshot_cast_rays(snapshot, 1, NULL, &hit, &error));
 	REFUSE("hits", carom_snapshot_cast_rays(snapshot, 1, &ray, NULL, &error));
+	REFUSE("snapshot", carom_snapshot_find_nearest(NULL, 1, &point, 1.0f, &nearest, &error));
+	REFUSE("points", carom_snapshot_find_nearest(snapshot, 1, NULL, 1.0f, &nearest, &error));
+	REFUSE("nearest", carom_snapshot_find_nearest(snapshot, 1, &point, 1.0f, NULL, &error));
 	REFUSE("snapshot", carom_snapshot_find(NULL, point, point, &index, 1, &count, &error));
 	REFUSE("indices", carom_snapshot_find(snapshot, point, point, NULL, 1, &count, &error));
 	REFUSE("count", carom_snapshot_find(snapshot, point, point, &index, 1, NULL, &error));

@@ -53,6 +53,20 @@ static void bodies_are_at_a_place(void **unused)
 	check_table("$C query $D/s.json --box 2,1,0,0", "body,name\n1,box\n");
 }
 
+static void a_body_is_nearest(void **unused)
+{
+	(void)unused;
+	const char *const columns = "body,distance_m,x_m,y_m,normal_x,normal_y,name\n";
+	char table[256];
+	snprintf(table, sizeof table, "%s0,2,-1,0,-1,0,\"a \"\"disc\"\", red\"\n", columns);
+	check_table("$C query $D/s.json --nearest -3,0", table);
+	snprintf(table, sizeof table, "%s1,5,4,1,0.600000024,0.800000012,box\n", columns);
+	check_table("$C query $D/s.json --nearest 7,5", table);
+	snprintf(table, sizeof table, "%s1,0,2.5,0.5,0,0,box\n", columns);
+	check_table("$C query $D/s.json --nearest 2.5,0.5", table);
+	check_table("echo '{\"format\": \"carom-scene/1\", \"bodies\": []}' | $C query - --nearest 0,0", columns);
+}
+
 /* What runs is asked as any scene is. */
 static void a_state_is_a_scene(void **unused)
 {
@@ -65,13 +79,15 @@ static void wrong_questions_are_errors(void **unused)
 {
 	(void)unused;
 	check("$C query", 2, "query: SCENE.json is missing");
-	check("$C query $D/s.json", 2, "nothing is asked; give one of --ray, --rays, --box and --point");
+	check("$C query $D/s.json", 2, "nothing is asked; give one of --ray, --rays, --box, --point and --nearest");
 	check("$C query $D/s.json --point 0,0 --ray 0,0,1,1", 2, "several things are asked at once");
 	check("$C query $D/s.json --ray 0,0,1", 2, "--ray: found \"0,0,1\"; allowed: X,Y,X,Y");
 	check("$C query $D/s.json --ray 0,0,1,1,-1", 2, "--ray: found");
 	check("$C query $D/s.json --ray 0,0,1,1,1,1", 2, "--ray: found");
 	check("$C query $D/s.json --ray 0,0,1,nan", 2, "--ray: found");
 	check("$C query $D/s.json --point 0", 2, "--point: found \"0\"; allowed: X,Y");
+	check("$C query $D/s.json --nearest 0,1,2", 2, "--nearest: found \"0,1,2\"; allowed: X,Y");
+	check("$C query $D/s.json --nearest 0,1 --point 0,1", 2, "several things are asked at once");
 	check("$C query $D/s.json --box 0,0,-1,1", 2, "--box: found \"0,0,-1,1\"; allowed: X,Y,W,H");
 	check("$C query $D/s.json --box 3e38,0,3e38,1", 2, "box: found");
 	check("printf 'a,b\\n0,0,1,1\\n0,0,1\\n' | $C query $D/s.json --rays -", 2, "/dev/stdin:3: found \"0,0,1\"");
@@ -90,6 +106,7 @@ static void wrong_questions_are_errors(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_meets_what_is_first), cmocka_unit_test(many_rays_come_from_a_file),
-		cmocka_unit_test(bodies_are_at_a_place), cmocka_unit_test(a_state_is_a_scene), cmocka_unit_test(wrong_questions_are_errors)};
+		cmocka_unit_test(bodies_are_at_a_place), cmocka_unit_test(a_body_is_nearest), cmocka_unit_test(a_state_is_a_scene),
+		cmocka_unit_test(wrong_questions_are_errors)};
 	return cmocka_run_group_tests_name("query", tests, make_scene, remove_folder);
 }

@@ -158,6 +158,15 @@ static void wrong_questions_are_refused(void **unused)
 	assert_string_equal(error.text, "box: found (1, 0) to (0, 1); allowed: finite numbers, min no larger than max");
 	assert_int_equal(carom_snapshot_find(snapshot, (carom_vec2){NAN, 0}, (carom_vec2){0, 1}, &index, 1, &count, &error), CAROM_INVALID_ARGUMENT);
 	assert_int_equal(count, 42);
+	const carom_vec2 points[] = {{0, 0}, {0, -INFINITY}};
+	carom_nearest nearest[2] = {{.body = 42}, {.body = 42}};
+	assert_int_equal(carom_snapshot_find_nearest(snapshot, 2, points, 1, nearest, &error), CAROM_INVALID_ARGUMENT);
+	assert_string_equal(error.text, "points[1]: found (0, -inf); allowed: finite numbers");
+	assert_int_equal(carom_snapshot_find_nearest(snapshot, 1, points, NAN, nearest, &error), CAROM_INVALID_ARGUMENT);
+	assert_string_equal(error.text, "within: found nan; allowed: a number, 0 or more");
+	assert_int_equal(carom_snapshot_find_nearest(snapshot, 1, points, -1, nearest, &error), CAROM_INVALID_ARGUMENT);
+	assert_true(nearest[0].body == 42);
+	assert_int_equal(carom_snapshot_find_nearest(snapshot, 0, NULL, 1, NULL, &error), CAROM_OK);
 	carom_snapshot_destroy(snapshot);
 	carom_world_destroy(world);
 }

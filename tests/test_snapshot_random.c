@@ -1,4 +1,4 @@
-/* carom_snapshot: any rays and boxes, by answers that know nothing of grids, faces or circles: how far a point is from a body, which along a straight way falls and then
+/* carom_snapshot: any rays, boxes and points, by answers that know nothing of grids, faces or circles: how far a point is from a body, which along a straight way falls and then
  * rises.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -92,7 +92,7 @@ static double meeting(const solid *s, const carom_ray *ray)
 	return low;
 }
 
-enum { BODIES = 150, RAYS = 1000, BOXES = 1000 };
+enum { BODIES = 150, RAYS = 1000, BOXES = 1000, POINTS = 20000 };
 
 /* Half of them of sizes from 1 to 1,000, all over each other, the others of about one size in the middle. */
 static carom_world *wild_world(scenery_random *random, solid *solids)
@@ -239,10 +239,58 @@ static void boxes_hold_what_reaches_into_them(void **unused)
 	carom_world_destroy(world);
 }
 
+/* Far outside of all, too, and with a limit. */
+static void the_nearest_is_found(void **unused)
+{
+	static solid solids[BODIES];
+	scenery_random random = {6};
+	carom_world *world = wild_world(&random, solids);
+	carom_snapshot *snapshot = runs_snapshot(world);
+	int inside = 0, none = 0;
+	(void)unused;
+	for (int i = 0; i < POINTS; i++) {
+		const float scale = i % 5 == 4 ? 1000.0f : 1.0f, within = i % 3 == 2 ? scenery_uniform(&random, 0, 2) : INFINITY;
+		const carom_vec2 place = somewhere(&random), point = {scale * place.x, scale * place.y};
+		double least = HUGE_VAL, of_body;
+		carom_nearest found;
+		carom_error error;
+		scenery_check(carom_snapshot_find_nearest(snapshot, 1, &point, within, &found, &error), &error);
+		for (uint32_t k = 0; k < BODIES; k++)
+			least = fmin(least, fmax(distance(&solids[k], (double)point.x, (double)point.y), 0));
+		if (fabs(least - (double)within) < SURE)
+			continue;
+		if (least > (double)within) {
+			assert_true(found.body == CAROM_NOTHING && found.distance == (double)within && found.point.x == point.x && found.normal.x == 0.0f);
+			none++;
+			continue;
+		}
+		assert_true(found.body >= 0 && found.body < BODIES);
+		of_body = distance(&solids[found.body], (double)point.x, (double)point.y);
+		assert_true(fabs(fmax(of_body, 0) - least) < SURE && fabs(found.distance - least) < SURE);
+		for (int32_t k = 0; k < found.body && found.distance == 0; k++)
+			assert_true(distance(&solids[k], (double)point.x, (double)point.y) > -SURE);
+		/* the point is on the body, and the normal leads from it to where it was asked */
+		if (of_body < SURE) {
+			inside++;
+			assert_true(found.point.x == point.x && found.point.y == point.y && found.distance < SURE);
+			continue;
+		}
+		assert_true(fabs(distance(&solids[found.body], (double)found.point.x, (double)found.point.y)) < 1e-5);
+		assert_true(fabs(hypot((double)found.normal.x, (double)found.normal.y) - 1) < 1e-6);
+		const double far = 1e-5 + 1e-6 * found.distance;
+		assert_true(fabs((double)found.point.x + found.distance * (double)found.normal.x - (double)point.x) < far);
+		assert_true(fabs((double)found.point.y + found.distance * (double)found.normal.y - (double)point.y) < far);
+	}
+	print_message("%d of %d points are in bodies, %d far from all\n", inside, POINTS, none);
+	assert_true(inside > POINTS / 10 && none > POINTS / 20);
+	carom_snapshot_destroy(snapshot);
+	carom_world_destroy(world);
+}
+
 /* Discs of one size, which fill the cells in which they are looked for. */
 static void points_lie_in_the_discs_about_them(void **unused)
 {
-	enum { SIDE = 12, POINTS = 20000 };
+	enum { SIDE = 12 };
 	carom_body_def bodies[SIDE * SIDE];
 	scenery_random random = {4};
 	carom_world *world;
@@ -274,6 +322,6 @@ static void points_lie_in_the_discs_about_them(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(rays_meet_what_is_nearest), cmocka_unit_test(boxes_hold_what_reaches_into_them),
-		cmocka_unit_test(points_lie_in_the_discs_about_them)};
+		cmocka_unit_test(the_nearest_is_found), cmocka_unit_test(points_lie_in_the_discs_about_them)};
 	return cmocka_run_group_tests_name("snapshot_random", tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include "carom_tool.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +12,8 @@ struct query_options {
 	carom_ray ray;
 	carom_vec2 min, max; /* of --box, or of --point, which is both */
 	const char *rays;    /* the name of a file */
-	bool has_ray, has_box, has_point;
+	carom_vec2 near;
+	bool has_ray, has_box, has_point, has_near;
 };
 
 /* ---- Options ---- */
@@ -54,20 +56,33 @@ static carom_status read_point(const char *text, void *target, carom_error *erro
 	return CAROM_OK;
 }
 
+static carom_status read_near(const char *text, void *target, carom_error *error)
+{
+	struct query_options *options = target;
+	float numbers[2];
+	if (read_floats(text, numbers, 2) != 2)
+		return wrong(error, "found \"%s\"; allowed: X,Y in metres", text);
+	options->near = (carom_vec2){numbers[0], numbers[1]};
+	options->has_near = true;
+	return CAROM_OK;
+}
+
 static const struct option options_table[] = {
 	{"ray", "X,Y,X,Y[,RADIUS]", read_ray, 0, "what a ray from the first point to the second meets first, or a disc of this radius"},
 	{"rays", "FILE.csv", read_input, offsetof(struct query_options, rays),
 		"the same of many: a row X,Y,X,Y or X,Y,X,Y,RADIUS each; a first row that is no such row names the columns; - is standard input"},
 	{"box", "X,Y,W,H", read_box, 0, "which bodies reach into the box with this lower left corner and size"},
 	{"point", "X,Y", read_point, 0, "which bodies this point is in"},
+	{"nearest", "X,Y", read_near, 0, "which body is nearest to this point"},
 	{NULL, NULL, NULL, 0, NULL},
 };
 
 static carom_status check_options(const struct query_options *options, carom_error *error)
 {
-	const int asked = options->has_ray + (options->rays != NULL) + options->has_box + options->has_point;
+	const int asked = options->has_ray + (options->rays != NULL) + options->has_box + options->has_point + options->has_near;
 	if (asked != 1)
-		return wrong(error, "%s; give one of --ray, --rays, --box and --point", asked ? "several things are asked at once" : "nothing is asked");
+		return wrong(error, "%s; give one of --ray, --rays, --box, --point and --nearest",
+			asked ? "several things are asked at once" : "nothing is asked");
 	if (options->rays && (strcmp(options->rays, options->common.arguments[0]) == 0 || are_one_file(options->rays, options->common.arguments[0])))
 		return wrong(error, "the scene and --rays are the same, %s; one of them may be a file", options->rays);
 	return CAROM_OK;
@@ -187,6 +202,31 @@ static carom_status print_found(const carom_world *world, const carom_snapshot *
 	return status;
 }
 
+static carom_status print_nearest(const carom_world *world, const carom_snapshot *snapshot, carom_vec2 point, carom_error *error)
+{
+	carom_nearest found;
+	const carom_status status = carom_snapshot_find_nearest(snapshot, 1, &point, INFINITY, &found, error);
+	if (status != CAROM_OK)
+		return status;
+	puts("body,distance_m,x_m,y_m,normal_x,normal_y,name");
+	if (found.body == CAROM_NOTHING) /* there is no body */
+		return CAROM_OK;
+	printf("%d,%.17g,%.9g,%.9g,%.9g,%.9g", (int)found.body, found.distance, (double)found.point.x, (double)found.point.y, (double)found.normal.x,
+		(double)found.normal.y);
+	print_name_of(world, (uint32_t)found.body);
+	return CAROM_OK;
+}
+
+static carom_status print_answer(const carom_world *world, const carom_snapshot *snapshot, const struct query_options *options,
+	const struct rays *rays, carom_error *error)
+{
+	if (options->has_ray || options->rays)
+		return print_rays(world, snapshot, rays, error);
+	if (options->has_near)
+		return print_nearest(world, snapshot, options->near, error);
+	return print_found(world, snapshot, options, error);
+}
+
 /* ---- The command ---- */
 
 static carom_status answer(const struct query_options *options, const carom_scene *scene, const struct rays *rays, carom_error *error)
@@ -197,7 +237,7 @@ static carom_status answer(const struct query_options *options, const carom_scen
 	if (status == CAROM_OK)
 		status = carom_snapshot_create(world, &snapshot, error);
 	if (status == CAROM_OK)
-		status = options->has_ray || options->rays ? print_rays(world, snapshot, rays, error) : print_found(world, snapshot, options, error);
+		status = print_answer(world, snapshot, options, rays, error);
 	carom_snapshot_destroy(snapshot);
 	carom_world_destroy(world);
 	return status;
@@ -214,7 +254,7 @@ static int query_main(int argc, char **argv)
 		return code;
 	const char *path = options.common.arguments[0] = input_name(options.common.arguments[0]);
 	carom_status status = check_options(&options, &error);
-	if (status == CAROM_OK && !options.has_box && !options.has_point)
+	if (status == CAROM_OK && (options.has_ray || options.rays))
 		status = read_rays(&options, &rays, &error);
 	if (status == CAROM_OK && carom_scene_read(path, &scene, &error) != CAROM_OK) {
 		free(rays.items);
@@ -235,13 +275,15 @@ const struct command query_command = {
 	.arguments = "SCENE.json",
 	.least_arguments = 1,
 	.most_arguments = 1,
-	.summary = "Prints what rays meet in a scene, or which bodies are at a place",
+	.summary = "Prints what rays meet in a scene, or which bodies are at or near a place",
 	.details = "\nSCENE.json is a file of the format carom-scene/1, as `carom run --out` writes one; - reads standard\n"
 			   "input. One thing is asked at a time; the answer is a table:\n"
 			   "\n--ray, --rays: ray (from 1), met (a body's index, a wall of the room: left, bottom, right, top, or\n"
 			   "nothing), part (0 to 1, of the way), x_m, y_m (where they touch), normal_x, normal_y (from what is met),\n"
 			   "name (of the body). What a ray touches where it begins it does not meet.\n"
-			   "--box, --point: body (its index), name.\n",
+			   "--box, --point: body (its index), name.\n"
+			   "--nearest: body (of equally near ones the lowest index), distance_m (0 in it), x_m, y_m (its nearest\n"
+			   "point), normal_x, normal_y (from there to the point asked for), name.\n",
 	.options = options_table,
 	.main = query_main,
 };
