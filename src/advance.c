@@ -81,6 +81,7 @@ static carom_status run_batch(carom_world *world, uint64_t steps, carom_error *e
 	if (status)
 		return status;
 	world->newest = world->newest & PLACE_SLOTS ? PLACE_SLOTS : PLACE_TEXTURES;
+	world->events.picks = 0;
 	world->contacts_current = false; /* not before: what is not sent the host alone has */
 	for (uint64_t i = 0; !status && i < steps; i++)
 		status = world->step->run(world, error);

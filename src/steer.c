@@ -10,6 +10,7 @@
 
 #define FIRST_CHANGES 64 /* bodies that Changes has room for */
 #define PICKED_PART 4    /* of all bodies: more than that are many */
+#define MOST_PICKS 4     /* calls that pick bodies after a batch: who asks more often asks for all, one after the other */
 
 static size_t count_of(const carom_world *world)
 {
@@ -138,6 +139,7 @@ static carom_body_state state_of(const float *linear, const float *rotational)
 static carom_status pick(carom_world *world, uint32_t first, uint32_t count, carom_body_state *states, carom_error *error)
 {
 	float *texels;
+	world->events.picks++;
 	TRY(carom_changes_send(world, error));
 	TRY(make_room(world, count, error));
 	TRY(carom_run(world, STAGE_PICK, (int32_t)count, 1, (int32_t)first, 0, error));
@@ -149,13 +151,19 @@ static carom_status pick(carom_world *world, uint32_t first, uint32_t count, car
 	return status;
 }
 
+static bool are_picked(const carom_world *world, size_t count)
+{
+	return count > 0 && count <= world->body_count / PICKED_PART && world->events.picks < MOST_PICKS && !(world->newest & PLACE_HOST)
+		&& goes_on(world);
+}
+
 carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error)
 {
 	GIVEN(world, error);
 	if (count > 0)
 		GIVEN(states, error);
 	TRY(carom_check_bodies(world, first, count, error));
-	if (count > 0 && count <= world->body_count / PICKED_PART && !(world->newest & PLACE_HOST) && goes_on(world))
+	if (are_picked(world, count))
 		return pick(world, first, (uint32_t)count, states, error);
 	TRY(carom_textures_fetch(world, error));
 	for (size_t i = 0; i < count; i++)

@@ -72,6 +72,7 @@ typedef struct carom_events {
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */
 	bool within;              /* the last one ended within a step: of clusters that are under way, or whose forces were being found */
 	uint32_t change_room;     /* bodies of Changes */
+	uint32_t picks;           /* calls since the last batch that read bodies from their slots alone */
 	uint32_t idle;            /* batches in a row that ended no step, */
 	uint32_t stale;           /* and of these those that ended with lists that were too old, or too short */
 	uint32_t doublings;       /* of how far the slowest bodies are taken to get, until such a step has come to its end */

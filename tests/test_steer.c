@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runs.h"
+#include "world.h"
 
 enum { CROWD = 300, STEPS = 40 };
 
@@ -217,9 +218,30 @@ static void what_is_set_is_read(void **unused)
 	}
 }
 
+/* A few are read from where they are; who reads one after the other gets all at once, not each by a way to the device. Both tell the same. */
+static void who_reads_all_reads_them_once(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = crowd(device, "events");
+		carom_body_state found[CROWD], all[CROWD];
+		carom_error error;
+		for (int round = 0; world && round < 2; round++) {
+			runs_step(world, 2);
+			for (uint32_t i = 0; i < CROWD; i++) {
+				found[i] = runs_state(world, i);
+				assert_int_equal((world->newest & PLACE_HOST) != 0, i >= 4);
+			}
+			scenery_check(carom_world_get_states(world, 0, CROWD, all, &error), &error);
+			assert_memory_equal(found, all, sizeof all);
+		}
+		carom_world_destroy(world);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_as_loaded_anew), cmocka_unit_test(what_slept_hits),
-		cmocka_unit_test(forces_hold_until_others_do), cmocka_unit_test(what_is_set_is_read)};
+		cmocka_unit_test(forces_hold_until_others_do), cmocka_unit_test(who_reads_all_reads_them_once), cmocka_unit_test(what_is_set_is_read)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
