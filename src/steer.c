@@ -95,19 +95,25 @@ static carom_status upload(carom_world *world, uint32_t count, carom_error *erro
 	return status;
 }
 
-static carom_status tell(carom_world *world, uint32_t count, carom_error *error)
+static carom_status tell_gravity(carom_world *world, carom_error *error)
 {
+	if (world->gravity_sent)
+		return CAROM_OK;
+	TRY(carom_uniforms_send(world, error));
+	TRY(carom_run(world, STAGE_PUSH, (int32_t)world->body_count, 1, carom_events_movers(world), 0, error));
+	world->gravity_sent = true;
+	return CAROM_OK;
+}
+
+static carom_status tell_changes(carom_world *world, uint32_t count, carom_error *error)
+{
+	if (count == 0)
+		return CAROM_OK;
 	TRY(make_room(world, count, error));
 	TRY(upload(world, count, error));
 	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
 	world->newest &= ~(unsigned)PLACE_TEXTURES;
 	return CAROM_OK;
-}
-
-static carom_status tell_gravity(carom_world *world, carom_error *error)
-{
-	TRY(carom_uniforms_send(world, error));
-	return carom_run(world, STAGE_PUSH, (int32_t)world->body_count, 1, carom_events_movers(world), 0, error);
 }
 
 carom_status carom_changes_send(carom_world *world, carom_error *error)
@@ -116,13 +122,13 @@ carom_status carom_changes_send(carom_world *world, carom_error *error)
 	const carom_change *changes = world->changes.items;
 	if (count == 0 && world->gravity_sent)
 		return CAROM_OK;
-	if (!(world->newest & PLACE_SLOTS))
-		world->bodies_current = false; /* the host has all of it, and the device is to be loaded anew */
-	else if (!world->gravity_sent)
+	if (world->newest & PLACE_SLOTS) {
 		TRY(tell_gravity(world, error));
-	world->gravity_sent = true;
-	if (world->newest & PLACE_SLOTS && count > 0)
-		TRY(tell(world, count, error));
+		TRY(tell_changes(world, count, error));
+	} else { /* the host has all of it, and the device is to be loaded anew */
+		world->bodies_current = false;
+		world->gravity_sent = true;
+	}
 	for (uint32_t k = 0; k < count; k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
 	world->changes.used = 0;
@@ -251,17 +257,35 @@ carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec
 	return CAROM_OK;
 }
 
+/* What the def says from now on, if that is allowed. */
+static carom_status change_def(carom_world *world, const carom_world_def *def, carom_error *error)
+{
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_world_def(def, error));
+	world->def = *def;
+	return CAROM_OK;
+}
+
 carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, carom_error *error)
 {
 	GIVEN(world, error);
 	carom_world_def def = world->def;
 	def.gravity = gravity;
-	TRY(carom_check_idle(world, error));
-	TRY(carom_check_world_def(&def, error));
-	world->def = def;
+	TRY(change_def(world, &def, error));
 	if (goes_on(world))
 		world->gravity_sent = false;
 	else
 		world->bodies_current = false;
+	return CAROM_OK;
+}
+
+/* Lists, and how long a look is good, go by it: all are loaded anew. */
+carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error)
+{
+	GIVEN(world, error);
+	carom_world_def def = world->def;
+	def.time_step = time_step;
+	TRY(change_def(world, &def, error));
+	world->bodies_current = false;
 	return CAROM_OK;
 }

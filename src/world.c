@@ -172,8 +172,6 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 		GIVEN(defs, error);
 	carom_status status = carom_textures_fetch(world, error);
 	if (!status)
-		status = carom_changes_send(world, error);
-	if (!status)
 		status = carom_contacts_fetch(world, error);
 	for (size_t i = 0; !status && i < count; i++)
 		status = add_one(world, &defs[i], i, error);

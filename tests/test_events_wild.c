@@ -22,14 +22,19 @@ static void go_on(carom_world *world, uint32_t steps, uint32_t calls, outcome *o
 	}
 }
 
-/* Destroys the world. */
+static outcome end(carom_world *world, outcome o)
+{
+	o.hash = runs_hash(world);
+	carom_world_destroy(world);
+	return o;
+}
+
+/* This, like those that follow, destroys the world. */
 static outcome run(carom_world *world, uint32_t steps, uint32_t calls)
 {
 	outcome o = {0};
 	go_on(world, steps, calls, &o);
-	o.hash = runs_hash(world);
-	carom_world_destroy(world);
-	return o;
+	return end(world, o);
 }
 
 /* Written to a scene half of the way, and read again. */
@@ -50,9 +55,7 @@ static outcome run_in_halves(carom_world *world, uint32_t steps)
 	scenery_check(carom_scene_create_world(scene, &world, &error), &error);
 	carom_scene_destroy(scene);
 	go_on(world, steps - steps / 2, 1, &o);
-	o.hash = runs_hash(world);
-	carom_world_destroy(world);
-	return o;
+	return end(world, o);
 }
 
 /* With new lists for each step, so that all look at each other in it. */
@@ -63,9 +66,7 @@ static outcome run_looking(carom_world *world, uint32_t steps)
 		carom_events_drop_lists(world);
 		go_on(world, 1, 1, &o);
 	}
-	o.hash = runs_hash(world);
-	carom_world_destroy(world);
-	return o;
+	return end(world, o);
 }
 
 /* A body gets another velocity, if it may have one. */
@@ -98,9 +99,7 @@ static outcome run_steered(carom_world *world, uint32_t steps, bool anew)
 			scenery_check(carom_world_set_time_step(world, carom_world_get_def(world)->time_step, &error), &error);
 		go_on(world, 1, 1, &o);
 	}
-	o.hash = runs_hash(world);
-	carom_world_destroy(world);
-	return o;
+	return end(world, o);
 }
 
 static void check_same(const outcome *first, outcome found, const scenery_device *device, const char *how)

@@ -112,10 +112,11 @@ static carom_status steer(carom_world *world, carom_error *error)
 {
 	carom_body_state state;
 	carom_status status = carom_world_get_states(world, STEERED, 1, &state, error);
+	if (status)
+		return status;
 	state.velocity = (carom_vec2){-state.velocity.y, state.velocity.x};
 	state.angular_velocity += 1;
-	if (!status)
-		status = carom_world_set_states(world, STEERED, 1, &state, error);
+	status = carom_world_set_states(world, STEERED, 1, &state, error);
 	return status ? status : carom_world_set_force(world, STEERED + 1, (carom_vec2){2, -1}, 0.5f, error);
 }
 

@@ -45,26 +45,28 @@ static carom_status read_box(const char *text, void *target, carom_error *error)
 	return CAROM_OK;
 }
 
-static carom_status read_point(const char *text, void *target, carom_error *error)
+static carom_status take_point(const char *text, bool *is_given, carom_vec2 *point, carom_error *error)
 {
-	struct query_options *options = target;
 	float numbers[2];
 	if (read_floats(text, numbers, 2) != 2)
 		return wrong(error, "found \"%s\"; allowed: X,Y in metres", text);
-	options->min = options->max = (carom_vec2){numbers[0], numbers[1]};
-	options->has_point = true;
+	*point = (carom_vec2){numbers[0], numbers[1]};
+	*is_given = true;
 	return CAROM_OK;
+}
+
+static carom_status read_point(const char *text, void *target, carom_error *error)
+{
+	struct query_options *options = target;
+	const carom_status status = take_point(text, &options->has_point, &options->min, error);
+	options->max = options->min;
+	return status;
 }
 
 static carom_status read_near(const char *text, void *target, carom_error *error)
 {
 	struct query_options *options = target;
-	float numbers[2];
-	if (read_floats(text, numbers, 2) != 2)
-		return wrong(error, "found \"%s\"; allowed: X,Y in metres", text);
-	options->near = (carom_vec2){numbers[0], numbers[1]};
-	options->has_near = true;
-	return CAROM_OK;
+	return take_point(text, &options->has_near, &options->near, error);
 }
 
 static const struct option options_table[] = {

@@ -50,11 +50,11 @@ __kernel void slots_change(TEX_IN(uniforms), RECORD_IN(changes), LIST_IN(places)
 __kernel void slots_push(TEX_IN(uniforms), TEX_IN(forces), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers),
 	int4 domain)
 {
-	int s = get_global_id(0), i;
+	int s = get_global_id(0);
 	if (s >= domain.x || !slot_is_dynamic(slots, s))
 		return;
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
-	i = slot_body(slots, s);
+	int i = slot_body(slots, s);
 	slots[SLOT_WIDTH * s + SLOT_PUSH] = push_of(TEX(uniforms), ROW_LOAD(forces, i), CHANNEL(mass, MASS_INVERSE), CHANNEL(mass, MASS_INVERSE_INERTIA),
 		i);
 	if (!PEEK(status, STATUS_STALE))

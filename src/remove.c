@@ -1,23 +1,9 @@
-/* What may be changed of a world once it is made, so that the device is loaded anew: how long its steps are, and which bodies there are. */
+/* Bodies that go: the others are numbered anew, and the device is loaded anew. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "status.h"
 #include "world.h"
-
-carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error)
-{
-	GIVEN(world, error);
-	carom_world_def def = world->def;
-	def.time_step = time_step;
-	TRY(carom_check_idle(world, error));
-	TRY(carom_check_world_def(&def, error));
-	world->def = def;
-	world->bodies_current = false;
-	return CAROM_OK;
-}
-
-/* ---- Bodies that go ---- */
 
 #define GONE UINT32_MAX
 
@@ -141,7 +127,7 @@ carom_status carom_world_remove(carom_world *world, const uint32_t *indices, siz
 		return CAROM_OK;
 	GIVEN(indices, error);
 	TRY(carom_textures_fetch(world, error));
-	TRY(carom_changes_send(world, error));
+	TRY(carom_changes_send(world, error)); /* which go by the old numbers */
 	TRY(carom_contacts_fetch(world, error));
 	numbers = malloc((world->body_count + 1) * sizeof *numbers);
 	if (!numbers)
