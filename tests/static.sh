@@ -94,10 +94,13 @@ unreadable() {
 
 # ---- The C and C++
 
-# The stages of the CPU device, six as one file where they go together: most of the time goes to the headers of Eigen and of C++.
+# The stages of the CPU device in six files, alternatives of a slot, whose names are alike, in different ones: most of the time goes to the headers of
+# Eigen and of C++. What does not go together is looked at one by one.
 stages() {
-	find src/cpu -mindepth 2 -name '*.cpp' | sort | xargs -n 6 | while read -r files; do
-		text=$folder/stages$((number += 1)).cpp
+	find src/cpu -mindepth 2 -name '*.cpp' | sort >"$folder/stages"
+	for number in 0 1 2 3 4 5; do
+		text=$folder/stages$number.cpp
+		files=$(awk -v number=$number 'NR % 6 == number' "$folder/stages")
 		printf '#include "%s"\n' $files >"$text"
 		if g++ $CXX_FLAGS -I. -fsyntax-only -w "$text" 2>/dev/null; then echo "$text"; else printf '%s\n' $files; fi
 	done

@@ -9,12 +9,12 @@ struct Tiles {
 };
 
 /* The frame, cut into tiles. */
-template <typename T> class Grid
+template <typename T> class Tiling
 {
 public:
 	const int32_t columns, rows;
 
-	Grid(const Records<T> &of_shapes, const Texels<T> &frame)
+	Tiling(const Records<T> &of_shapes, const Texels<T> &frame)
 		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))),
 		  boxes(of_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)),
 		  y1(frame.fact(FRAME_BOX, BOX_Y1))
@@ -42,10 +42,10 @@ private:
 };
 
 /* Calls `visit(shape, row, tiles)` for the shapes of a chunk, in order, and the rows that each touches. */
-template <typename T, typename Visit> void visit_chunk(const Job<T> &job, const Grid<T> &grid, int32_t chunk, Visit visit)
+template <typename T, typename Visit> void visit_chunk(const Job<T> &job, const Tiling<T> &tiling, int32_t chunk, Visit visit)
 {
 	for (int32_t k = chunk * BIN_CHUNK; k < std::min((chunk + 1) * BIN_CHUNK, job.domain[2]); k++) {
-		const Tiles tiles = grid.of(k);
+		const Tiles tiles = tiling.of(k);
 		for (int32_t r = tiles.row; r < tiles.row_end; r++)
 			visit(k, r, tiles);
 	}
@@ -53,14 +53,14 @@ template <typename T, typename Visit> void visit_chunk(const Job<T> &job, const 
 
 template <typename T> static void count(const Job<T> &job)
 {
-	const Grid<T> grid(Records<T>(job.records(0)), job.texels(1));
+	const Tiling<T> tiling(Records<T>(job.records(0)), job.texels(1));
 	int32_t *counts = job.list(2);
 	job.pool.run(job.domain[0], 8, [&](int32_t begin, int32_t end) {
-		std::fill(counts + 2 * begin * grid.rows, counts + 2 * end * grid.rows, 0);
+		std::fill(counts + 2 * begin * tiling.rows, counts + 2 * end * tiling.rows, 0);
 		for (int32_t c = begin; c < end; c++) {
-			visit_chunk(job, grid, c, [&](int32_t, int32_t r, const Tiles &tiles) {
-				counts[2 * (c * grid.rows + r)]++;
-				counts[2 * (c * grid.rows + r) + 1] += tiles.column_end - tiles.column;
+			visit_chunk(job, tiling, c, [&](int32_t, int32_t r, const Tiles &tiles) {
+				counts[2 * (c * tiling.rows + r)]++;
+				counts[2 * (c * tiling.rows + r) + 1] += tiles.column_end - tiles.column;
 			});
 		}
 	});
@@ -105,17 +105,17 @@ template <typename Visit> void visit_columns(const int32_t *list, uint32_t k, Vi
 
 template <typename T> static void sort_by_row(const Job<T> &job)
 {
-	const Grid<T> grid(Records<T>(job.records(0)), job.texels(1));
+	const Tiling<T> tiling(Records<T>(job.records(0)), job.texels(1));
 	const int32_t *totals = job.list(2);
 	int32_t *offsets = job.list(3), *list = job.list(4);
 	const uint32_t room = static_cast<uint32_t>(job.domain[3]);
 	job.pool.run(job.domain[0], 8, [&](int32_t begin, int32_t end) {
 		for (int32_t c = begin; c < end; c++) {
-			int32_t *mine = offsets + c * grid.rows;
+			int32_t *mine = offsets + c * tiling.rows;
 			uint32_t start = 0;
-			for (int32_t r = 0; r < grid.rows; start += static_cast<uint32_t>(totals[2 * r++]))
+			for (int32_t r = 0; r < tiling.rows; start += static_cast<uint32_t>(totals[2 * r++]))
 				mine[r] = static_cast<int32_t>(static_cast<uint32_t>(mine[r]) + start);
-			visit_chunk(job, grid, c, [&](int32_t k, int32_t r, const Tiles &tiles) {
+			visit_chunk(job, tiling, c, [&](int32_t k, int32_t r, const Tiles &tiles) {
 				const uint32_t at = up(mine[r]);
 				if (at < room) {
 					list[2 * size_t(at)] = k;
