@@ -374,10 +374,16 @@ axis corner_way(VERTICES_IN, body a, body b, pose p, axis k, contact c, float sl
 	return way;
 }
 
+/* Of the same pair, are they one? */
+bool axes_are_same(axis a, axis b)
+{
+	return a.corner == b.corner && a.face == b.face && a.swapped == b.swapped;
+}
+
 /* Do bodies that hit along k also hit along that way out of the corner? */
 bool way_hits(VERTICES_IN, body a, body b, pose p, axis k, axis way, float slop, float stillness, float part)
 {
-	if (way.corner == k.corner && way.face == k.face && way.swapped == k.swapped)
+	if (axes_are_same(way, k))
 		return true;
 	return contact_is_hit(contact_at(VERTICES, a, b, p, way, slop), threshold_of(way.gap, slop, stillness, part).rate);
 }

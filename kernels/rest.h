@@ -104,14 +104,21 @@ void rests_insert(rests *all, rest r)
 	all->of[k] = r;
 }
 
-/* Of the body in slot s on another, as they are now. */
-void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, body own, int other, body partner, nearness near,
-	rests *all)
+/* What the stronger push makes in a step; 0 where the bodies are farther from each other than that. */
+float near_force(body own, body partner, nearness near)
 {
 	float push = near.weight > 0.0f ? near.weight : larger(norm(own.a), norm(partner.a));
 	float force = rest_force(push, smaller(own.radius, partner.radius));
 	float2 d = (float2)(partner.x.x - own.x.x, partner.x.y - own.x.y);
-	if (!(force > 0.0f) || norm(d) - (own.radius + partner.radius) > force)
+	return norm(d) - (own.radius + partner.radius) > force ? 0.0f : force;
+}
+
+/* Of the body in slot s on another, as they are now. */
+void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, body own, int other, body partner, nearness near,
+	rests *all)
+{
+	float force = near_force(own, partner, near);
+	if (!(force > 0.0f))
 		return;
 	int key = slot_body(slots, other);
 	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key);
@@ -124,8 +131,12 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	float slop = pair_slop(a, b);
 	if (k.gap > force || k.gap < -(SUNK_MOST * slop))
 		return;
-	k = corner_way(VERTICES, a, b, p, k, contact_at(VERTICES, a, b, p, k, force - k.gap), slop);
 	contact c = contact_at(VERTICES, a, b, p, k, force - k.gap);
+	axis way = corner_way(VERTICES, a, b, p, k, c, slop);
+	if (!axes_are_same(way, k)) {
+		k = way;
+		c = contact_at(VERTICES, a, b, p, k, force - k.gap);
+	}
 	bool is_incident = is_row == c.swapped;
 	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
 	float2 back = (float2)(-n.x, -n.y);

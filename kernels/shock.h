@@ -82,6 +82,11 @@ float point_rate(RECORD_IN(slots), RECORD_OUT(work), int id, float4 normal, floa
 	return parting(slots, work, id, push, n, CHANNEL(normal, SHOCK_ARM), CHANNEL(normal, SHOCK_OTHER_ARM));
 }
 
+bool is_party(LIST_OUT(members), int id)
+{
+	return id >= 0 && members[MEMBER(id, MEMBER_SEEN)] < 0;
+}
+
 /* A party's points, from those of its contacts with others. */
 void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int id, const rests *found,
 	const shock *all)
@@ -89,9 +94,8 @@ void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN
 	int point = 0;
 	for (int k = 0; k < found->count; k++) {
 		const rest *r = &found->of[k];
-		int other_id = r->partner >= 0 ? number_of_own(members, owners, r->partner, all->leader) : -1;
-		if (other_id >= 0 && members[MEMBER(other_id, MEMBER_SEEN)] < 0)
-			continue; /* a party, which has them */
+		if (r->partner >= 0 && is_party(members, number_of_own(members, owners, r->partner, all->leader)))
+			continue; /* which has them */
 		float part = ((SHOCK_PARTING * r->force) * (1.0f - all->time)) / all->length;
 		for (int i = 0; i < r->count && point < SHOCK_POINTS; i++, point++) {
 			rest_point at = r->points[i];
@@ -108,25 +112,41 @@ void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN
 		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
 }
 
+/* What the body in slot s rests on. Parties have the points that they share with it: they are left out, but counted, and looked at only where there may be too
+ * many. */
+void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), int s, body own,
+	const shock *all, rests *contacts)
+{
+	int end = spans[SPAN(s, SPAN_END)];
+	nearness near = {all->weight, INFINITY};
+	for (int look = 0; look < 2; look++) {
+		int left_out = 0;
+		contacts->count = 0;
+		rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, contacts);
+		for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
+			int other = neighbour_of(neighbours, extra, i);
+			body partner = body_of(slots, other, shock_way(slots, members, work, owners, other, all), all->length);
+			if (look > 0 || !is_party(members, number_of_own(members, owners, other, all->leader)))
+				rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, contacts);
+			else if (near_force(own, partner, near) > 0.0f)
+				left_out++;
+		}
+		if (left_out == 0 || contacts->count + left_out <= CONTACTS_MOST)
+			break;
+	}
+	if (contacts->count > CONTACTS_MOST)
+		contacts->count = 0;
+}
+
 /* A party more: it is moved to the time, and where it may be pushed, or push, is found. */
 void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
 	int id, shock *all)
 {
-	int s = active[id], end = spans[SPAN(s, SPAN_END)];
-	nearness near = {all->weight, INFINITY};
+	int s = active[id];
 	rests contacts;
-	contacts.count = 0;
 	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
 	work_store(work, id, k);
-	body own = body_of(slots, s, k, all->length);
-	rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, &contacts);
-	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
-		int other = neighbour_of(neighbours, extra, i);
-		body partner = body_of(slots, other, shock_way(slots, members, work, owners, other, all), all->length);
-		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, &contacts);
-	}
-	if (contacts.count > CONTACTS_MOST)
-		contacts.count = 0;
+	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, s, body_of(slots, s, k, all->length), all, &contacts);
 	points_write(slots, members, work, owners, shocks, id, &contacts, all);
 	for (int party = all->first; party >= 0; party = party_next(members, party))
 		for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {

@@ -186,8 +186,7 @@ Axis<T> corner_way(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, 
 template <typename T>
 bool way_is_hit(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, const Axis<T> &own, const Axis<T> &way, T slop, T stillness, T loose)
 {
-	const bool is_own = way.face == own.face && way.from_b == own.from_b;
-	return is_own || contact_at(a, b, pose, way, slop).is_below(Threshold<T>(way.gap, slop, stillness, loose).rate);
+	return way.is_same(own) || contact_at(a, b, pose, way, slop).is_below(Threshold<T>(way.gap, slop, stillness, loose).rate);
 }
 
 /* Along which a hit of two bodies is answered: not along a way on which there is nothing to answer, for that is one only now, by rounding. */

@@ -65,6 +65,8 @@ template <typename T> struct Axis {
 	T offset, gap;   /* of the reference along n; from there to the other, the incident body */
 	int32_t deepest; /* vertex of the incident body */
 	int32_t face;    /* of the reference; no_face: it is a corner, or a circle */
+
+	bool is_same(const Axis &other) const { return face == other.face && from_b == other.from_b; } /* of the same pair */
 };
 
 template <typename T> Axis<T> axis_along(const Convex<T> &b, const Pose<T> &pose, const Vec<T> &n, T offset, int32_t face)

@@ -18,11 +18,10 @@ template <typename T> class Queue
 {
 public:
 	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, const int32_t *touching_counts,
-		T *points_of_shocks, const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
+		const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), boxes(reach),
 		  need(needs), heap(all.members, work_of, room), leader(number), round(in_round),
-		  head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr),
-		  shock_points(points_of_shocks)
+		  head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr)
 	{
 	}
 
@@ -288,7 +287,7 @@ private:
 	/* The hit of these two passes on to others at once; false if the cluster has to be given up. */
 	bool pass_on(int32_t id, int32_t other_id, T u)
 	{
-		Shock<T> shock(clusters, rubs, work, shock_points);
+		Shock<T> shock(clusters, rubs, work);
 		const bool is_row = other_id < 0 || slots[clusters.active[id]].body() > slots[clusters.active[other_id]].body();
 		const auto own = [&](int32_t s) { return own_number(s); };
 		const auto join = [&](int32_t s) { return join_shock(s, id, u); };
@@ -383,7 +382,6 @@ private:
 	Heap<T> heap;
 	const int32_t leader, round, head;
 	const int32_t *const touching; /* where forces bear what rests: the step contacts */
-	T *const shock_points;
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };

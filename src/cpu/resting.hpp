@@ -128,19 +128,30 @@ public:
 	}
 
 	/* Calls `visit(contact)` for each that a moving body has, by the partners' indices; for none, if there are too many. `way` is where it is, `way_of(slot)` where
-	 * another one is then. */
-	template <typename WayOf, typename Visit>
-	void each(int32_t s, const Trajectory<T> &way, const Nearness<T> &nearness, const WayOf &way_of, const Visit &visit)
+	 * another one is then. Those with a slot that `is_known(slot)` are left out, but count: they are looked at only where there may be too many. */
+	template <typename WayOf, typename IsKnown, typename Visit>
+	void each(int32_t s, const Trajectory<T> &way, const Nearness<T> &nearness, const WayOf &way_of, const IsKnown &is_known, const Visit &visit)
 	{
-		count = 0;
-		walls(s, way, nearness);
-		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-			const Trajectory<T> other_way = way_of(other);
-			if (may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place))
-				pair(s, way, other, other_way, nearness);
-		});
+		const auto look = [&](bool at_known) {
+			int32_t left_out = 0;
+			count = 0;
+			walls(s, way, nearness);
+			clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
+				const Trajectory<T> other_way = way_of(other);
+				if (!may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place))
+					return;
+				if (!at_known && is_known(other))
+					left_out++;
+				else
+					pair(s, way, other, other_way, nearness);
+			});
+			return count + left_out;
+		};
+		if (look(false) > CONTACTS_MOST)
+			look(true);
 		for (int32_t k = 0; k < count && count <= CONTACTS_MOST; k++)
-			visit(found[k]);
+			if (!found[k].partner.moves() || !is_known(found[k].partner.slot()))
+				visit(found[k]);
 	}
 
 private:
@@ -236,8 +247,9 @@ private:
 		const Axis<T> best = best_axis(a, b, at);
 		if (best.gap > rules.force || best.gap < -(T(SUNK_MOST) * rules.slop))
 			return;
-		const Axis<T> axis = corner_way(a, b, at, best, contact_at(a, b, at, best, rules.force - best.gap), rules.slop);
-		const Contact<T> c = contact_at(a, b, at, axis, rules.force - axis.gap);
+		const Contact<T> at_best = contact_at(a, b, at, best, rules.force - best.gap);
+		const Axis<T> axis = corner_way(a, b, at, best, at_best, rules.slop);
+		const Contact<T> c = axis.is_same(best) ? at_best : contact_at(a, b, at, axis, rules.force - axis.gap);
 		const bool is_incident = is_row == c.from_b;
 		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
 		Resting<T> rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), n, rules,

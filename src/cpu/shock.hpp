@@ -4,62 +4,51 @@
 
 #include "cpu/resting.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace carom::cpu {
 
-/* Where a party may be pushed: a record of Shocks. The impulses are on the party. */
-template <typename T> struct ShockPoint {
-	T normal_x, normal_y, arm, other_arm;
-	T grip_arm, other_grip_arm, friction, part;
-	T partner, number, impulse, rub; /* impulse: how fast the partner comes along the normal, while it could be a party, but is none */
-
-	Vec<T> normal() const { return {normal_x, normal_y}; }
-	Vec<T> along() const { return {-normal_y, normal_x}; }
-	Partner whom() const { return Partner(partner); }
-};
-
-static_assert(sizeof(ShockPoint<float>) == SHOCK_WIDTH * 4 * sizeof(float), "records");
-
-/* One after the other, of one cluster. */
+/* One after the other, of one cluster. Points are kept here, side by side: Shocks is for kernels. */
 template <typename T> class Shock
 {
 public:
-	Shock(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, T *points_of)
-		: clusters(all), work(work_of), points(reinterpret_cast<ShockPoint<T> *>(points_of)),
-		  finder(all, friction), nearness{all.weight(), std::numeric_limits<T>::infinity()}
+	Shock(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of)
+		: clusters(all), members(all.members), work(work_of), finder(all, friction), nearness{all.weight(), std::numeric_limits<T>::infinity()}
 	{
 	}
 
 	/* From those two, of which the second may be none, -1, at time u. `own(slot)` is the number of a body of the cluster, else -1, `join(slot)` of one that
-	 * becomes one; false if it can't. */
+	 * becomes one; false if it can't. Who was moved to that time has to look again. */
 	template <typename Own, typename Join> bool spread(int32_t first, int32_t second, T u, const Own &own, const Join &join)
 	{
-		count = 0;
 		time = u;
 		for (int32_t id : {first, second})
 			if (id >= 0)
 				open(id, own);
-		for (int32_t sweep = 0; sweep < SHOCK_SWEEPS; sweep++) {
-			bool more = false;
+		bool more = true;
+		for (int32_t sweep = 0; sweep < SHOCK_SWEEPS && more; sweep++) {
+			more = false;
 			for (int32_t k = 0; k < count; k++) {
-				for (ShockPoint<T> *p = points_of(parties[k]), *end = p + SHOCK_POINTS; p < end && !p->whom().is_none(); p++) {
-					const T rate = rate_of(parties[k], *p);
-					if (!(rate < 0) && !(is_open(*p) && p->impulse > 0))
+				for (Point *p = points[k]; p < points[k] + parties[k].points; p++) {
+					if (is_settled(parties[k], *p))
 						continue;
-					if (!is_open(*p) && count < SHOCK_PARTIES) {
-						const int32_t id = join(p->whom().slot());
+					p->settled = changes;
+					const T rate = parting(parties[k], *p, p->n, p->arm, p->other_arm, p->coming);
+					if (!(rate < 0) && !(p->other != closed && p->impulse > 0))
+						continue;
+					if (p->other == closed && count < SHOCK_PARTIES) {
+						const int32_t id = join(p->partner.slot());
 						if (id < 0)
 							return false;
 						open(id, own);
 					}
-					more |= is_open(*p) && push(parties[k], *p, rate);
+					if (p->other != closed && push(parties[k], *p, rate))
+						more = true, p->settled = -1;
 				}
 			}
-			if (!more)
-				break;
 		}
+		for (int32_t k = 0; k < count; k++)
+			put_back(parties[k]);
 		return true;
 	}
 
@@ -67,155 +56,175 @@ public:
 	template <typename Visit> void each(const Visit &visit) const
 	{
 		for (int32_t k = 0; k < count; k++)
-			visit(parties[k]);
+			visit(parties[k].id);
 	}
 
 	/* Calls `visit(number, partner, the impulse on the body, where, the normal towards it)` for each of its hits. */
 	template <typename Visit> void each_hit(const Visit &visit) const
 	{
 		for (int32_t k = 0; k < count; k++) {
-			const ShockPoint<T> *p = points_of(parties[k]), *const end = p + SHOCK_POINTS;
-			while (p < end && !p->whom().is_none()) {
-				const ShockPoint<T> &first = *p++;
-				const bool has_second = p < end && p->partner == first.partner;
-				const ShockPoint<T> &second = has_second ? *p++ : first;
+			const Point *p = points[k], *const end = p + parties[k].points;
+			while (p < end) {
+				const Point &first = *p++;
+				const bool has_second = p < end && p->partner.code == first.partner.code;
+				const Point &second = has_second ? *p++ : first;
 				const T total = has_second ? first.impulse + second.impulse : first.impulse, rub = has_second ? first.rub + second.rub : first.rub;
-				if (!is_open(first) || !(total > 0))
+				if (!(total > 0))
 					continue;
 				const T part = has_second ? second.impulse / total : T(0);
 				const T arm = first.arm + part * (second.arm - first.arm), grip_arm = first.grip_arm + part * (second.grip_arm - first.grip_arm);
-				const Vec<T> n = first.normal(), at(work[parties[k]].place[LINEAR_X], work[parties[k]].place[LINEAR_Y]);
-				visit(parties[k], first.whom(), Vec<T>(total * n + rub * first.along()), Vec<T>(at + (grip_arm * n - arm * first.along())), n);
+				const int32_t id = parties[k].id;
+				const Vec<T> n = first.n, at(work[id].place[LINEAR_X], work[id].place[LINEAR_Y]);
+				visit(id, first.partner, Vec<T>(total * n + rub * first.along()), Vec<T>(at + (grip_arm * n - arm * first.along())), n);
 			}
 		}
 	}
 
 	/* What it looks at beside a body's way. */
-	T margin(int32_t id) const { return nearness.force(nearness.weight, slot_of(id).radius()); }
+	T margin(int32_t id) const { return nearness.force(nearness.weight, clusters.slots[clusters.active[id]].radius()); }
 
 private:
-	struct Give {
-		T mass, inertia; /* inverse */
+	/* Whom the shock has got to; what is held stands. */
+	struct Party {
+		int32_t id, points, changed; /* which of all changes was the last of its velocity */
+		bool is_held;
+		T vx, vy, w, inverse_mass, inverse_inertia;
 
-		T at(T arm) const { return mass + inertia * (arm * arm); }
+		T speed(const Vec<T> &n, T at_arm) const { return inner(n, Vec<T>(vx, vy)) + w * at_arm; }
+		T gives(T at_arm) const { return inverse_mass + inverse_inertia * (at_arm * at_arm); }
 	};
 
-	const Slot<T> &slot_of(int32_t id) const { return clusters.slots[clusters.active[id]]; }
-	ShockPoint<T> *points_of(int32_t id) const { return points + SHOCK_POINTS * id; }
-	bool is_party(int32_t id) const { return id >= 0 && std::find(parties, parties + count, id) < parties + count; }
+	/* Where a party may be pushed. The impulses are on the party. */
+	struct Point {
+		Partner partner;
+		int32_t other;              /* the partner as a party, or: */
+		int32_t settled;            /* after which of all changes it was found that there is nothing to do, else -1 */
+		Vec<T> n;                   /* towards the party */
+		T arm, other_arm;           /* of the two, along n, */
+		T grip_arm, other_grip_arm; /* and along the surfaces */
+		T friction, part;           /* part: how fast the point is to part, */
+		T coming, slipping;         /* how fast a partner that is no party moves along n, and along the surfaces */
+		T impulse, rub;
 
-	Give give_of(int32_t id) const
+		Vec<T> along() const { return {-n.y(), n.x()}; }
+	};
+
+	/* A partner that is no party: it never is, or not yet. */
+	static constexpr int32_t fixed = -1, closed = -2;
+
+	bool is_settled(const Party &party, const Point &p) const
 	{
-		if (id < 0 || work[id].held > 0)
-			return {0, 0};
-		return {slot_of(id).mass[MASS_INVERSE], slot_of(id).mass[MASS_INVERSE_INERTIA]};
+		return p.settled >= party.changed && (p.other < 0 || p.settled >= parties[p.other].changed);
 	}
 
-	/* Of a way, along n; what is held stands. */
-	template <typename Way> static T speed(const Way &way, const Vec<T> &n, T arm)
+	/* How fast the party parts from the partner, along one of their two ways. */
+	T parting(const Party &party, const Point &p, const Vec<T> &way, T arm, T other_arm, T partners) const
 	{
-		if (way.held > 0)
-			return 0;
-		return inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
+		return party.speed(way, arm) - (p.other >= 0 ? parties[p.other].speed(way, other_arm) : partners);
 	}
 
-	/* Could the partner become a party? */
-	bool can_join(Partner partner) const { return partner.moves() && clusters.slots[partner.slot()].is_dynamic(); }
-	bool is_open(const ShockPoint<T> &p) const { return p.number >= 0 || !can_join(p.whom()); }
-
-	/* How fast the partner of an open point comes along n: a party, a kinematic body, or what does not move. */
-	T partners_speed(const ShockPoint<T> &p, const Vec<T> &n, T arm) const
-	{
-		if (p.number >= 0)
-			return speed(work[static_cast<int32_t>(p.number)], n, arm);
-		return p.whom().moves() ? speed(Trajectory<T>(clusters.slots[p.whom().slot()]), n, arm) : T(0);
-	}
-
-	T rate_of(int32_t id, const ShockPoint<T> &p) const
-	{
-		return speed(work[id], p.normal(), p.arm) - (is_open(p) ? partners_speed(p, p.normal(), p.other_arm) : p.impulse);
-	}
+	bool is_party(int32_t id) const { return id >= 0 && members[id].seen < 0; }
 
 	/* Moves a body to the time, and finds where it may be pushed, or push. */
 	template <typename Own> void open(int32_t id, const Own &own)
 	{
-		const int32_t s = clusters.active[id];
-		Trajectory<T> way = work[id].trajectory(clusters.slots[s]);
-		clusters.move(clusters.slots[s], way, time);
+		const int32_t s = clusters.active[id], k = count++;
+		const Slot<T> &slot = clusters.slots[s];
+		Trajectory<T> way = work[id].trajectory(slot);
+		clusters.move(slot, way, time);
 		work[id].keep(way);
-		ShockPoint<T> *p = points_of(id), *const end = p + SHOCK_POINTS;
+		if (way.held > 0)
+			parties[k] = {id, 0, ++changes, true, 0, 0, 0, 0, 0};
+		else
+			parties[k] = {id, 0, ++changes, false, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, slot.mass[MASS_INVERSE],
+				slot.mass[MASS_INVERSE_INERTIA]};
 		const auto way_of = [&](int32_t other) {
 			const int32_t other_id = own(other);
 			Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(clusters.slots[other]) : Trajectory<T>(clusters.slots[other]);
 			clusters.move(clusters.slots[other], other_way, time);
 			return other_way;
 		};
-		finder.each(s, way, nearness, way_of, [&](const Resting<T> &rest) {
-			const bool joins = can_join(rest.partner);
-			if (joins && is_party(own(rest.partner.slot())))
-				return; /* which has the points */
-			for (int32_t k = 0; k < rest.points && p < end; k++, p++) {
-				const auto &at = rest.at[k];
-				*p = {rest.n.x(), rest.n.y(), at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction,
-					((T(SHOCK_PARTING) * rest.force) * (1 - time)) / clusters.length, static_cast<T>(rest.partner.code), -1, 0, 0};
-				if (joins)
-					p->impulse = speed(way_of(rest.partner.slot()), rest.n, at.other_arm);
+		const auto has_points = [&](int32_t other) { return is_party(own(other)); };
+		finder.each(s, way, nearness, way_of, has_points, [&](const Resting<T> &rest) {
+			const bool moves = rest.partner.moves();
+			const T part = ((T(SHOCK_PARTING) * rest.force) * (1 - time)) / clusters.length;
+			const Trajectory<T> other_way = moves ? way_of(rest.partner.slot()) : way;
+			for (int32_t i = 0; i < rest.points && parties[k].points < SHOCK_POINTS; i++) {
+				const auto &at = rest.at[i];
+				Point &p = points[k][parties[k].points++];
+				p = {rest.partner, moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed : fixed, -1, rest.n, at.arm, at.other_arm,
+					at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
+				if (moves)
+					p.coming = speed(other_way, p.n, p.other_arm), p.slipping = speed(other_way, p.along(), p.other_grip_arm);
 			}
 		});
-		if (p < end)
-			p->partner = PARTNER_NONE;
-		for (int32_t k = 0; k < count; k++)
-			for (ShockPoint<T> *q = points_of(parties[k]), *last = q + SHOCK_POINTS; q < last && !q->whom().is_none(); q++)
-				if (q->partner == static_cast<T>(s))
-					q->number = static_cast<T>(id), q->impulse = 0;
-		parties[count++] = id;
+		members[id].seen = -1;
+		for (int32_t j = 0; j < k; j++)
+			for (Point *p = points[j]; p < points[j] + parties[j].points; p++)
+				if (p->partner.code == s)
+					p->other = k;
 	}
 
-	void turn(int32_t id, const Give &give, const Vec<T> &impulse, T torque)
+	static T speed(const Trajectory<T> &way, const Vec<T> &n, T arm)
 	{
-		work[id].place[LINEAR_VX] += give.mass * impulse.x();
-		work[id].place[LINEAR_VY] += give.mass * impulse.y();
-		work[id].velocity += give.inertia * torque;
+		return way.held > 0 ? T(0) : inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
 	}
 
 	/* Lets the point part, or pull less; false if that is too little to count. */
-	bool push(int32_t id, ShockPoint<T> &p, T rate)
+	bool push(Party &party, Point &p, T rate)
 	{
-		const int32_t other = static_cast<int32_t>(p.number);
-		const Give give = give_of(id), other_give = give_of(other);
-		const T gives = give.at(p.arm) + other_give.at(p.other_arm);
+		static const Party nobody{};
+		const Party &other = p.other >= 0 ? parties[p.other] : nobody;
+		const T gives = party.gives(p.arm) + other.gives(p.other_arm);
 		if (!(gives > 0))
 			return false;
 		const T impulse = larger(p.impulse + (p.part - rate) / gives, T(0)), more = impulse - p.impulse;
 		if (std::abs(more) * gives < T(SHOCK_WITHIN) * p.part)
 			return false;
 		p.impulse = impulse;
-		act(id, give, other, other_give, more * p.normal(), more * p.arm, more * p.other_arm);
+		act(party, p.other, more * p.n, more * p.arm, more * p.other_arm);
 		if (!(p.friction > 0))
 			return true;
-		const T grip_gives = give.at(p.grip_arm) + other_give.at(p.other_grip_arm);
-		const T slip = speed(work[id], p.along(), p.grip_arm) - partners_speed(p, p.along(), p.other_grip_arm);
+		const T grip_gives = party.gives(p.grip_arm) + other.gives(p.other_grip_arm);
+		const T slip = parting(party, p, p.along(), p.grip_arm, p.other_grip_arm, p.slipping);
 		const T most = p.friction * impulse, rub = larger(smaller(p.rub - slip / grip_gives, most), -most), change = rub - p.rub;
 		p.rub = rub;
-		act(id, give, other, other_give, change * p.along(), change * p.grip_arm, change * p.other_grip_arm);
+		act(party, p.other, change * p.along(), change * p.grip_arm, change * p.other_grip_arm);
 		return true;
 	}
 
-	void act(int32_t id, const Give &give, int32_t other, const Give &other_give, const Vec<T> &impulse, T torque, T other_torque)
+	void act(Party &party, int32_t other, const Vec<T> &impulse, T torque, T other_torque)
 	{
-		turn(id, give, impulse, torque);
+		turn(party, impulse, torque);
 		if (other >= 0)
-			turn(other, other_give, -impulse, -other_torque);
+			turn(parties[other], -impulse, -other_torque);
+	}
+
+	void turn(Party &party, const Vec<T> &impulse, T torque)
+	{
+		party.vx += party.inverse_mass * impulse.x();
+		party.vy += party.inverse_mass * impulse.y();
+		party.w += party.inverse_inertia * torque;
+		party.changed = ++changes;
+	}
+
+	void put_back(const Party &party) const
+	{
+		if (party.is_held)
+			return;
+		Work<T> &to = work[party.id];
+		to.place[LINEAR_VX] = party.vx, to.place[LINEAR_VY] = party.vy, to.velocity = party.w;
 	}
 
 	const Clusters<T> &clusters;
+	Member *const members;
 	Work<T> *const work;
-	ShockPoint<T> *const points;
 	RestFinder<T> finder;
 	const Nearness<T> nearness;
-	int32_t parties[SHOCK_PARTIES];
-	int32_t count = 0;
+	int32_t count = 0, changes = 0;
 	T time = 0;
+	Party parties[SHOCK_PARTIES];
+	Point points[SHOCK_PARTIES][SHOCK_POINTS];
 };
 
 }

@@ -222,7 +222,7 @@ template <typename T> static void resolve(const Job<T> &job)
 			if (count >= many_active)
 				fetch_active(clusters, boxes, id, count);
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
-				tally += Queue<T>(clusters, rubs, work, boxes, job.list(14), job.list(18), job.records(20), hits, id, round, room).run();
+				tally += Queue<T>(clusters, rubs, work, boxes, job.list(14), job.list(18), hits, id, round, room).run();
 		}
 		if (tally.hits > 0)
 			fetch_add(&clusters.status[STATUS_HITS], tally.hits);
