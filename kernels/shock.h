@@ -82,8 +82,9 @@ float point_rate(RECORD_IN(slots), RECORD_OUT(work), int id, float4 normal, floa
 	return parting(slots, work, id, push, n, CHANNEL(normal, SHOCK_ARM), CHANNEL(normal, SHOCK_OTHER_ARM));
 }
 
-bool is_party(LIST_OUT(members), int id)
+bool is_party(LIST_OUT(members), LIST_IN(owners), int s, const shock *all)
 {
+	int id = number_of_own(members, owners, s, all->leader);
 	return id >= 0 && members[MEMBER(id, MEMBER_SEEN)] < 0;
 }
 
@@ -94,7 +95,7 @@ void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN
 	int point = 0;
 	for (int k = 0; k < found->count; k++) {
 		const rest *r = &found->of[k];
-		if (r->partner >= 0 && is_party(members, number_of_own(members, owners, r->partner, all->leader)))
+		if (r->partner >= 0 && is_party(members, owners, r->partner, all))
 			continue; /* which has them */
 		float part = ((SHOCK_PARTING * r->force) * (1.0f - all->time)) / all->length;
 		for (int i = 0; i < r->count && point < SHOCK_POINTS; i++, point++) {
@@ -126,7 +127,7 @@ void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slot
 		for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
 			int other = neighbour_of(neighbours, extra, i);
 			body partner = body_of(slots, other, shock_way(slots, members, work, owners, other, all), all->length);
-			if (look > 0 || !is_party(members, number_of_own(members, owners, other, all->leader)))
+			if (look > 0 || !is_party(members, owners, other, all))
 				rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, contacts);
 			else if (near_force(own, partner, near) > 0.0f)
 				left_out++;

@@ -146,10 +146,16 @@ static void follow(const scene *s, const carom_world_def *def, const carom_body_
 	forecast f = forecast_of(runs_queue(def, bodies, s->count));
 	f.counts = s->restitution > 0.0f;
 	tally sum = {0};
-	for (uint64_t i = 0; i < runs_affordable(40) && (f.sure || f.middle->hit_count < SQUEEZED); i++) {
-		forecast_follow(&f, world);
-		forecast_step(&f, (double)def->time_step);
-		check_step(&sum, &f, world, s, device);
+	bool squeezes = false;
+	for (uint64_t i = 0; i < runs_affordable(40); i++) {
+		if (squeezes) {
+			runs_step(world, 1);
+		} else {
+			forecast_follow(&f, world);
+			forecast_step(&f, (double)def->time_step);
+			check_step(&sum, &f, world, s, device);
+			squeezes = !f.sure && f.middle->hit_count >= SQUEEZED;
+		}
 		if (other)
 			runs_step(other, 1);
 		if (other && runs_hash(other) != runs_hash(world))

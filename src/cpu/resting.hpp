@@ -145,12 +145,14 @@ public:
 				else
 					pair(s, way, other, other_way, nearness);
 			});
-			return count + left_out;
+			return left_out;
 		};
-		if (look(false) > CONTACTS_MOST)
+		const int32_t left_out = look(false);
+		const bool has_known = left_out > 0 && count + left_out > CONTACTS_MOST;
+		if (has_known)
 			look(true);
 		for (int32_t k = 0; k < count && count <= CONTACTS_MOST; k++)
-			if (!found[k].partner.moves() || !is_known(found[k].partner.slot()))
+			if (!has_known || !found[k].partner.moves() || !is_known(found[k].partner.slot()))
 				visit(found[k]);
 	}
 

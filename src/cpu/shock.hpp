@@ -42,8 +42,7 @@ public:
 							return false;
 						open(id, own);
 					}
-					if (p->other != closed && push(parties[k], *p, rate))
-						more = true, p->settled = -1;
+					more |= p->other != closed && push(parties[k], *p, rate);
 				}
 			}
 		}
@@ -98,7 +97,7 @@ private:
 	struct Point {
 		Partner partner;
 		int32_t other;              /* the partner as a party, or: */
-		int32_t settled;            /* after which of all changes it was found that there is nothing to do, else -1 */
+		int32_t settled;            /* which of all changes was the last before it was looked at */
 		Vec<T> n;                   /* towards the party */
 		T arm, other_arm;           /* of the two, along n, */
 		T grip_arm, other_grip_arm; /* and along the surfaces */
@@ -112,6 +111,7 @@ private:
 	/* A partner that is no party: it never is, or not yet. */
 	static constexpr int32_t fixed = -1, closed = -2;
 
+	/* Has neither of its parties another velocity since then? */
 	bool is_settled(const Party &party, const Point &p) const
 	{
 		return p.settled >= party.changed && (p.other < 0 || p.settled >= parties[p.other].changed);
@@ -152,7 +152,7 @@ private:
 			for (int32_t i = 0; i < rest.points && parties[k].points < SHOCK_POINTS; i++) {
 				const auto &at = rest.at[i];
 				Point &p = points[k][parties[k].points++];
-				p = {rest.partner, moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed : fixed, -1, rest.n, at.arm, at.other_arm,
+				p = {rest.partner, moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed : fixed, 0, rest.n, at.arm, at.other_arm,
 					at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
 				if (moves)
 					p.coming = speed(other_way, p.n, p.other_arm), p.slipping = speed(other_way, p.along(), p.other_grip_arm);
