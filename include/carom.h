@@ -101,6 +101,8 @@ typedef enum carom_shape {
 
 #define CAROM_MAX_FRICTION 1000.0f   /**< of a coefficient of friction; more would make no difference */
 #define CAROM_COLOR_AUTO 0xFF000000u /**< a colour of the palette, by the body's index */
+#define CAROM_CATEGORIES 1u          /**< of a body that is of no other category */
+#define CAROM_MASK 0xFFFFFFFFu       /**< of a body that meets all categories */
 
 /** What a body is made from. Start from carom_default_body_def() and set the shape. */
 typedef struct carom_body_def {
@@ -124,10 +126,13 @@ typedef struct carom_body_def {
 	carom_vec2 force;           /**< N, constant, at the centre of mass; default (0, 0) */
 	float torque;               /**< N m, constant; default 0 */
 	bool is_static;             /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
-	bool is_kinematic; /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
+	bool is_kinematic;   /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
 	                               kinematic bodies and out of the room; forces must be 0. carom_world_set_states gives it other velocities */
-	uint32_t color;    /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
-	const char *name;  /**< for people; NULL (the default) for none */
+	uint32_t categories; /**< bits: what the body is; default CAROM_CATEGORIES. Two bodies hit each other if each is of a category that the
+	                               other's mask has, else they pass through each other as if the other was not there; walls stop all */
+	uint32_t mask;       /**< bits: the categories that it hits; default CAROM_MASK */
+	uint32_t color;      /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
+	const char *name;    /**< for people; NULL (the default) for none */
 } carom_body_def;
 
 /** What moves. */
@@ -155,6 +160,7 @@ typedef struct carom_body_info {
 	bool is_static;             /**< never moves */
 	bool is_kinematic;          /**< moves as its velocities say, and nothing changes them */
 	carom_vec2 recentred_by;    /**< m: the centre of mass of the vertices as they were given; (0, 0) if none was moved */
+	uint32_t categories, mask;  /**< bits: what it is, and what it hits */
 	uint32_t color;             /**< 0xRRGGBB, or CAROM_COLOR_AUTO */
 	const char *name;           /**< NULL for none */
 } carom_body_info;
@@ -299,6 +305,10 @@ CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first
  * kinematic body takes none: for it anything but 0 is CAROM_INVALID_ARGUMENT. */
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
 
+/** What the body is and what it hits, from now on: as in carom_body_def. Bodies that overlap as they begin to meet are parted as any that overlap. Where it is another one than before the
+ * next step begins anew, for all bodies. */
+CAROM_API carom_status carom_world_set_filter(carom_world *world, uint32_t index, uint32_t categories, uint32_t mask, carom_error *error);
+
 /** Gravity (m/s^2, finite) from now on; carom_world_get_def has it, too. It may be another one before each step: by events and contacts all bodies then look for hits in it, but none
  * is loaded anew. */
 CAROM_API carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, carom_error *error);
@@ -435,6 +445,8 @@ typedef struct carom_snapshot carom_snapshot;
 
 /** Makes one of the world as it is now. Waits for the device. */
 CAROM_API carom_status carom_snapshot_create(carom_world *world, carom_snapshot **snapshot, carom_error *error);
+/** The same of those bodies alone that are of a category in `mask` (bits, as in carom_body_def); CAROM_MASK is for all bodies, also those of no category. Indices stay those of the world. */
+CAROM_API carom_status carom_snapshot_create_masked(carom_world *world, uint32_t mask, carom_snapshot **snapshot, carom_error *error);
 /** Releases it. */
 CAROM_API void carom_snapshot_destroy(carom_snapshot *snapshot);
 

@@ -41,6 +41,14 @@
 #define FRICTION_LOG2 2
 #define FRICTION_BODIES (1 << FRICTION_LOG2)
 
+/* Filters: which pairs may hit each other. A list: whether any may not; only then two ints a body follow. */
+#define FILTERS_ANY 0 /* 0 or 1 */
+#define FILTERS_FIRST 4
+#define FILTER_WIDTH 2
+#define FILTER_CATEGORIES 0 /* bits: what the body is */
+#define FILTER_MASK 1       /* bits: the categories that it meets */
+#define FILTER(body, part) (FILTERS_FIRST + FILTER_WIDTH * (body) + (part))
+
 /* Uniforms: what is the same for every body; four texels in a row */
 #define UNIFORMS_WIDTH 4
 #define UNIFORMS_WORLD 0 /* texel */

@@ -30,9 +30,10 @@ void mend_add(LIST_OUT(status), LIST_OUT(extra), int s, int other)
 	} while (next != seen);
 }
 
-void mend_meet(LIST_OUT(status), LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), LIST_OUT(wakes), int s, int other)
+void mend_meet(RECORD_IN(slots), LIST_IN(filters), LIST_OUT(status), LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), LIST_OUT(wakes), int s,
+	int other)
 {
-	if (other == s || mend_knows(spans, neighbours, extra, s, other))
+	if (other == s || !slots_meet(slots, filters, s, other) || mend_knows(spans, neighbours, extra, s, other))
 		return;
 	mend_add(status, extra, s, other);
 	mend_add(status, extra, other, s);
@@ -41,8 +42,8 @@ void mend_meet(LIST_OUT(status), LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(e
 }
 
 /* Among the slots in the cells of all levels, and those that are not in the cells any more in which they would be looked for: a lane's part of them. */
-void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers), LIST_OUT(extra),
-	LIST_OUT(wakes), int s, int columns, int rows, int lane, int lanes)
+void mend_search(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours),
+	LIST_IN(movers), LIST_OUT(extra), LIST_OUT(wakes), int s, int columns, int rows, int lane, int lanes)
 {
 	float4 box = reach[s];
 	int levels = status[STATUS_LEVELS], count = status[STATUS_MOVERS];
@@ -55,7 +56,7 @@ void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spa
 			int cell = CELL_WIDTH * cell_index((int2)(low.x + k % width, low.y + k / width), level, columns, rows);
 			for (int other = cells[cell + CELL_START]; other < cells[cell + CELL_END]; other++)
 				if (boxes_touch(box, reach[other]))
-					mend_meet(status, spans, neighbours, extra, wakes, s, other);
+					mend_meet(slots, filters, status, spans, neighbours, extra, wakes, s, other);
 		}
 	}
 	for (int i = lane; i < count; i += 4 * lanes) { /* four are read at once */
@@ -67,6 +68,6 @@ void mend_search(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spa
 			boxes[k] = reach[others[k]];
 		for (int k = 0; k < 4; k++)
 			if (boxes_touch(box, boxes[k]))
-				mend_meet(status, spans, neighbours, extra, wakes, s, others[k]);
+				mend_meet(slots, filters, status, spans, neighbours, extra, wakes, s, others[k]);
 	}
 }

@@ -252,13 +252,21 @@ INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slo
 	list->behind += ahead ? 0 : near;
 }
 
+/* May the bodies of two slots hit each other, wherever they are? */
+bool slots_meet(RECORD_IN(slots), LIST_IN(filters), int s, int other)
+{
+	if (!slot_is_dynamic(slots, s) && !slot_is_dynamic(slots, other))
+		return false;
+	return !filters[FILTERS_ANY] || filter_lets(filters, slot_body(slots, s), slot_body(slots, other));
+}
+
 /* The slots of one level in places [from, to) whose reach touches this one's. */
-INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box, bool dynamic,
-	bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
+INLINE void near_range(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box,
+	bool meets_all, bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	for (int other = from; other < to; other++) {
 		int near = (other != s) & boxes_touch(box, reach[other]);
-		if (!dynamic && near && !slot_is_dynamic(slots, other))
+		if (!meets_all && near && !slots_meet(slots, filters, s, other))
 			near = 0;
 		near_add(list, neighbours, half_at, other, !same_level || other > s, near);
 		if (!same_level && near && half_at < 0)
@@ -266,12 +274,12 @@ INLINE void near_range(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIS
 	}
 }
 
-void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s, int columns,
-	int rows, near_list *list, LIST_OUT(neighbours), int half_at)
+void near_search(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s,
+	int columns, int rows, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	float4 box = reach[s];
 	int own = reach_level(box, as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
-	bool dynamic = slot_is_dynamic(slots, s);
+	bool meets_all = slot_is_dynamic(slots, s) && !filters[FILTERS_ANY];
 	for (int level = max(own - NEAR_LEVELS, 0); level < CELL_LEVELS; level++) {
 		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
 			continue;
@@ -282,22 +290,22 @@ void near_search(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(c
 			int row = first - (first & (columns - 1));
 			int from = cells[CELL_WIDTH * first + CELL_START], to = cells[CELL_WIDTH * last + CELL_END];
 			if (last < first) {
-				near_range(slots, reach, status, nodes, members, s, box, dynamic, level == own, cells[CELL_WIDTH * row + CELL_START], to, list,
-					neighbours, half_at);
+				near_range(slots, filters, reach, status, nodes, members, s, box, meets_all, level == own, cells[CELL_WIDTH * row + CELL_START], to,
+					list, neighbours, half_at);
 				to = cells[CELL_WIDTH * (row + columns - 1) + CELL_END];
 			}
-			near_range(slots, reach, status, nodes, members, s, box, dynamic, level == own, from, to, list, neighbours, half_at);
+			near_range(slots, filters, reach, status, nodes, members, s, box, meets_all, level == own, from, to, list, neighbours, half_at);
 		}
 	}
 }
 
 /* Those that the list had no room for are found once more. */
-void near_again(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s, int columns,
-	int rows, int half_at, LIST_OUT(neighbours))
+void near_again(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s,
+	int columns, int rows, int half_at, LIST_OUT(neighbours))
 {
 	near_list again;
 	again.ahead = again.behind = 0;
-	near_search(slots, reach, status, cells, nodes, members, s, columns, rows, &again, neighbours, half_at);
+	near_search(slots, filters, reach, status, cells, nodes, members, s, columns, rows, &again, neighbours, half_at);
 }
 
 void near_write(const near_list *list, int start, int half_end, int end, LIST_OUT(neighbours))

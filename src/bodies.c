@@ -8,7 +8,13 @@
 
 carom_body_def carom_default_body_def(void)
 {
-	carom_body_def def = {.shape = CAROM_CIRCLE, .density = 1.0f, .restitution = NAN, .friction = NAN, .color = CAROM_COLOR_AUTO};
+	carom_body_def def = {.shape = CAROM_CIRCLE,
+		.density = 1.0f,
+		.restitution = NAN,
+		.friction = NAN,
+		.categories = CAROM_CATEGORIES,
+		.mask = CAROM_MASK,
+		.color = CAROM_COLOR_AUTO};
 	return def;
 }
 
@@ -277,6 +283,8 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world *world
 	body->force = def->force;
 	body->torque = def->torque;
 	body->color = def->color;
+	body->categories = def->categories;
+	body->mask = def->mask;
 	body->is_static = def->is_static;
 	body->is_kinematic = def->is_kinematic;
 	status = def->shape == CAROM_CIRCLE ? make_circle(def, body) : make_polygon(def, index, body, vertices, error);

@@ -51,6 +51,8 @@ static void place_box(carom_placed *at)
 static uint32_t place_body(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners)
 {
 	*at = (carom_placed){.x = (double)state->position.x, .y = (double)state->position.y, .radius = (double)body->radius};
+	at->categories = body->categories;
+	at->mask = body->mask;
 	at->is_dynamic = isfinite(body->mass);
 	if (body->vertices)
 		place_corners(at, body, state, corners);
@@ -67,20 +69,21 @@ static uint32_t level_of(double radius, double largest)
 	return exponent <= 1 ? 0 : exponent >= CAROM_GRIDS ? CAROM_GRIDS - 1 : (uint32_t)exponent - 1;
 }
 
-static bool is_somewhere(const carom_placed *body)
+static bool is_somewhere(const carom_placed *body, uint32_t mask)
 {
-	return body->radius > 0 && isfinite(body->min_x) && isfinite(body->min_y) && isfinite(body->max_x) && isfinite(body->max_y);
+	return (mask == CAROM_MASK || body->categories & mask) && body->radius > 0 && isfinite(body->min_x) && isfinite(body->min_y)
+		&& isfinite(body->max_x) && isfinite(body->max_y);
 }
 
 /* Gives each body its level, and each grid its members in the order of their indices. */
-static void sort_by_level(carom_crowd *c)
+static void sort_by_level(carom_crowd *c, uint32_t mask)
 {
 	double largest = 0;
 	for (size_t k = 0; k < c->count; k++)
 		largest = carom_most(c->bodies[k].radius, largest);
 	for (size_t k = 0; k < c->count; k++) {
 		carom_placed *body = &c->bodies[k];
-		body->level = is_somewhere(body) ? level_of(body->radius, largest) : CAROM_GRIDS;
+		body->level = is_somewhere(body, mask) ? level_of(body->radius, largest) : CAROM_GRIDS;
 		if (body->level < CAROM_GRIDS)
 			c->grids[body->level].count++;
 	}
@@ -154,10 +157,10 @@ static void fill_grid(carom_grid *g, const carom_placed *bodies, uint32_t *cells
 	g->starts[0] = 0;
 }
 
-static void build_grids(carom_crowd *c, uint32_t *scratch)
+static void build_grids(carom_crowd *c, uint32_t mask, uint32_t *scratch)
 {
 	uint32_t *starts = c->starts;
-	sort_by_level(c);
+	sort_by_level(c, mask);
 	for (carom_grid *g = c->grids; g < c->grids + CAROM_GRIDS; g++) {
 		if (g->count == 0)
 			continue;
@@ -195,7 +198,7 @@ static carom_status place_all(carom_world *world, carom_crowd *c, carom_body_sta
 	return status;
 }
 
-carom_status carom_crowd_make(carom_world *world, const char *why, carom_crowd *crowd, carom_error *error)
+carom_status carom_crowd_make(carom_world *world, uint32_t mask, const char *why, carom_crowd *crowd, carom_error *error)
 {
 	*crowd = (carom_crowd){.count = carom_world_body_count(world)};
 	const size_t count = crowd->count;
@@ -214,7 +217,7 @@ carom_status carom_crowd_make(carom_world *world, const char *why, carom_crowd *
 	else
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to %s %zu bodies", why, count);
 	if (status == CAROM_OK)
-		build_grids(crowd, scratch);
+		build_grids(crowd, mask, scratch);
 	free(states);
 	free(scratch);
 	return status;

@@ -20,7 +20,8 @@ typedef struct carom_placed {
 	double x, y, radius;               /* of the circle that encloses the body */
 	double min_x, min_y, max_x, max_y; /* its box */
 	const carom_corner *corners;       /* NULL for a circle */
-	uint32_t corner_count, level;      /* its grid; CAROM_GRIDS: it is nowhere, for a number of it is not finite */
+	uint32_t corner_count, level;      /* its grid; CAROM_GRIDS: it is nowhere, for a number of it is not finite, or it is not asked for */
+	uint32_t categories, mask;
 	bool is_dynamic;
 } carom_placed;
 
@@ -50,8 +51,15 @@ static inline double carom_most(double a, double b)
 	return a > b ? a : b;
 }
 
-/* Of the world as it is now; to be given to carom_crowd_free, whether this succeeds or not. `why` is for the error: "measure". */
-carom_status carom_crowd_make(carom_world *world, const char *why, carom_crowd *crowd, carom_error *error);
+/* By their filters, may the two hit each other? */
+static inline bool carom_meet(const carom_placed *a, const carom_placed *b)
+{
+	return (a->categories & b->mask) && (b->categories & a->mask);
+}
+
+/* Of the world as it is now, in grids those bodies that are of a category in `mask`, and all for CAROM_MASK; to be given to carom_crowd_free, whether this
+ * succeeds or not. `why` is for the error: "measure". */
+carom_status carom_crowd_make(carom_world *world, uint32_t mask, const char *why, carom_crowd *crowd, carom_error *error);
 void carom_crowd_free(carom_crowd *crowd);
 
 /* The cell of a coordinate among so many along one axis from `origin` on, the nearest one if it is outside: a column, or a row. */

@@ -40,7 +40,7 @@ carom_status carom_world_measure(carom_world *world, carom_measure *measure, car
 	GIVEN(measure, error);
 	carom_measure sum = {0};
 	carom_crowd crowd;
-	carom_status status = carom_crowd_make(world, "measure", &crowd, error);
+	carom_status status = carom_crowd_make(world, CAROM_MASK, "measure", &crowd, error);
 	if (status == CAROM_OK)
 		status = add_bodies(world, &sum, error);
 	if (status == CAROM_OK) {

@@ -79,7 +79,7 @@ static double overlap_of_boxes(const carom_placed *a, const carom_placed *b)
 
 static void deepen_by_pair(double *deepest, const carom_placed *a, const carom_placed *b)
 {
-	if (overlap_of_boxes(a, b) <= *deepest || !(a->is_dynamic || b->is_dynamic))
+	if (overlap_of_boxes(a, b) <= *deepest || !(a->is_dynamic || b->is_dynamic) || !carom_meet(a, b))
 		return;
 	double depth = -carom_separation(a, b, -*deepest);
 	if (depth > *deepest)

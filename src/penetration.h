@@ -9,7 +9,7 @@
  * `enough` where it is that or more. */
 double carom_separation(const carom_placed *a, const carom_placed *b, double enough);
 
-/* The deepest overlap of two bodies that are not both static, or of a body that is not static and a wall of the room; 0 if
+/* The deepest overlap of two bodies that may hit each other, or of a body that is not static and a wall of the room; 0 if
  * nothing overlaps. */
 double carom_deepest_penetration(const carom_crowd *crowd, const carom_world_def *def);
 

@@ -145,6 +145,8 @@ static const struct scene_field body_fields[] = {
 	{"torque", scene_read_number, scene_quick_number, offsetof(struct body, def.torque), &scene_any, false},
 	{"static", scene_read_flag, scene_quick_flag, offsetof(struct body, def.is_static), NULL, false},
 	{"kinematic", scene_read_flag, scene_quick_flag, offsetof(struct body, def.is_kinematic), NULL, false},
+	{"categories", scene_read_whole, scene_quick_whole, offsetof(struct body, def.categories), &scene_bits, false},
+	{"mask", scene_read_whole, scene_quick_whole, offsetof(struct body, def.mask), &scene_bits, false},
 	{"color", scene_read_color, scene_quick_color, offsetof(struct body, def.color), NULL, false},
 	{"name", scene_read_string, scene_quick_string, offsetof(struct body, def.name), NULL, false},
 	{"contacts", scene_read_contacts, scene_quick_contacts, 0, NULL, false},

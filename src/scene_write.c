@@ -139,6 +139,12 @@ static void put_contacts(FILE *stream, const carom_contact *contacts, size_t cou
 		putc(']', stream);
 }
 
+static void put_bits_key(FILE *stream, const char *key, uint32_t bits, uint32_t default_bits)
+{
+	if (bits != default_bits)
+		fprintf(stream, ", \"%s\": %lu", key, (unsigned long)bits);
+}
+
 static void put_body(const struct writer *writer, const carom_body_info *info, const carom_body_state *state, const carom_contact *contacts,
 	size_t contact_count)
 {
@@ -163,6 +169,8 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 		fputs(", \"static\": true", stream);
 	if (info->is_kinematic)
 		fputs(", \"kinematic\": true", stream);
+	put_bits_key(stream, "categories", info->categories, defaults->categories);
+	put_bits_key(stream, "mask", info->mask, defaults->mask);
 	if (info->color != CAROM_COLOR_AUTO)
 		fprintf(stream, ", \"color\": \"#%06x\"", (unsigned)(info->color & 0xFFFFFF));
 	if (info->name) {

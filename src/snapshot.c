@@ -17,6 +17,11 @@ struct carom_snapshot {
 
 carom_status carom_snapshot_create(carom_world *world, carom_snapshot **snapshot, carom_error *error)
 {
+	return carom_snapshot_create_masked(world, CAROM_MASK, snapshot, error);
+}
+
+carom_status carom_snapshot_create_masked(carom_world *world, uint32_t mask, carom_snapshot **snapshot, carom_error *error)
+{
 	GIVEN(world, error);
 	GIVEN(snapshot, error);
 	const carom_world_def *def = carom_world_get_def(world);
@@ -24,7 +29,7 @@ carom_status carom_snapshot_create(carom_world *world, carom_snapshot **snapshot
 	if (!made)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for a snapshot");
 	*made = (carom_snapshot){.has_room = def->has_room, .room_min = def->room_min, .room_max = def->room_max};
-	const carom_status status = carom_crowd_make(world, "keep", &made->crowd, error);
+	const carom_status status = carom_crowd_make(world, mask, "keep", &made->crowd, error);
 	if (status == CAROM_OK)
 		*snapshot = made;
 	else

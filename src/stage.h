@@ -16,6 +16,7 @@ typedef enum carom_role {
 	ROLE_GEOMETRY,
 	ROLE_FORCES,
 	ROLE_FRICTION,       /* one texel FRICTION_BODIES bodies */
+	ROLE_FILTERS,        /* list, FILTER_WIDTH a body behind its head; of the head alone where all meet all */
 	ROLE_VERTICES,       /* one texel two vertices */
 	ROLE_UNIFORMS,       /* UNIFORMS_WIDTH x 1 */
 	ROLE_CLOCK,          /* pair, CLOCK_WIDTH x 1 */

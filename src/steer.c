@@ -257,6 +257,20 @@ carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec
 	return CAROM_OK;
 }
 
+carom_status carom_world_set_filter(carom_world *world, uint32_t index, uint32_t categories, uint32_t mask, carom_error *error)
+{
+	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_bodies(world, index, 1, error));
+	carom_body *body = &carom_world_bodies(world)[index];
+	if (body->categories == categories && body->mask == mask)
+		return CAROM_OK;
+	body->categories = categories;
+	body->mask = mask;
+	world->bodies_current = false; /* lists of neighbours go by it */
+	return CAROM_OK;
+}
+
 /* What the def says from now on, if that is allowed. */
 static carom_status change_def(carom_world *world, const carom_world_def *def, carom_error *error)
 {

@@ -27,7 +27,7 @@ uint32_t carom_capacity(size_t items)
 static carom_texel_format format_of(carom_role role)
 {
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED
-		|| role == ROLE_TOUCHING || role == ROLE_WARM_COUNT)
+		|| role == ROLE_FILTERS || role == ROLE_TOUCHING || role == ROLE_WARM_COUNT)
 		return TEXELS_LIST;
 	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_CHANGES || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES
 		|| role == ROLE_SHAPES || role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS
@@ -42,6 +42,7 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_GEOMETRY] = "Geometry",
 	[ROLE_FORCES] = "Forces",
 	[ROLE_FRICTION] = "Friction",
+	[ROLE_FILTERS] = "Filters",
 	[ROLE_VERTICES] = "Vertices",
 	[ROLE_UNIFORMS] = "Uniforms",
 	[ROLE_CLOCK] = "Clock",
@@ -140,7 +141,7 @@ void carom_textures_destroy(carom_world *world)
 		world->device->kind->destroy(world->device, world->levels[i]);
 		world->levels[i] = NULL;
 	}
-	world->capacity = world->vertex_capacity = world->polygon_capacity = 0;
+	world->capacity = world->vertex_capacity = world->polygon_capacity = world->filter_room = 0;
 	world->bodies_current = world->prepared = false;
 	world->newest &= PLACE_HOST;
 	world->canvas = (carom_canvas){0};

@@ -60,6 +60,38 @@ static void fill_friction(const carom_world *world, float *texels)
 		texels[i] = carom_world_bodies(world)[i].friction;
 }
 
+static bool is_filtered(const carom_body *body)
+{
+	return body->categories != CAROM_CATEGORIES || body->mask != CAROM_MASK;
+}
+
+/* Of the head alone while all bodies meet all others. */
+static carom_status send_filters(carom_world *world, carom_error *error)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	bool any = false;
+	for (size_t i = 0; i < world->body_count && !any; i++)
+		any = is_filtered(&bodies[i]);
+	const uint32_t count = any ? (uint32_t)FILTER(world->capacity, 0) : FILTERS_FIRST, width = carom_row_width(count), rows = carom_row_count(count);
+	if (count != world->filter_room) {
+		static const float zero[4] = {0};
+		world->filter_room = 0;
+		TRY(carom_textures_create(world, ROLE_FILTERS, false, width, rows, zero, error));
+		world->filter_room = count;
+	}
+	uint32_t *list = calloc((size_t)width * rows, sizeof *list);
+	if (!list)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
+	list[FILTERS_ANY] = any;
+	for (size_t i = 0; i < world->body_count && any; i++) {
+		list[FILTER(i, FILTER_CATEGORIES)] = bodies[i].categories;
+		list[FILTER(i, FILTER_MASK)] = bodies[i].mask;
+	}
+	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_FILTERS].front, rows, list, error);
+	free(list);
+	return status;
+}
+
 /* Those of polygons as the host has them; a circle's only vertex is (radius, 0). */
 static void fill_vertices(const carom_world *world, float *texels)
 {
@@ -100,6 +132,7 @@ carom_status carom_textures_send(carom_world *world, carom_error *error)
 	TRY(send(world, ROLE_GEOMETRY, world->capacity, fill_geometry, error));
 	TRY(send(world, ROLE_FORCES, world->capacity, fill_forces, error));
 	TRY(send(world, ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction, error));
+	TRY(send_filters(world, error));
 	TRY(send(world, ROLE_VERTICES, world->vertex_capacity, fill_vertices, error));
 	return carom_uniforms_send(world, error);
 }

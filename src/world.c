@@ -269,6 +269,8 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 		.torque = body->torque,
 		.is_static = body->is_static,
 		.is_kinematic = body->is_kinematic,
+		.categories = body->categories,
+		.mask = body->mask,
 		.recentred_by = body->recentred_by,
 		.color = body->color,
 		.name = body->name ? (const char *)world->names.items + body->name - 1 : NULL,

@@ -15,7 +15,7 @@ typedef struct carom_body {
 	uint32_t vertex_first, vertex_count; /* in world->vertices, the first an even number; count 1 and none there for a circle */
 	float mass, inertia, density, restitution, friction, torque;
 	carom_vec2 force, recentred_by;
-	uint32_t color;
+	uint32_t color, categories, mask;
 	bool is_static, is_kinematic; /* one of them, or none */
 	uint32_t change;              /* number + 1 in world->changes, 0 for none */
 	size_t name;                  /* offset + 1 in world->names, 0 for none */
@@ -131,6 +131,7 @@ struct carom_world {
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
 	uint32_t vertex_capacity;  /* texels of Vertices, likewise, */
 	uint32_t polygon_capacity; /* and those of them that are polygons' */
+	uint32_t filter_room;      /* ints of Filters */
 	carom_pair textures[ROLE_COUNT];
 	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
 	bool prepared;                           /* the step has its textures, too */

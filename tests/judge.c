@@ -38,13 +38,15 @@ carom_world_def judge_arena(const char *slot, const char *alternative)
 void judge_fill(carom_world *world, uint64_t seed)
 {
 	carom_body_def bodies[COUNT];
-	scenery_random random = {seed};
+	scenery_random random = {seed}, filters = {seed + 1};
 	carom_error error;
 	scenery_bodies(&random, SCENERY_MIXED, COUNT, 0.9f, 4.0f, bodies); /* crowded: some overlap from the start */
 	scenery_drive(&random, COUNT, 2.0f, bodies);
 	for (int i = 0; i < COUNT; i++) {
 		bodies[i].restitution = scenery_uniform(&random, 0.0f, 1.0f);
 		bodies[i].friction = scenery_uniform(&random, 0.0f, 1.0f);
+		if (i % 4 == 0)
+			scenery_filter(&filters, &bodies[i]);
 		if (!bodies[i].is_static && !bodies[i].is_kinematic) {
 			bodies[i].force = (carom_vec2){scenery_uniform(&random, -1.0f, 1.0f), scenery_uniform(&random, -1.0f, 1.0f)};
 			bodies[i].torque = scenery_uniform(&random, -0.3f, 0.3f);

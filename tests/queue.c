@@ -62,9 +62,11 @@ static double *next_of(queue *q, int row, int column)
 	return &q->next[(size_t)row * (q->count + WALLS) + (size_t)(column + WALLS)];
 }
 
-/* No part of either comes farther, so that most pairs need no more than this. */
+/* No part of either comes farther, so that most pairs need no more than this; and each is to hit what the other is. */
 static bool can_meet(const queue_body *a, const queue_body *b)
 {
+	if ((a->categories & b->mask) == 0 || (b->categories & a->mask) == 0)
+		return false;
 	const double x = b->at.x - a->at.x, y = b->at.y - a->at.y, apart = a->at.bound + b->at.bound;
 	const double far = hypot(a->at.vx, a->at.vy) + hypot(a->at.ax, a->at.ay) + hypot(b->at.vx, b->at.vy) + hypot(b->at.ax, b->at.ay);
 	return x * x + y * y <= (apart + 2.0 * far + 1e-3) * (apart + 2.0 * far + 1e-3);

@@ -37,6 +37,8 @@ static void take_body(queue_body *k, carom_world *world, uint32_t index)
 	k->inverse_inertia = 1.0 / (double)info.inertia;
 	k->restitution = (double)info.restitution;
 	k->friction = (double)info.friction;
+	k->categories = info.categories;
+	k->mask = info.mask;
 	if (k->inverse_mass > 0.0) {
 		k->push[0] = (double)def->gravity.x + (double)info.force.x * k->inverse_mass;
 		k->push[1] = (double)def->gravity.y + (double)info.force.y * k->inverse_mass;

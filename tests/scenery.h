@@ -47,6 +47,9 @@ void scenery_bodies(scenery_random *random, scenery_shapes shapes, size_t count,
 /* Makes most of the static ones kinematic, with velocities up to so many m/s and rad/s. */
 void scenery_drive(scenery_random *random, size_t count, float speed, carom_body_def *defs);
 
+/* Makes the body one of three categories, or of two, and lets it pass through some of them. */
+void scenery_filter(scenery_random *random, carom_body_def *def);
+
 /* SCENERY_CROWD of them in a room, in which much is hit; NULL where there is no such device. */
 enum { SCENERY_CROWD = 40 };
 carom_world *scenery_crowd(const scenery_device *device, uint64_t seed, uint32_t threads);

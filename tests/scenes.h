@@ -21,8 +21,9 @@ static const char everything[] =
 	"  \"color\": \"#c3f\", \"name\": \"a \\\"quoted\\\" \\\\ \\u0001 \\n \\u00e9 \\ud83c\\udfb1 ]}\"},\n"
 	"  {\"regular\": {\"sides\": 5, \"radius\": 0.3}, \"position\": [2, 2], \"mass\": 0.17, \"color\": \"#012345\"},\n"
 	"  {\"polygon\": {\"vertices\": [[5, 5], [5, 6], [6.5, 6.1], [6.7, 5.2]]}, \"position\": [-0.0, 3.3], \"angle\": 3.1},\n"
-	"  {\"polygon\": {\"vertices\": [[-1, -0.1], [1, -0.1], [1, 0.1], [-1, 0.1]]}, \"position\": [0, -3], \"static\": true}\n"
-	"], \"format\": \"carom-scene/1\", \"camera\": {\"center\": [0.1, -0.1], \"height\": 7}, \"time_step\": 0.01,\n"
+	"  {\"polygon\": {\"vertices\": [[-1, -0.1], [1, -0.1], [1, 0.1], [-1, 0.1]]}, \"position\": [0, -3], \"static\": true, \"categories\": "
+	"2147483649,\n"
+	"  \"mask\": 0}], \"format\": \"carom-scene/1\", \"camera\": {\"center\": [0.1, -0.1], \"height\": 7}, \"time_step\": 0.01,\n"
 	"\"gravity\": [-0, -9.81], \"restitution\": 0.9, \"room\": {\"min\": [-4, -4], \"max\": [4, 4.1]} }";
 
 static inline carom_scene *parse(const char *text, size_t length)

@@ -99,6 +99,7 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	REFUSE("world", carom_world_set_states(NULL, 0, 1, &state, &error));
 	REFUSE("states", carom_world_set_states(world, 0, 1, NULL, &error));
 	REFUSE("world", carom_world_set_force(NULL, 0, none, 0.0f, &error));
+	REFUSE("world", carom_world_set_filter(NULL, 0, 1, 1, &error));
 	REFUSE("world", carom_world_set_gravity(NULL, none, &error));
 	REFUSE("world", carom_world_set_time_step(NULL, 0.1f, &error));
 	REFUSE("world", carom_world_remove(NULL, &index, 1, &error));
@@ -139,6 +140,8 @@ static void what_has_to_be_given_of_a_snapshot(void **unused)
 	size_t count;
 	REFUSE("world", carom_snapshot_create(NULL, &snapshot, &error));
 	REFUSE("snapshot", carom_snapshot_create(world, NULL, &error));
+	REFUSE("world", carom_snapshot_create_masked(NULL, 1, &snapshot, &error));
+	REFUSE("snapshot", carom_snapshot_create_masked(world, 1, NULL, &error));
 	scenery_check(carom_snapshot_create(world, &snapshot, NULL), NULL);
 	REFUSE("snapshot", carom_snapshot_cast_rays(NULL, 1, &ray, &hit, &error));
 	REFUSE("rays", carom_snapshot_cast_rays(snapshot, 1, NULL, &hit, &error));

@@ -9,7 +9,8 @@ static int make_scene(void **state)
 		|| shell("cat >\"$D/s.json\" <<'E'\n"
 				 "{\"format\": \"carom-scene/1\", \"time_step\": 0.125, \"room\": {\"min\": [-5, -5], \"max\": [5, 5]}, \"bodies\": [\n"
 				 "{\"circle\": {\"radius\": 1}, \"name\": \"a \\\"disc\\\", red\", \"velocity\": [4, 0]},\n"
-				 "{\"polygon\": {\"vertices\": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}, \"position\": [3, 0], \"name\": \"box\", \"static\": true}]}\n"
+				 "{\"polygon\": {\"vertices\": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}, \"position\": [3, 0], \"name\": \"box\", \"static\": true,\n"
+				 "\"categories\": 6}]}\n"
 				 "E\n"
 				 "true");
 }
@@ -67,6 +68,16 @@ static void a_body_is_nearest(void **unused)
 	check_table("echo '{\"format\": \"carom-scene/1\", \"bodies\": []}' | $C query - --nearest 0,0", columns);
 }
 
+static void bodies_are_left_out(void **unused)
+{
+	(void)unused;
+	check_table("$C query $D/s.json --ray 4,0,0,0 --mask 1 | cut -d, -f 1-5", "ray,met,part,x_m,y_m\n1,0,0.75,1,0\n");
+	check_table("$C query $D/s.json --box -5,-5,10,10 --mask 0x1 | cut -d, -f 1", "body\n0\n");
+	check_table("$C query $D/s.json --box -5,-5,10,10 --mask 4 | cut -d, -f 1", "body\n1\n");
+	check_table("$C query $D/s.json --box -5,-5,10,10 --mask 0xFFFFffff | cut -d, -f 1", "body\n0\n1\n");
+	check_table("$C query $D/s.json --box -5,-5,10,10 --mask 8", "body,name\n");
+}
+
 /* What runs is asked as any scene is. */
 static void a_state_is_a_scene(void **unused)
 {
@@ -89,6 +100,12 @@ static void wrong_questions_are_errors(void **unused)
 	check("$C query $D/s.json --nearest 0,1,2", 2, "--nearest: found \"0,1,2\"; allowed: X,Y");
 	check("$C query $D/s.json --nearest 0,1 --point 0,1", 2, "several things are asked at once");
 	check("$C query $D/s.json --box 0,0,-1,1", 2, "--box: found \"0,0,-1,1\"; allowed: X,Y,W,H");
+	static const char *const masks[] = {"", "-1", "4294967296", "0x", "0x1G", "0x100000000", "1.5", "1 ", "99999999999999999999"};
+	for (size_t i = 0; i < COUNT(masks); i++) {
+		char line[128];
+		snprintf(line, sizeof line, "$C query $D/s.json --point 0,0 --mask '%s'", masks[i]);
+		check(line, 2, "--mask: ");
+	}
 	check("$C query $D/s.json --box 3e38,0,3e38,1", 2, "box: found");
 	check("printf 'a,b\\n0,0,1,1\\n0,0,1\\n' | $C query $D/s.json --rays -", 2, "/dev/stdin:3: found \"0,0,1\"");
 	check("printf '0,0,1\\n' | $C query $D/s.json --rays -", 2, "/dev/stdin:1: found \"0,0,1\"");
@@ -106,7 +123,7 @@ static void wrong_questions_are_errors(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_meets_what_is_first), cmocka_unit_test(many_rays_come_from_a_file),
-		cmocka_unit_test(bodies_are_at_a_place), cmocka_unit_test(a_body_is_nearest), cmocka_unit_test(a_state_is_a_scene),
-		cmocka_unit_test(wrong_questions_are_errors)};
+		cmocka_unit_test(bodies_are_at_a_place), cmocka_unit_test(a_body_is_nearest), cmocka_unit_test(bodies_are_left_out),
+		cmocka_unit_test(a_state_is_a_scene), cmocka_unit_test(wrong_questions_are_errors)};
 	return cmocka_run_group_tests_name("query", tests, make_scene, remove_folder);
 }

@@ -24,7 +24,12 @@ static const char *const texts[] = {
 	"{" CIRCLE ", \"angle\": 9007199254740993}",
 	"{" CIRCLE ", \"contacts\": []}, {" CIRCLE ", \"contacts\": [{\"body\": 0, \"normal\": [1, 0.5]}, {\"wall\": \"top\", \"normal\": [2, 3]}]}",
 	"{" CIRCLE ", \"contacts\" : [ {\"friction\": [-1, -0.0], \"normal\": [0, 1e-9], \"wall\": \"left\"} ], \"name\": \"\\u00e9\"}",
+	"{" CIRCLE ", \"categories\": 6, \"mask\": 4294967295}, {" CIRCLE ", \"mask\": 0.0, \"categories\": 2147483648}",
 	/* what is wrong */
+	"{" CIRCLE ", \"mask\": 4294967296}",
+	"{" CIRCLE ", \"mask\": -1}",
+	"{" CIRCLE ", \"categories\": 1.5}",
+	"{" CIRCLE ", \"categories\": [1]}",
 	"{}",
 	"{" CIRCLE "},",
 	",{" CIRCLE "}",
@@ -113,6 +118,7 @@ static void assert_same_body(const carom_body_def *a, const carom_body_def *b, c
 	assert_int_equal(x.is_static, y.is_static);
 	assert_int_equal(x.is_kinematic, y.is_kinematic);
 	assert_true(x.sides == y.sides && x.vertex_count == y.vertex_count && x.color == y.color);
+	assert_true(x.categories == y.categories && x.mask == y.mask);
 	const float numbers[2][12] = {{x.radius, x.position.x, x.position.y, x.velocity.x, x.velocity.y, x.angle, x.angular_velocity, x.density, x.mass,
 									  x.restitution, x.friction, x.torque},
 		{y.radius, y.position.x, y.position.y, y.velocity.x, y.velocity.y, y.angle, y.angular_velocity, y.density, y.mass, y.restitution, y.friction,

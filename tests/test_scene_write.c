@@ -37,7 +37,7 @@ static void assert_same_world(carom_world *a, carom_world *b)
 		assert_int_equal(carom_world_get_body(a, k, &x, NULL), CAROM_OK);
 		assert_int_equal(carom_world_get_body(b, k, &y, NULL), CAROM_OK);
 		assert_true(x.shape == y.shape && x.vertex_count == y.vertex_count && x.is_static == y.is_static && x.is_kinematic == y.is_kinematic
-			&& x.color == y.color);
+			&& x.color == y.color && x.categories == y.categories && x.mask == y.mask);
 		assert_memory_equal(&x.radius, &y.radius, sizeof x.radius);
 		assert_memory_equal(&x.mass, &y.mass, sizeof x.mass);
 		assert_memory_equal(&x.inertia, &y.inertia, sizeof x.inertia);

@@ -3,6 +3,7 @@
 #include "carom_tool.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,7 @@ struct query_options {
 	carom_vec2 min, max; /* of --box, or of --point, which is both */
 	const char *rays;    /* the name of a file */
 	carom_vec2 near;
+	uint32_t mask;
 	bool has_ray, has_box, has_point, has_near;
 };
 
@@ -69,6 +71,18 @@ static carom_status read_near(const char *text, void *target, carom_error *error
 	return take_point(text, &options->has_near, &options->near, error);
 }
 
+static carom_status read_mask(const char *text, void *target, carom_error *error)
+{
+	const bool is_hexadecimal = text[0] == '0' && text[1] == 'x';
+	const char *digits = is_hexadecimal ? text + 2 : text;
+	const size_t length = strspn(digits, is_hexadecimal ? "0123456789abcdefABCDEF" : "0123456789");
+	const unsigned long long mask = length > 0 && length < 12 && !digits[length] ? strtoull(digits, NULL, is_hexadecimal ? 16 : 10) : ULLONG_MAX;
+	if (mask > CAROM_MASK)
+		return wrong(error, "found \"%s\"; allowed: a whole number from 0 to 4294967295, or 0x and as many bits in hexadecimal digits", text);
+	*(uint32_t *)target = (uint32_t)mask;
+	return CAROM_OK;
+}
+
 static const struct option options_table[] = {
 	{"ray", "X,Y,X,Y[,RADIUS]", read_ray, 0, "what a ray from the first point to the second meets first, or a disc of this radius"},
 	{"rays", "FILE.csv", read_input, offsetof(struct query_options, rays),
@@ -76,6 +90,7 @@ static const struct option options_table[] = {
 	{"box", "X,Y,W,H", read_box, 0, "which bodies reach into the box with this lower left corner and size"},
 	{"point", "X,Y", read_point, 0, "which bodies this point is in"},
 	{"nearest", "X,Y", read_near, 0, "which body is nearest to this point"},
+	{"mask", "BITS", read_mask, offsetof(struct query_options, mask), "only bodies of a category in these bits are there, as 6 or 0x6; default all"},
 	{NULL, NULL, NULL, 0, NULL},
 };
 
@@ -237,7 +252,7 @@ static carom_status answer(const struct query_options *options, const carom_scen
 	carom_snapshot *snapshot = NULL;
 	carom_status status = carom_scene_create_world(scene, &world, error);
 	if (status == CAROM_OK)
-		status = carom_snapshot_create(world, &snapshot, error);
+		status = carom_snapshot_create_masked(world, options->mask, &snapshot, error);
 	if (status == CAROM_OK)
 		status = print_answer(world, snapshot, options, rays, error);
 	carom_snapshot_destroy(snapshot);
@@ -247,7 +262,7 @@ static carom_status answer(const struct query_options *options, const carom_scen
 
 static int query_main(int argc, char **argv)
 {
-	struct query_options options = {.has_ray = false};
+	struct query_options options = {.mask = CAROM_MASK};
 	struct rays rays = {NULL, 0, 0};
 	carom_scene *scene = NULL;
 	carom_error error;

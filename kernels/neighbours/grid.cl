@@ -73,15 +73,15 @@ __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST
 	litter_clear(status, members, owners, parents, s, domain.x);
 }
 
-__kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans), LIST_OUT(neighbours),
-	LIST_OUT(nodes), LIST_OUT(members), LIST_OUT(extra), int4 domain)
+__kernel void neighbours_near(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(spans),
+	LIST_OUT(neighbours), LIST_OUT(nodes), LIST_OUT(members), LIST_OUT(extra), int4 domain)
 {
 	__local int wanted[GROUP_MOST], first;
 	int s = get_global_id(0), local_id = get_local_id(0);
 	near_list list;
 	list.ahead = list.behind = 0;
 	if (s < domain.x && PEEK(status, STATUS_THRONGS) <= THRONGS_MOST)
-		near_search(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, &list, neighbours, -1);
+		near_search(slots, filters, reach, status, cells, nodes, members, s, domain.z, domain.w, &list, neighbours, -1);
 	wanted[local_id] = list.ahead + list.behind;
 	barrier(CLK_LOCAL_MEM_FENCE);
 	if (local_id == 0)
@@ -96,7 +96,7 @@ __kernel void neighbours_near(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(statu
 	spans[SPAN(s, SPAN_END)] = start + all;
 	spans[SPAN(s, SPAN_FOUND)] = FOUND_NONE;
 	if (all > NEAR_MOST)
-		near_again(slots, reach, status, cells, nodes, members, s, domain.z, domain.w, list.ahead, neighbours + start);
+		near_again(slots, filters, reach, status, cells, nodes, members, s, domain.z, domain.w, list.ahead, neighbours + start);
 	else
 		near_write(&list, start, half_end, start + all, neighbours);
 }
@@ -109,12 +109,12 @@ __kernel void neighbours_gather(LIST_OUT(status), LIST_OUT(spans), LIST_OUT(neig
 }
 
 /* The neighbours of bodies that have got another reach, each by a group. */
-__kernel void neighbours_mend(RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(movers),
-	LIST_OUT(extra), LIST_OUT(wakes), int4 domain)
+__kernel void neighbours_mend(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_IN(spans),
+	LIST_IN(neighbours), LIST_IN(movers), LIST_OUT(extra), LIST_OUT(wakes), int4 domain)
 {
 	if (PEEK(status, STATUS_STALE) || status[STATUS_SMALL])
 		return;
 	int lane = get_local_id(0), lanes = get_local_size(0), group = get_group_id(0), groups = get_num_groups(0);
 	for (int i = status[STATUS_MENDED] + group; i < status[STATUS_MOVERS]; i += groups)
-		mend_search(reach, status, cells, spans, neighbours, movers, extra, wakes, movers[i], domain.z, domain.w, lane, lanes);
+		mend_search(slots, filters, reach, status, cells, spans, neighbours, movers, extra, wakes, movers[i], domain.z, domain.w, lane, lanes);
 }

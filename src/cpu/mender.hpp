@@ -13,10 +13,10 @@ template <typename T> class Mender
 {
 public:
 	explicit Mender(const Job<T> &job)
-		: boxes(reinterpret_cast<const Box<T> *>(job.records(0))),
-		  status(job.list(1)), cells{job.list(2), {as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]}},
-		  spans(reinterpret_cast<const Span *>(job.list(3))), neighbours(job.list(4)), movers(job.list(5)), extra(job.list(6)),
-		  wakes(reinterpret_cast<Wake *>(job.list(7)))
+		: slots(reinterpret_cast<const Slot<T> *>(job.records(0))), filters(job.list(1)), boxes(reinterpret_cast<const Box<T> *>(job.records(2))),
+		  status(job.list(3)), cells{job.list(4), {as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]}},
+		  spans(reinterpret_cast<const Span *>(job.list(5))), neighbours(job.list(6)), movers(job.list(7)), extra(job.list(8)),
+		  wakes(reinterpret_cast<Wake *>(job.list(9)))
 	{
 	}
 
@@ -37,7 +37,7 @@ public:
 private:
 	void meet(int32_t s, const Box<T> &box, int32_t other) const
 	{
-		if (!box.touches(boxes[other]) || other == s || knows(s, other))
+		if (!box.touches(boxes[other]) || other == s || !slots[s].meets(slots[other], filters) || knows(s, other))
 			return;
 		add(s, other);
 		add(other, s);
@@ -71,6 +71,8 @@ private:
 		}
 	}
 
+	const Slot<T> *const slots;
+	const Filters filters;
 	const Box<T> *const boxes;
 	int32_t *const status;
 	const CellList<T> cells;

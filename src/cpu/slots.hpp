@@ -2,6 +2,7 @@
 #ifndef CAROM_CPU_SLOTS_HPP
 #define CAROM_CPU_SLOTS_HPP
 
+#include "cpu/filters.hpp"
 #include "cpu/impulse.hpp"
 #include "cpu/toi.hpp"
 
@@ -17,6 +18,8 @@ template <typename T> struct Slot {
 	/* A kinematic body: it goes on as it does, whatever it hits. */
 	bool is_kinematic() const { return !is_dynamic() && !(place[LINEAR_VX] == 0 && place[LINEAR_VY] == 0 && turn[TURN_VELOCITY] == 0); }
 	bool is_static() const { return !is_dynamic() && !is_kinematic(); }
+	/* May the bodies hit each other, wherever they are? */
+	bool meets(const Slot &other, const Filters &filters) const { return (is_dynamic() || other.is_dynamic()) && filters.let(body(), other.body()); }
 	int32_t body() const { return static_cast<int32_t>(push[PUSH_BODY]); }
 	T radius() const { return turn[TURN_RADIUS]; }
 };

@@ -289,6 +289,10 @@ carom_body_def bytes_body_def(bytes *b, const carom_world_def *world, bytes_body
 	}
 	if ((flags & 160) == 160)
 		def.friction = bytes_between(b, 0.0f, 2.0f);
+	if ((flags & 192) == 192) {
+		def.categories = 1u << (flags & 3);
+		def.mask = ~(1u << (flags >> 2 & 3));
+	}
 	for (uint32_t k = b->tame ? 0 : bytes_below(b, 3); k > 0; k--)
 		exchange_in_body(b, &def, room->vertices);
 	return def;

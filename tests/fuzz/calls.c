@@ -314,6 +314,11 @@ static void change(calls *c)
 	error = fuzz_blank();
 	if (calls_judge(c, carom_world_set_time_step(*c->slot, def.time_step, &error), &error))
 		FUZZ_EXPECT(carom_world_get_def(*c->slot)->time_step == def.time_step);
+	error = fuzz_blank();
+	carom_body_info info;
+	const uint32_t index = any_index(c), categories = bytes_byte(&c->bytes), mask = bytes_byte(&c->bytes);
+	if (calls_judge(c, carom_world_set_filter(*c->slot, index, categories, mask, &error), &error))
+		FUZZ_EXPECT(!carom_world_get_body(*c->slot, index, &info, NULL) && info.categories == categories && info.mask == mask);
 }
 
 /* ---- Which call */

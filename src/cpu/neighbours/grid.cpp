@@ -175,9 +175,9 @@ template <typename T> class Search
 {
 public:
 	explicit Search(const Job<T> &job)
-		: slots(slots_of(job, 0)), boxes(reinterpret_cast<Box<T> *>(job.records(1))), status(job.list(2)),
-		  spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), nodes(job.list(6)), members(reinterpret_cast<Member *>(job.list(7))),
-		  extra(job.list(8)), grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]}, cells{job.list(3), grid},
+		: slots(slots_of(job, 0)), filters(job.list(1)), boxes(reinterpret_cast<Box<T> *>(job.records(2))), status(job.list(3)),
+		  spans(reinterpret_cast<Span *>(job.list(5))), neighbours(job.list(6)), nodes(job.list(7)), members(reinterpret_cast<Member *>(job.list(8))),
+		  extra(job.list(9)), grid{as_float(status[STATUS_CELL]), job.domain[2], job.domain[3]}, cells{job.list(4), grid},
 		  levels(status[STATUS_LEVELS]), count(job.domain[0])
 	{
 	}
@@ -211,17 +211,17 @@ private:
 	{
 		const Box<T> box = boxes[s];
 		const int32_t own = grid.level_of(box);
-		const bool dynamic = slots[s].is_dynamic();
+		const bool meets_all = slots[s].is_dynamic() && !filters.any;
 		for (int32_t level = std::max(own - levels_below, 0); levels >> level; level++) {
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
 				continue;
-			if (level == own && dynamic) {
+			if (level == own && meets_all) {
 				search_alike(s, box, own, ahead, behind);
 				continue;
 			}
 			cells.each(box, level, [&](int32_t first, int32_t end) {
 				for (int32_t other = first; other < end; other++)
-					if (are_near(s, box, other))
+					if (box.touches(boxes[other]) && other != s && slots[s].meets(slots[other], filters))
 						meet(s, other, level == own, ahead, behind);
 			});
 		}
@@ -254,11 +254,6 @@ private:
 		return cpu::touching(box, last);
 	}
 
-	bool are_near(int32_t s, const Box<T> &box, int32_t other) const
-	{
-		return box.touches(boxes[other]) && other != s && (slots[s].is_dynamic() || slots[other].is_dynamic());
-	}
-
 	void meet(int32_t s, int32_t other, bool alike, Finds &ahead, Finds &behind)
 	{
 		Finds &to = !alike || other > s ? ahead : behind;
@@ -283,6 +278,7 @@ private:
 	}
 
 	const Slot<T> *const slots;
+	const Filters filters;
 	const Box<T> *const boxes;
 	int32_t *const status;
 	Span *const spans;
@@ -352,7 +348,7 @@ template <typename T> static void gather(const Job<T> &job)
 template <typename T> static void mend(const Job<T> &job)
 {
 	const Mender<T> mender(job);
-	const int32_t *status = job.list(1), *movers = job.list(5), first = status[STATUS_MENDED];
+	const int32_t *status = job.list(3), *movers = job.list(7), first = status[STATUS_MENDED];
 	if (!lists_are_good(status))
 		return;
 	job.pool.run(status[STATUS_MOVERS] - first, 16, [&](int32_t begin, int32_t end) {

@@ -1,3 +1,4 @@
+#include "cpu/filters.hpp"
 #include "cpu/stages.hpp"
 
 #include <algorithm>
@@ -51,25 +52,11 @@ struct TileBytes {
 	bool any = false;
 };
 
-template <typename T> static TileBytes look_at(const Columns<T> &rows, int32_t row_count, const Columns<T> &columns, bool on_diagonal)
-{
-	TileBytes tile;
-	for (int32_t i = 0; i < row_count; i++) {
-		const Sides<T> row(rows, i);
-		for (int32_t k = 0; k < (on_diagonal ? i : TILE); k++) {
-			bool overlap = !row.is_apart(columns, k);
-			tile.bytes[i][k] = overlap;
-			tile.any |= overlap;
-		}
-	}
-	return tile;
-}
-
 template <typename T> class Overlaps
 {
 public:
 	explicit Overlaps(const Job<T> &job)
-		: boxes(job.texels(0)), tiles_before(job.bytes(1)), overlap(job.bytes(2)), tiles(job.bytes(3)), count(job.domain[2])
+		: boxes(job.texels(0)), filters(job.list(1)), tiles_before(job.bytes(2)), overlap(job.bytes(3)), tiles(job.bytes(4)), count(job.domain[2])
 	{
 	}
 
@@ -100,16 +87,32 @@ private:
 		texel[1] = texel[2] = texel[3] = 0;
 	}
 
+	TileBytes look_at(int32_t c, int32_t r, int32_t row_count) const
+	{
+		const Columns<T> rows(boxes, r * TILE), columns(boxes, c * TILE);
+		TileBytes tile;
+		for (int32_t i = 0; i < row_count; i++) {
+			const Sides<T> row(rows, i);
+			for (int32_t k = 0; k < (c == r ? i : TILE); k++) {
+				const bool is_overlap = !row.is_apart(columns, k) && filters.let(r * TILE + i, c * TILE + k);
+				tile.bytes[i][k] = is_overlap;
+				tile.any |= is_overlap;
+			}
+		}
+		return tile;
+	}
+
 	int write_tile(int32_t c, int32_t r, int bits) const
 	{
 		const int32_t row_count = std::min(TILE, count - r * TILE);
-		const TileBytes tile = look_at(Columns<T>(boxes, r * TILE), row_count, Columns<T>(boxes, c * TILE), c == r);
+		const TileBytes tile = look_at(c, r, row_count);
 		for (int32_t i = 0; i < row_count && (tile.any || (bits & TILES_LONG_BEFORE)); i++)
 			std::memcpy(overlap.row(r * TILE + i) + c * TILE, tile.bytes[i], TILE);
 		return tile.any ? TILES_NOW : 0;
 	}
 
 	const Texels<T> boxes;
+	const Filters filters;
 	const Bytes tiles_before, overlap, tiles;
 	const int32_t count;
 };

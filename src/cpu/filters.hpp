@@ -1,0 +1,30 @@
+/* Which pairs may hit each other: CONTRACT.md, "Filters". */
+#ifndef CAROM_CPU_FILTERS_HPP
+#define CAROM_CPU_FILTERS_HPP
+
+#include <cstdint>
+
+#include "layout.h"
+
+namespace carom::cpu {
+
+class Filters
+{
+public:
+	explicit Filters(const int32_t *list) : any(list[FILTERS_ANY] != 0), of(reinterpret_cast<const Of *>(list + FILTERS_FIRST)) {}
+
+	const bool any; /* else all meet all */
+
+	/* Of two bodies. */
+	bool let(int32_t a, int32_t b) const { return !any || ((of[a].categories & of[b].mask) != 0 && (of[b].categories & of[a].mask) != 0); }
+
+private:
+	struct Of {
+		uint32_t categories, mask;
+	};
+	const Of *const of;
+};
+
+}
+
+#endif
