@@ -322,6 +322,7 @@ circles_1024   | --time 2 --inset -2,-2,4,4 | 1,024 circles after two seconds, a
 heap           | --time 6                      | what fell into a box, and lies there
 pyramid        | --time 3                      | boxes that stand on each other, and on a slope, because they rub
 mixer          | --time 10                     | two paddles that turn in a heap, whatever lies in their way
+sorter         | --time 1.8                    | red and blue bodies in one room, which pass through each other
 mixed          | --time 2                      | circles and polygons in one room after two seconds
 billiard_break | --time 1                      | a billiard break one second after the cue ball was struck
 newtons_cradle | --time 1                      | Newton's cradle after one second: what went in on one side went out on the other
@@ -357,6 +358,7 @@ pictures: all
 	$(BUILD)/carom run scenes/heap.json --time 6 --size 720x405 --png docs/heap.png
 	$(BUILD)/carom run scenes/pyramid.json --time 3 --size 720x405 --png docs/pyramid.png
 	$(BUILD)/carom run scenes/mixer.json --time 10 --size 720x405 --png docs/mixer.png
+	$(BUILD)/carom run scenes/sorter.json --time 1.8 --size 720x405 --png docs/sorter.png
 	$(BUILD)/carom run scenes/thin_wall.json --time 1 --fps 3 --size 480x264 --frames docs/thin_wall
 	@for chart in scale table1 table2 table3 table4 table5; do \
 		if [ -f $(BUILD)/bench/$$chart.png ]; then cp $(BUILD)/bench/$$chart.png docs/$$chart.png; fi; done

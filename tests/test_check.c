@@ -64,7 +64,7 @@ static void wrong_devices_are_found(void **state)
 		"SLOT_PLACE] = ROW_LOAD(linear, i) + (float4)(0.0f, 0.0f, 1e-30f, 0.0f) - (float4)(0.0f, 0.0f, 1e-30f, 0.0f);", "denormals: made 0", 0);
 	finds("search.h", "gap / (sqrt(under)", "gap / (0.9999f \\* sqrt(under)", "square roots: 2 of 256 hits", 1);
 	finds("load.h", "done + 2)", "done + 3)", "contacts in buffers: ", 1);
-	finds("answer.h", "= hit.where;", "= -hit.where;", "events in buffers: c41ffbedbd03f345, right\n    events in buffers, its hits: ", 1);
+	finds("answer.h", "= hit.where;", "= -hit.where;", "events in buffers: 26677a7583aba31e, right\n    events in buffers, its hits: ", 1);
 	finds("pixels/distance.cl", "0.5f", "0.50001f", "first_impact in buffers, drawn: ", 1);
 }
 

@@ -29,6 +29,7 @@ static const struct {
 	{"scenes/pi.json", 0x9d624002521cac23, 0xd287219b381da045},
 	{"scenes/piston.json", 0x2164404c393abf4d, 0x1a2d939507b78308},
 	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0xadd24520f421a735},
+	{"scenes/sorter.json", 0x0a70d5e9a9d7a8c2, 0x6654a735349cc43c},
 	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0xdd27dd88bbe84178},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x675a5d8b2f725e89},
 	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f},
