@@ -110,7 +110,8 @@ void scenery_drive(scenery_random *random, size_t count, float speed, carom_body
 void scenery_filter(scenery_random *random, carom_body_def *def)
 {
 	static const uint32_t bits[3] = {1u, 1u << 15, 1u << 31};
-	def->categories = bits[(int)scenery_uniform(random, 0.0f, 3.0f)] | bits[(int)scenery_uniform(random, 0.0f, 3.0f)];
+	const int first = (int)scenery_uniform(random, 0.0f, 3.0f), second = (int)scenery_uniform(random, 0.0f, 3.0f);
+	def->categories = bits[first] | bits[second];
 	for (int k = 0; k < 3; k++)
 		if (scenery_uniform(random, 0.0f, 1.0f) < 0.3f)
 			def->mask &= ~bits[k];
