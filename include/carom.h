@@ -160,7 +160,8 @@ typedef struct carom_body_info {
 	bool is_static;             /**< never moves */
 	bool is_kinematic;          /**< moves as its velocities say, and nothing changes them */
 	carom_vec2 recentred_by;    /**< m: the centre of mass of the vertices as they were given; (0, 0) if none was moved */
-	uint32_t categories, mask;  /**< bits: what it is, and what it hits */
+	uint32_t categories;        /**< bits: what it is */
+	uint32_t mask;              /**< bits: the categories that it hits */
 	uint32_t color;             /**< 0xRRGGBB, or CAROM_COLOR_AUTO */
 	const char *name;           /**< NULL for none */
 } carom_body_info;
