@@ -211,18 +211,17 @@ private:
 	{
 		const Box<T> box = boxes[s];
 		const int32_t own = grid.level_of(box);
-		const bool meets_all = slots[s].is_dynamic() && !filters.any;
 		for (int32_t level = std::max(own - levels_below, 0); levels >> level; level++) {
 			if (!(levels & (1 << level)) || (level > own && level <= own + levels_below))
 				continue;
-			if (level == own && meets_all) {
+			if (level == own) {
 				search_alike(s, box, own, ahead, behind);
 				continue;
 			}
 			cells.each(box, level, [&](int32_t first, int32_t end) {
 				for (int32_t other = first; other < end; other++)
-					if (box.touches(boxes[other]) && other != s && slots[s].meets(slots[other], filters))
-						meet(s, other, level == own, ahead, behind);
+					if (box.touches(boxes[other]) && slots[s].meets(slots[other], filters))
+						meet(s, other, ahead);
 			});
 		}
 	}
@@ -230,12 +229,15 @@ private:
 	/* On the slot's own level, where most are. */
 	void search_alike(int32_t s, const Box<T> &box, int32_t level, Finds &ahead, Finds &behind) const
 	{
+		const bool meets_all = slots[s].is_dynamic() && !filters.any;
 		int32_t *after = ahead.end(), *before = behind.end();
 		cells.each(box, level, [&](int32_t first, int32_t end) {
 			after = ahead.room(after, end - first);
 			before = behind.room(before, end - first);
 			for (; first < end; first += eight) {
-				const uint32_t bits = touching(box, first) & ((1U << std::min(end - first, eight)) - 1);
+				uint32_t bits = touching(box, first) & ((1U << std::min(end - first, eight)) - 1);
+				if (!meets_all)
+					bits = meeting(s, first, bits);
 				const int32_t own = std::min(std::max(s - first, -1), eight); /* its place among the eight */
 				before = places.put(bits & ((1U << std::max(own, 0)) - 1), first, before);
 				after = places.put(bits & (~0U << (own + 1)), first, after);
@@ -254,19 +256,24 @@ private:
 		return cpu::touching(box, last);
 	}
 
-	void meet(int32_t s, int32_t other, bool alike, Finds &ahead, Finds &behind)
+	/* Of the eight from `first` on that have a bit, those whose bodies may hit this slot's. */
+	uint32_t meeting(int32_t s, int32_t first, uint32_t bits) const
 	{
-		Finds &to = !alike || other > s ? ahead : behind;
-		int32_t *end = to.room(to.end(), 1);
-		*end = other;
-		to.keep(end + 1);
-		if (!alike)
-			tell(other, s);
+		uint32_t all = bits;
+		for (; bits; bits &= bits - 1) {
+			const int32_t k = __builtin_ctz(bits);
+			if (!slots[s].meets(slots[first + k], filters))
+				all &= ~(1U << k);
+		}
+		return all;
 	}
 
 	/* Of two bodies of different levels one looks, and tells the other. */
-	void tell(int32_t other, int32_t s)
+	void meet(int32_t s, int32_t other, Finds &ahead)
 	{
+		int32_t *end = ahead.room(ahead.end(), 1);
+		*end = other;
+		ahead.keep(end + 1);
 		const bool too_many = __atomic_load_n(&status[STATUS_NODES], __ATOMIC_RELAXED) > NODES_MOST;
 		const int32_t node = too_many ? -1 : fetch_add(&status[STATUS_NODES], 1);
 		if (too_many || node >= status[STATUS_NODE_ROOM]) {
