@@ -60,18 +60,24 @@ static void fill_friction(const carom_world *world, float *texels)
 		texels[i] = carom_world_bodies(world)[i].friction;
 }
 
-static bool is_filtered(const carom_body *body)
+/* Is there a body that another one may pass through? False where all hit a category that each is of. */
+static bool is_filtered(const carom_world *world)
 {
-	return body->categories != CAROM_CATEGORIES || body->mask != CAROM_MASK;
+	const carom_body *bodies = carom_world_bodies(world);
+	uint32_t hit_by_all = CAROM_MASK;
+	for (size_t i = 0; i < world->body_count; i++)
+		hit_by_all &= bodies[i].mask;
+	for (size_t i = 0; i < world->body_count; i++)
+		if (!(bodies[i].categories & hit_by_all))
+			return true;
+	return false;
 }
 
-/* Of the head alone while all bodies meet all others. */
+/* The head alone where there is none. */
 static carom_status send_filters(carom_world *world, carom_error *error)
 {
 	const carom_body *bodies = carom_world_bodies(world);
-	bool any = false;
-	for (size_t i = 0; i < world->body_count && !any; i++)
-		any = is_filtered(&bodies[i]);
+	const bool any = is_filtered(world);
 	const uint32_t count = any ? (uint32_t)FILTER(world->capacity, 0) : FILTERS_FIRST, width = carom_row_width(count), rows = carom_row_count(count);
 	if (count != world->filter_room) {
 		static const float zero[4] = {0};

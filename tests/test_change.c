@@ -28,6 +28,8 @@ static carom_world *world_of(const char *step, const scenery_device *device)
 		bodies[i].friction = i % 5 == 0 ? 0.5f : 0.0f;
 		snprintf(name, sizeof name, "body %d", i);
 		bodies[i].name = i % 3 == 0 ? name : NULL;
+		bodies[i].categories = i % 7 == 0 ? 4 : CAROM_CATEGORIES;
+		bodies[i].mask = i % 8 == 0 ? 3 : CAROM_MASK;
 		scenery_check(carom_world_add(world, &bodies[i], 1, NULL, &error), &error);
 	}
 	return world;
@@ -109,8 +111,8 @@ static void others_stay_as_they_are(carom_world *world)
 		state = runs_state(world, next++);
 		assert_memory_equal(&state, &states[i], sizeof state);
 		assert_true(after.mass == before[i].mass && after.inertia == before[i].inertia && after.friction == before[i].friction
-			&& after.is_static == before[i].is_static && after.is_kinematic == before[i].is_kinematic && after.vertex_count == before[i].vertex_count
-			&& after.shape == before[i].shape);
+			&& after.categories == before[i].categories && after.mask == before[i].mask && after.is_static == before[i].is_static
+			&& after.is_kinematic == before[i].is_kinematic && after.vertex_count == before[i].vertex_count && after.shape == before[i].shape);
 		assert_string_equal(after.name ? after.name : "", names[i]);
 	}
 }
@@ -203,6 +205,7 @@ static bool try_to_change(void *context, const carom_report *so_far)
 	(void)so_far;
 	assert_int_equal(carom_world_remove(world, &first, 1, &error), CAROM_INVALID_ARGUMENT);
 	assert_int_equal(carom_world_set_gravity(world, (carom_vec2){0.0f, 1.0f}, &error), CAROM_INVALID_ARGUMENT);
+	assert_int_equal(carom_world_set_filter(world, 0, 1, 2, &error), CAROM_INVALID_ARGUMENT);
 	assert_int_equal(carom_world_set_time_step(world, 0.1f, &error), CAROM_INVALID_ARGUMENT);
 	assert_non_null(strstr(error.text, "middle of a step"));
 	return true;
@@ -223,6 +226,8 @@ static void what_is_wrong_changes_nothing(void **unused)
 	assert_int_equal(carom_world_remove(world, twice, 3, &error), CAROM_INVALID_ARGUMENT);
 	assert_string_equal(error.text, "indices[2]: body 3 is there twice");
 	assert_int_equal(carom_world_remove(world, NULL, 0, &error), CAROM_OK);
+	assert_int_equal(carom_world_set_filter(world, COUNT, 1, 2, &error), CAROM_INVALID_ARGUMENT);
+	assert_string_equal(error.text, "bodies 60 to 61: the world has 60");
 	assert_int_equal(carom_world_set_gravity(world, (carom_vec2){0.0f, 1.0f / 0.0f}, &error), CAROM_INVALID_ARGUMENT);
 	assert_non_null(strstr(error.text, "gravity: "));
 	assert_int_equal(carom_world_set_time_step(world, 0.0f, &error), CAROM_INVALID_ARGUMENT);
@@ -235,9 +240,9 @@ static void what_is_wrong_changes_nothing(void **unused)
 	carom_world_destroy(world);
 }
 
-/* ---- Gravity and the time step */
+/* ---- Gravity, the time step and filters */
 
-static void gravity_and_time_step_change(void **unused)
+static void gravity_time_step_and_filters_change(void **unused)
 {
 	(void)unused;
 	for (size_t s = 0; s < STEPS; s++) {
@@ -252,6 +257,9 @@ static void gravity_and_time_step_change(void **unused)
 			assert_twins(world, device);
 			scenery_check(carom_world_set_time_step(world, 0.004f, &error), &error);
 			assert_true(carom_world_get_def(world)->time_step == 0.004f);
+			assert_twins(world, device);
+			for (uint32_t i = 0; i < COUNT; i += 3)
+				scenery_check(carom_world_set_filter(world, i, 1 + i % 2, CAROM_MASK - i % 4, &error), &error);
 			assert_twins(world, device);
 			carom_world_destroy(world);
 		}
@@ -283,6 +291,7 @@ static void a_thrown_ball_turns_back(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(the_others_go_on), cmocka_unit_test(others_come_and_go), cmocka_unit_test(all_may_go),
-		cmocka_unit_test(what_is_wrong_changes_nothing), cmocka_unit_test(gravity_and_time_step_change), cmocka_unit_test(a_thrown_ball_turns_back)};
+		cmocka_unit_test(what_is_wrong_changes_nothing), cmocka_unit_test(gravity_time_step_and_filters_change),
+		cmocka_unit_test(a_thrown_ball_turns_back)};
 	return cmocka_run_group_tests_name("change", tests, NULL, NULL);
 }

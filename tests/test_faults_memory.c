@@ -146,6 +146,7 @@ static carom_world *crowd_that_ran(bool keep_hits)
 	carom_world_def def = runs_room(5.0f, 5.0f);
 	scenery_random random = {3};
 	scenery_bodies(&random, SCENERY_MIXED, SCENERY_CROWD, 1.25f, 3.0f, bodies);
+	scenery_filter(&random, &bodies[4]);
 	def.threads = 1;
 	def.keep_hits = keep_hits;
 	carom_world *world = runs_world(&def, &scenery_devices[0], bodies, SCENERY_CROWD);

@@ -1,4 +1,4 @@
-/* Which pairs may hit each other: CONTRACT.md, "Filters". */
+/* Which pairs may hit each other: CONTRACT.md, "Bodies in step units". */
 #ifndef CAROM_CPU_FILTERS_HPP
 #define CAROM_CPU_FILTERS_HPP
 
