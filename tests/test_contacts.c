@@ -351,6 +351,8 @@ static void forces_add_no_energy(void **unused)
 		for (uint32_t i = 0; i < wild.count; i++) {
 			wild.bodies[i].force = (carom_vec2){0.0f, 0.0f};
 			wild.bodies[i].torque = 0.0f;
+			wild.bodies[i].mask = CAROM_MASK; /* so that more is hit */
+			wild.bodies[i].categories = CAROM_CATEGORIES;
 		}
 		carom_world *world = runs_world(&wild.def, &scenery_devices[0], wild.bodies, wild.count);
 		const carom_measure before = runs_measure(world);

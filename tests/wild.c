@@ -180,6 +180,10 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 		make_shot(&random, world);
 	if (one_in(&random, 12))
 		make_tight(&random, world);
+	scenery_random filtering = {seed ^ 2};
+	const bool filtered = one_in(&filtering, 4);
+	for (uint32_t i = 0; i < world->count && filtered; i++)
+		scenery_filter(&filtering, &world->bodies[i]);
 }
 
 /* Tiny static bodies in a row below all others, where few get. */
