@@ -428,7 +428,7 @@ typedef struct carom_measure {
 	double momentum_x;       /**< kg m/s */
 	double momentum_y;       /**< kg m/s */
 	double angular_momentum; /**< kg m^2/s about the origin */
-	double max_penetration;  /**< m: the deepest overlap of two bodies or of a body and a wall, 0 if none */
+	double max_penetration;  /**< m: the deepest overlap of two bodies that hit each other, or of a body and a wall, 0 if none */
 } carom_measure;
 
 /** Measures the present state. Waits for the device. */
