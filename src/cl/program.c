@@ -213,8 +213,9 @@ carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_devic
 	sources all = {.is_gpu = !info->is_cpu};
 	carom_status status = collect(&all, &def->pipeline, draws, error);
 	snprintf(options, sizeof options, "-cl-std=CL1.2 -D__opencl_c_images=1%s%s%s%s%s", images ? " -DCAROM_IMAGES" : "",
-		!draws && strcmp(carom_pipeline_get(&def->pipeline, "step"), "first_impact") ? " -DCAROM_OUTLINES" : "", def->count_reads ? " -DCAROM_COUNT_READS" : "",
-		all.is_gpu ? " -DCAROM_GPU" : "", info->exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
+		!draws && strcmp(carom_pipeline_get(&def->pipeline, "step"), "first_impact") ? " -DCAROM_OUTLINES" : "",
+		def->count_reads ? " -DCAROM_COUNT_READS" : "", all.is_gpu ? " -DCAROM_GPU" : "",
+		info->exact ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
 	if (!status)
 		status = make_program(cl, context, device, options, &all, program, error);
 	for (size_t i = 0; i < all.count; i++)
