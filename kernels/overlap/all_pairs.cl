@@ -3,13 +3,12 @@
 /* Eight columns' boxes. */
 typedef struct boxes {
 	float8 min_x, min_y, max_x, max_y;
-	int8 index, categories, masks;
+	int8 index;
 } boxes;
 
-boxes boxes_load(TEX_IN(aabb), LIST_IN(filters), int j)
+boxes boxes_load(TEX_IN(aabb), int j)
 {
 	boxes b;
-	int of[2 * TILE] = {0};
 	float4 t[TILE];
 	for (int k = 0; k < TILE; k++)
 		t[k] = ROW_LOAD(aabb, j + k);
@@ -22,27 +21,29 @@ boxes boxes_load(TEX_IN(aabb), LIST_IN(filters), int j)
 	b.max_x = EIGHT(AABB_MAX_X);
 	b.max_y = EIGHT(AABB_MAX_Y);
 #undef EIGHT
-	for (int k = 0; k < 2 * TILE && filters[FILTERS_ANY]; k++)
-		of[k] = filters[FILTER(j, k)];
-	b.categories = (int8)(of[0], of[2], of[4], of[6], of[8], of[10], of[12], of[14]);
-	b.masks = (int8)(of[1], of[3], of[5], of[7], of[9], of[11], of[13], of[15]);
 	return b;
 }
 
-/* -1 in the columns whose boxes overlap that of row i, and that may hit its body; 0 in the others and from the diagonal on */
-int8 overlaps(TEX_IN(aabb), LIST_IN(filters), boxes b, int i)
+/* -1 in the columns whose boxes overlap that of row i, 0 in the others and from the diagonal on */
+int8 overlaps(TEX_IN(aabb), boxes b, int i)
 {
 	float4 a = ROW_LOAD(aabb, i);
-	int8 all = (b.index < i) & (b.min_x <= CHANNEL(a, AABB_MAX_X)) & (b.max_x >= CHANNEL(a, AABB_MIN_X)) & (b.min_y <= CHANNEL(a, AABB_MAX_Y))
+	return (b.index < i) & (b.min_x <= CHANNEL(a, AABB_MAX_X)) & (b.max_x >= CHANNEL(a, AABB_MIN_X)) & (b.min_y <= CHANNEL(a, AABB_MAX_Y))
 		& (b.max_y >= CHANNEL(a, AABB_MIN_Y));
-	if (filters[FILTERS_ANY])
-		all &= ((b.categories & filters[FILTER(i, FILTER_MASK)]) != 0) & ((b.masks & filters[FILTER(i, FILTER_CATEGORIES)]) != 0);
-	return all;
+}
+
+/* Of these, -1 in those whose bodies may hit that of row i. */
+int8 let_through(LIST_IN(filters), int8 columns, int first, int i)
+{
+#define LETS(k) (filter_lets(filters, first + (k), i) ? -1 : 0)
+	return columns & (int8)(LETS(0), LETS(1), LETS(2), LETS(3), LETS(4), LETS(5), LETS(6), LETS(7));
+#undef LETS
 }
 
 void overlap_store(TEX_IN(aabb), LIST_IN(filters), BYTES_OUT(now), boxes b, int column, int i)
 {
-	uint8 bits = as_uint8(overlaps(TEX(aabb), filters, b, i)) & 1u;
+	int8 found = overlaps(TEX(aabb), b, i);
+	uint8 bits = as_uint8(filters[FILTERS_ANY] ? let_through(filters, found, TILE * column, i) : found) & 1u;
 	BYTES_STORE(now, TILE_COLUMNS * column, i, bits.lo);
 	BYTES_STORE(now, TILE_COLUMNS * column + 1, i, bits.hi);
 }
@@ -52,12 +53,17 @@ __kernel void overlap(TEX_IN(aabb), LIST_IN(filters), BYTES_IN(before), BYTES_OU
 	int column = get_global_id(0), first = get_global_id(1) * OVERLAP_GROUP, last = min(first + OVERLAP_GROUP, domain.x);
 	if (column >= domain.x || column >= last)
 		return;
-	boxes b = boxes_load(TEX(aabb), filters, column * TILE);
+	boxes b = boxes_load(TEX(aabb), column * TILE);
 	for (int row = max(first, column); row < last; row++) {
 		int8 any_row = (int8)(0);
 		int end = min((row + 1) * TILE, domain.z);
 		for (int i = row * TILE; i < end; i++)
-			any_row |= overlaps(TEX(aabb), filters, b, i);
+			any_row |= overlaps(TEX(aabb), b, i);
+		if (filters[FILTERS_ANY] && any(any_row)) {
+			any_row = (int8)(0);
+			for (int i = row * TILE; i < end; i++)
+				any_row |= let_through(filters, overlaps(TEX(aabb), b, i), TILE * column, i);
+		}
 		uint old = BYTES_LOAD(before, column, row).x;
 		uint state = (any(any_row) ? TILES_NOW : 0u) | ((old & TILES_NOW) ? TILES_BEFORE : 0u) | ((old & TILES_BEFORE) ? TILES_LONG_BEFORE : 0u);
 		BYTES_STORE(tiles, column, row, (uint4)(state, 0u, 0u, 0u));
