@@ -4,6 +4,7 @@
 
 #include "layout.h"
 #include "status.h"
+#include "step/events.h"
 #include "world.h"
 
 #define ENOUGH_ITERATIONS 64 /* halvings for any epsilon: they stop there */
@@ -73,31 +74,6 @@ static bool is_filtered(const carom_world *world)
 	return false;
 }
 
-/* The head alone where there is none. */
-static carom_status send_filters(carom_world *world, carom_error *error)
-{
-	const carom_body *bodies = carom_world_bodies(world);
-	const bool any = is_filtered(world);
-	const uint32_t count = any ? (uint32_t)FILTER(world->capacity, 0) : FILTERS_FIRST, width = carom_row_width(count), rows = carom_row_count(count);
-	if (count != world->filter_room) {
-		static const float zero[4] = {0};
-		world->filter_room = 0;
-		TRY(carom_textures_create(world, ROLE_FILTERS, false, width, rows, zero, error));
-		world->filter_room = count;
-	}
-	uint32_t *list = calloc((size_t)width * rows, sizeof *list);
-	if (!list)
-		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
-	list[FILTERS_ANY] = any;
-	for (size_t i = 0; i < world->body_count && any; i++) {
-		list[FILTER(i, FILTER_CATEGORIES)] = bodies[i].categories;
-		list[FILTER(i, FILTER_MASK)] = bodies[i].mask;
-	}
-	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_FILTERS].front, rows, list, error);
-	free(list);
-	return status;
-}
-
 /* Those of polygons as the host has them; a circle's only vertex is (radius, 0). */
 static void fill_vertices(const carom_world *world, float *texels)
 {
@@ -115,7 +91,7 @@ static void fill_vertices(const carom_world *world, float *texels)
 
 typedef void fill_texels(const carom_world *world, float *texels);
 
-/* Uploads `count` texels, padded with zeros to whole rows. */
+/* Uploads `count` texels, or of a list ints, padded with zeros to whole rows. */
 static carom_status send(carom_world *world, carom_role role, uint32_t count, fill_texels *fill, carom_error *error)
 {
 	float *texels = calloc(count, 4 * sizeof *texels);
@@ -130,6 +106,29 @@ static carom_status send(carom_world *world, carom_role role, uint32_t count, fi
 carom_status carom_uniforms_send(carom_world *world, carom_error *error)
 {
 	return send(world, ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms, error);
+}
+
+static void fill_filters(const carom_world *world, float *texels)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	uint32_t *list = (uint32_t *)texels;
+	list[FILTERS_ANY] = world->filter_room > FILTERS_FIRST;
+	for (size_t i = 0; i < world->body_count && list[FILTERS_ANY]; i++) {
+		list[FILTER(i, FILTER_CATEGORIES)] = bodies[i].categories;
+		list[FILTER(i, FILTER_MASK)] = bodies[i].mask;
+	}
+}
+
+/* The head alone where no body may pass through another. */
+static carom_status send_filters(carom_world *world, carom_error *error)
+{
+	const uint32_t room = is_filtered(world) ? (uint32_t)FILTER(world->capacity, 0) : FILTERS_FIRST;
+	if (room != world->filter_room) {
+		world->filter_room = 0;
+		TRY(carom_events_create_list(world, ROLE_FILTERS, false, room, error));
+		world->filter_room = room;
+	}
+	return send(world, ROLE_FILTERS, room, fill_filters, error);
 }
 
 /* One after the other, since of millions of bodies each takes much memory. */

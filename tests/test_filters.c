@@ -234,12 +234,15 @@ static void what_all_hit_changes_no_bit(void **unused)
 	for (int k = 0; k < STEPS; k++) {
 		uint64_t first = 0;
 		SCENERY_EACH_DEVICE(device) {
-			for (int filtered = 0; filtered < 2; filtered++) {
+			for (int kind = 0; kind < 3; kind++) {
 				carom_body_def bodies[MOST];
 				scenery_random random = {9};
 				scenery_bodies(&random, SCENERY_MIXED, 64, 1.2f, 4.0f, bodies);
-				for (uint32_t i = 0; i < 64; i++)
-					bodies[i] = of(bodies[i], filtered ? 1u << i % 32 | 1u << (i + 1) % 32 : CAROM_CATEGORIES, CAROM_MASK);
+				for (uint32_t i = 0; i < 64; i++) {
+					const uint32_t two = 7u & ~(1u << i % 3); /* of three: any two bodies have one in common, but all together have none */
+					const uint32_t categories[3] = {CAROM_CATEGORIES, 1u << i % 32 | 1u << (i + 1) % 32, two};
+					bodies[i] = of(bodies[i], categories[kind], kind == 2 ? two : CAROM_MASK);
+				}
 				carom_world *world = world_of(steps[k], device, bodies, 64);
 				if (world)
 					runs_same_hash(&first, runs_hash_after(world, runs_affordable(60), 1), device);
