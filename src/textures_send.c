@@ -9,10 +9,10 @@
 
 #define ENOUGH_ITERATIONS 64 /* halvings for any epsilon: they stop there */
 
-static void fill_uniforms(const carom_world *world, float *u)
+static void fill_uniforms(const carom_world *world, void *data)
 {
 	const carom_world_def *def = &world->def;
-	float *room = u + 4 * UNIFORMS_ROOM, *rules = u + 4 * UNIFORMS_RULES, *rubs = u + 4 * UNIFORMS_RUBS;
+	float *u = data, *room = u + 4 * UNIFORMS_ROOM, *rules = u + 4 * UNIFORMS_RULES, *rubs = u + 4 * UNIFORMS_RUBS;
 	u[WORLD_COUNT] = (float)world->body_count;
 	u[WORLD_TIME_STEP] = def->time_step;
 	u[WORLD_GRAVITY_X] = def->gravity.x;
@@ -29,8 +29,9 @@ static void fill_uniforms(const carom_world *world, float *u)
 	rubs[RUBS_ANY] = world->rubs ? 1.0f : 0.0f;
 }
 
-static void fill_geometry(const carom_world *world, float *texels)
+static void fill_geometry(const carom_world *world, void *data)
 {
+	float *texels = data;
 	uint32_t circle = carom_polygon_texels(world);
 	for (size_t i = 0; i < world->body_count; i++, texels += 4) {
 		const carom_body *body = &carom_world_bodies(world)[i];
@@ -49,14 +50,16 @@ void carom_forces_fill(const carom_body *body, float texel[4])
 	texel[FORCES_RESTITUTION] = body->restitution;
 }
 
-static void fill_forces(const carom_world *world, float *texels)
+static void fill_forces(const carom_world *world, void *data)
 {
+	float *texels = data;
 	for (size_t i = 0; i < world->body_count; i++)
 		carom_forces_fill(&carom_world_bodies(world)[i], texels + 4 * i);
 }
 
-static void fill_friction(const carom_world *world, float *texels)
+static void fill_friction(const carom_world *world, void *data)
 {
+	float *texels = data;
 	for (size_t i = 0; i < world->body_count; i++)
 		texels[i] = carom_world_bodies(world)[i].friction;
 }
@@ -75,8 +78,9 @@ static bool is_filtered(const carom_world *world)
 }
 
 /* Those of polygons as the host has them; a circle's only vertex is (radius, 0). */
-static void fill_vertices(const carom_world *world, float *texels)
+static void fill_vertices(const carom_world *world, void *data)
 {
+	float *texels = data;
 	if (world->vertices.used)
 		memcpy(texels, world->vertices.items, world->vertices.used);
 	texels += 4 * (size_t)carom_polygon_texels(world);
@@ -89,12 +93,12 @@ static void fill_vertices(const carom_world *world, float *texels)
 	}
 }
 
-typedef void fill_texels(const carom_world *world, float *texels);
+typedef void fill_texels(const carom_world *world, void *data);
 
 /* Uploads `count` texels, or of a list ints, padded with zeros to whole rows. */
 static carom_status send(carom_world *world, carom_role role, uint32_t count, fill_texels *fill, carom_error *error)
 {
-	float *texels = calloc(count, 4 * sizeof *texels);
+	void *texels = calloc(count, 4 * sizeof(float));
 	if (!texels)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload %zu bodies", world->body_count);
 	fill(world, texels);
@@ -108,10 +112,10 @@ carom_status carom_uniforms_send(carom_world *world, carom_error *error)
 	return send(world, ROLE_UNIFORMS, UNIFORMS_WIDTH, fill_uniforms, error);
 }
 
-static void fill_filters(const carom_world *world, float *texels)
+static void fill_filters(const carom_world *world, void *data)
 {
 	const carom_body *bodies = carom_world_bodies(world);
-	uint32_t *list = (uint32_t *)texels;
+	uint32_t *list = data;
 	list[FILTERS_ANY] = world->filter_room > FILTERS_FIRST;
 	for (size_t i = 0; i < world->body_count && list[FILTERS_ANY]; i++) {
 		list[FILTER(i, FILTER_CATEGORIES)] = bodies[i].categories;
