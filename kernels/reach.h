@@ -225,7 +225,7 @@ INLINE bool boxes_touch(float4 a, float4 b)
 
 typedef struct near_list {
 	int ahead, behind; /* pairs that this slot tests, and those that the other does */
-	int found[NEAR_MOST];
+	int found[NEAR_MOST + 1];
 } near_list;
 
 /* Of two bodies of different levels one looks for the other, and tells it. */
@@ -240,18 +240,6 @@ void node_push(LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int other, 
 	nodes[NODE_WIDTH * node + NODE_LINK] = atomic_xchg(&members[MEMBER(other, MEMBER_HEAD)], node);
 }
 
-/* With half_at < 0 the slots are counted, and kept while there is room in the list; else they are written to Neighbours, those behind from `half_at`
- * on. What is not near is written, too, but not counted: whether it is near is hard to foretell, and so there is no branch. */
-INLINE void near_add(near_list *list, LIST_OUT(neighbours), int half_at, int slot, bool ahead, int near)
-{
-	if (half_at < 0 && list->ahead + list->behind < NEAR_MOST)
-		list->found[ahead ? list->ahead : NEAR_MOST - 1 - list->behind] = slot;
-	else if (half_at >= 0 && near)
-		neighbours[ahead ? list->ahead : half_at + list->behind] = slot;
-	list->ahead += ahead ? near : 0;
-	list->behind += ahead ? 0 : near;
-}
-
 /* May the bodies of two slots hit each other, wherever they are? */
 bool slots_meet(RECORD_IN(slots), LIST_IN(filters), int s, int other)
 {
@@ -260,29 +248,56 @@ bool slots_meet(RECORD_IN(slots), LIST_IN(filters), int s, int other)
 	return !filters[FILTERS_ANY] || filter_lets(filters, slot_body(slots, s), slot_body(slots, other));
 }
 
-/* The slots of one level in places [from, to) whose reach touches this one's. */
+/* The slots of one level in places [from, to) whose reach touches this one's, that are all ahead of it or all behind. With half_at < 0 they are counted,
+ * and kept while there is room in the list; else they are written to Neighbours, those behind from `half_at` on. What is not near is kept, too, but not
+ * counted: whether it is near is hard to foretell, and so there is no branch. */
 INLINE void near_range(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box,
-	bool meets_all, bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
+	bool meets_all, bool same_level, bool ahead, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
 {
+	int count = ahead ? list->ahead : list->behind;
 	for (int other = from; other < to; other++) {
-		int near = (other != s) & boxes_touch(box, reach[other]);
+		int near = boxes_touch(box, reach[other]);
 		if (!meets_all && near && !slots_meet(slots, filters, s, other))
 			near = 0;
-		near_add(list, neighbours, half_at, other, !same_level || other > s, near);
+		if (half_at < 0)
+			list->found[ahead ? min(count, NEAR_MOST) : max(NEAR_MOST - count, 0)] = other;
+		else if (near)
+			neighbours[ahead ? count : half_at + count] = other;
+		count += near;
 		if (!same_level && near && half_at < 0)
 			node_push(status, nodes, members, other, s);
 	}
+	if (ahead)
+		list->ahead = count;
+	else
+		list->behind = count;
+}
+
+/* Those of one level in places [from, to). */
+INLINE void near_ranges(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(nodes), LIST_OUT(members), int s, float4 box,
+	bool meets_all, bool same_level, int from, int to, near_list *list, LIST_OUT(neighbours), int half_at)
+{
+	if (same_level) {
+		near_range(slots, filters, reach, status, nodes, members, s, box, meets_all, true, false, from, min(to, s), list, neighbours, half_at);
+		from = max(from, s + 1);
+	}
+	near_range(slots, filters, reach, status, nodes, members, s, box, meets_all, same_level, true, from, to, list, neighbours, half_at);
+}
+
+/* Of all levels, as bits, those where a body of one looks for others. */
+INLINE int levels_searched(int levels, int own)
+{
+	return levels & -(1 << max(own - NEAR_LEVELS, 0)) & ~(((1 << NEAR_LEVELS) - 1) << (own + 1));
 }
 
 void near_search(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s,
 	int columns, int rows, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	float4 box = reach[s];
-	int own = reach_level(box, as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
+	int own = reach_level(box, as_float(status[STATUS_CELL]));
 	bool meets_all = slot_is_dynamic(slots, s) && !filters[FILTERS_ANY];
-	for (int level = max(own - NEAR_LEVELS, 0); level < CELL_LEVELS; level++) {
-		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
-			continue;
+	for (int wanted = levels_searched(status[STATUS_LEVELS], own); wanted; wanted &= wanted - 1) {
+		int level = 31 - (int)clz(wanted & -wanted);
 		float side = level_side(status, level);
 		int2 low, high = cells_around(box, side, columns, level_rows(rows, level), &low);
 		for (int y = low.y; y <= high.y; y++) {
@@ -290,11 +305,11 @@ void near_search(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(
 			int row = first - (first & (columns - 1));
 			int from = cells[CELL_WIDTH * first + CELL_START], to = cells[CELL_WIDTH * last + CELL_END];
 			if (last < first) {
-				near_range(slots, filters, reach, status, nodes, members, s, box, meets_all, level == own, cells[CELL_WIDTH * row + CELL_START], to,
+				near_ranges(slots, filters, reach, status, nodes, members, s, box, meets_all, level == own, cells[CELL_WIDTH * row + CELL_START], to,
 					list, neighbours, half_at);
 				to = cells[CELL_WIDTH * (row + columns - 1) + CELL_END];
 			}
-			near_range(slots, filters, reach, status, nodes, members, s, box, meets_all, level == own, from, to, list, neighbours, half_at);
+			near_ranges(slots, filters, reach, status, nodes, members, s, box, meets_all, level == own, from, to, list, neighbours, half_at);
 		}
 	}
 }
@@ -313,7 +328,7 @@ void near_write(const near_list *list, int start, int half_end, int end, LIST_OU
 	for (int k = start; k < half_end; k++)
 		neighbours[k] = list->found[k - start];
 	for (int k = half_end; k < end; k++)
-		neighbours[k] = list->found[NEAR_MOST - 1 - (k - half_end)];
+		neighbours[k] = list->found[NEAR_MOST - (k - half_end)];
 }
 
 /* What smaller bodies found beside this one joins its span. */
