@@ -169,3 +169,27 @@ INLINE discs discs_at_start(RECORD_IN(slots), int s, ints others, float length)
 	disc all[BUNCH] = {EACH(AT_START)};
 	return discs_of(slots, s, others, all);
 }
+
+/* What is read of a slot that looks around is fetched before: where its neighbours are listed, then the list, then what is asked of the neighbours. In
+ * worlds that caches can't hold, a look on a CPU takes as long as it waits for these. */
+INLINE void fetch_span(RECORD_IN(slots), LIST_IN(spans), LIST_IN(extra), int s)
+{
+	FETCH(slots + SLOT_WIDTH * s);
+	FETCH(spans + SPAN(s, 0));
+	FETCH(extra + s);
+}
+
+INLINE void fetch_list(LIST_IN(spans), LIST_IN(neighbours), int s)
+{
+	FETCH(neighbours + spans[SPAN(s, SPAN_START)]);
+	FETCH(neighbours + spans[SPAN(s, SPAN_END)]);
+}
+
+INLINE void fetch_neighbours(RECORD_IN(slots), LIST_IN(spans), LIST_IN(neighbours), LIST_IN(owners), LIST_IN(wakes), int s, int end)
+{
+	for (int k = spans[SPAN(s, SPAN_START)]; k < end; k++) {
+		FETCH(slots + SLOT_WIDTH * neighbours[k]);
+		FETCH(owners + neighbours[k]);
+		FETCH(wakes + WAKE(neighbours[k], 0));
+	}
+}

@@ -227,6 +227,7 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 			leader = all->leaders[k];
 			head = int_load(members, MEMBER(leader, MEMBER_HEAD)); /* -1: another cluster got into the way just now */
 			for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
+				FETCH(reach + active[m]); /* to be asked when it was hit */
 				recall(slots, spans, members, active, found, work, m);
 				first = heap_insert(members, work, first, m);
 			}
@@ -266,6 +267,21 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 		}
 	}
 	MEET(); /* all have seen that it is over */
+}
+
+/* While one number's turn is, what those after it look at is fetched: neighbours up to that field of their spans. Not of few numbers, for that is in
+ * caches, nor in a later round of a step, where most have no turn. */
+INLINE void fetch_active(RECORD_IN(slots), LISTS_IN, LIST_IN(owners), int id, int count, int round, int end)
+{
+	if (BUNCH == 1 || count < 4096 || status[STATUS_BEGUN] != round)
+		return;
+	int next = id + 2 < count ? active[id + 2] : -1, far = id + 4 < count ? active[id + 4] : -1, farther = id + 6 < count ? active[id + 6] : -1;
+	if (farther >= 0)
+		fetch_span(slots, spans, extra, farther);
+	if (far >= 0)
+		fetch_list(spans, neighbours, far);
+	if (next >= 0)
+		fetch_neighbours(slots, spans, neighbours, owners, wakes, next, spans[SPAN(next, end)]);
 }
 
 /* Do two changed bodies of different clusters get in each other's way? */

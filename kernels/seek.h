@@ -110,6 +110,12 @@ void seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_O
 		unite(parents, s, other);
 }
 
+/* Where the neighbours end whom a slot looks at as a step begins: all, if it was changed, else those that do not look at it. */
+INLINE int watched_end(LIST_IN(spans), LIST_IN(wakes), int s)
+{
+	return spans[SPAN(s, wakes[WAKE(s, WAKE_CHANGED)] > 0 ? SPAN_END : SPAN_HALF)];
+}
+
 /* Of a bunch those that this slot watches. */
 INLINE ints watched(LIST_IN(status), LIST_IN(wakes), int s, bunch others, int changed, int cursor, int half_end)
 {
@@ -121,13 +127,27 @@ INLINE ints watched(LIST_IN(status), LIST_IN(wakes), int s, bunch others, int ch
 	return others.live & ((own > theirs) | ((own == theirs) & first));
 }
 
-/* Is the slot to look for hits in this step? */
-bool is_awake(LIST_IN(status), LIST_OUT(wakes), int s)
+/* Is the slot to look for hits in this step? Soon it does. */
+bool is_awake(RECORD_IN(slots), LISTS_IN, int s)
 {
-	if (status[STATUS_AGE] > 0)
-		return wakes[WAKE(s, WAKE_NEXT)] <= status[STATUS_AGE];
-	wakes[WAKE(s, WAKE_CHANGED)] = 0;
+	if (status[STATUS_AGE] == 0)
+		wakes[WAKE(s, WAKE_CHANGED)] = 0;
+	else if (wakes[WAKE(s, WAKE_NEXT)] > status[STATUS_AGE])
+		return false;
+	fetch_span(slots, spans, extra, s);
 	return true;
+}
+
+/* While one slot looks, what those after it look at is fetched. */
+INLINE void fetch_awake(RECORD_IN(slots), LISTS_IN, LIST_IN(owners), __local const int *awake, int k, int count)
+{
+	if (BUNCH == 1)
+		return;
+	int next = k + 2 < count ? awake[k + 2] : -1, far = k + 4 < count ? awake[k + 4] : -1;
+	if (far >= 0)
+		fetch_list(spans, neighbours, far);
+	if (next >= 0)
+		fetch_neighbours(slots, spans, neighbours, owners, wakes, next, watched_end(spans, wakes, next));
 }
 
 /* All that the slot looks at: pairs that are to be looked at closely go to those of the group. */
@@ -144,7 +164,7 @@ void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(ow
 	float next = clear ? 1.0f + ahead : 1.0f, t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		seeds_add(LISTS, owners, all, s, -1 - wall, t, pause, round);
-	int half_end = spans[SPAN(s, SPAN_HALF)], end = changed > 0 ? spans[SPAN(s, SPAN_END)] : half_end;
+	int half_end = spans[SPAN(s, SPAN_HALF)], end = watched_end(spans, wakes, s);
 	for (int i = bunch_first(spans, extra, s, end, 0); i != -1; i = bunch_next(extra, s, end, i, 0, 1)) {
 		bunch others = bunch_at(neighbours, extra, end, i);
 		ints wanted = watched(status, wakes, s, others, changed, i, half_end);

@@ -17,11 +17,13 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 		status[STATUS_BEGUN] = domain.z;
 	barrier(CLK_LOCAL_MEM_FENCE);
 	for (int s = begin + local_id; s < end; s += lanes)
-		if (is_awake(status, wakes, s))
+		if (is_awake(slots, LISTS, s))
 			awake[atomic_inc(&awake_count)] = s;
 	barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-	for (int k = local_id; k < awake_count; k += lanes)
+	for (int k = local_id; k < awake_count; k += lanes) {
+		fetch_awake(slots, LISTS, owners, awake, k, awake_count);
 		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, awake[k], length, domain.z, &all, pairs, &pair_count);
+	}
 	barrier(CLK_LOCAL_MEM_FENCE);
 	for (int k = local_id; k < min(pair_count, PAIRS_MOST); k += lanes)
 		seek_pair(VERTICES, slots, LISTS, owners, parents, rules, pairs[2 * k], pairs[2 * k + 1], length, domain.z, &all);
@@ -70,6 +72,7 @@ __kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECOR
 	int seeds = status[STATUS_SEEDS];
 	float length = step_length(TEX(uniforms), TEX(clock));
 	for (int begin = GROUP_INDEX; begin < seeds; begin += LEADERS_EACH * GROUP_LANES * GROUP_COUNT) {
+		fetch_active(slots, LISTS, owners, begin, seeds, domain.z, SPAN_END);
 		leaders_gather(members, begin, seeds, domain.z, &all);
 		clusters_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, hits, shocks, domain.z,
 			TEAM_SIZE(domain.w), length, &all);
@@ -86,6 +89,7 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 	float length = step_length(TEX(uniforms), TEX(clock));
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
+		fetch_active(slots, LISTS, owners, id, count, domain.z, SPAN_HALF);
 		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
 		/* of a pair one at least was done in this round, and finds the other; in the first round both were, and one look is enough */
 		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)

@@ -52,7 +52,7 @@ public:
 			visit(extra[k + NODE_SLOT], s < extra[k + NODE_SLOT]);
 	}
 
-	/* What is read of a slot that is looked at: where its neighbours are listed, then the list, then the neighbours, and something `beside` each of them. In
+	/* What is read of a slot that is looked at: where its neighbours are listed, then the list, then what is asked of the neighbours. In
 	 * worlds that caches can't hold, a look takes as long as it waits for these. (Inline: GCC takes what does nothing but fetch for what does nothing.) */
 	[[gnu::always_inline]] void fetch_span(int32_t s) const
 	{
@@ -67,11 +67,12 @@ public:
 		__builtin_prefetch(&neighbours[spans[s].end]);
 	}
 
-	template <typename Beside> [[gnu::always_inline]] void fetch_neighbours(int32_t s, int32_t end, const Beside *beside) const
+	[[gnu::always_inline]] void fetch_neighbours(int32_t s, int32_t end) const
 	{
 		for (int32_t k = spans[s].start; k < end; k++) {
 			__builtin_prefetch(&slots[neighbours[k]]);
-			__builtin_prefetch(&beside[neighbours[k]]);
+			__builtin_prefetch(&owners[neighbours[k]]);
+			__builtin_prefetch(&wakes[neighbours[k]]);
 		}
 	}
 

@@ -30,6 +30,7 @@ public:
 		if (head < 0)
 			return {};
 		for (int32_t m = head; m >= 0; m = members[m].link) {
+			__builtin_prefetch(&boxes[clusters.active[m]]); /* to be asked when it was hit */
 			recall(m);
 			heap.add(m);
 		}

@@ -5,9 +5,6 @@
 
 namespace carom::cpu {
 
-/* From so many slots, or so many with hits, on what is looked at soon is fetched; fewer are in caches, and that would cost some hundredths of the time. */
-constexpr int32_t many_slots = 1 << 18, many_active = 1 << 12;
-
 /* The hits that a step begins with, of bodies that are awake: those of which it is not known that they go on without a hit. */
 template <typename T> class Seek
 {
@@ -19,22 +16,45 @@ public:
 	};
 
 	Seek(const Job<T> &job, std::vector<Seed> &room)
-		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), is_large(job.domain[3] >= many_slots), sieve(clusters.ahead),
-		  seeds(room)
+		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), sieve(clusters.ahead), seeds(room)
 	{
 		seeds.clear();
 	}
 
 	void run(int32_t begin, int32_t end)
 	{
-		const auto meet = [&](int32_t s, int32_t other, const Approach<T> &approach) { pair(s, other, approach); };
+		int32_t awake[block], count;
+		for (int32_t s = begin; s < end;) {
+			for (count = 0; s < end && count < block; s++)
+				if (is_awake(s)) {
+					awake[count++] = s;
+					clusters.fetch_span(s);
+				}
+			look(awake, count);
+		}
+		sieve.sift(meet());
+		if (!seeds.empty())
+			activate();
+	}
+
+private:
+	static constexpr int32_t block = 64; /* slots */
+
+	auto meet()
+	{
+		return [this](int32_t s, int32_t other, const Approach<T> &approach) { pair(s, other, approach); };
+	}
+
+	void look(const int32_t *awake, int32_t count)
+	{
 		const Slot<T> *const slots = clusters.slots; /* not known to stay as they are, else, where the sieve is written to */
 		const T length = clusters.length, ahead = clusters.ahead;
-		for (int32_t s = begin; s < end; s++) {
-			if (is_large)
-				fetch(s, end);
-			if (!is_awake(s))
-				continue;
+		for (int32_t k = 0; k < count; k++) {
+			if (k + 4 < count)
+				clusters.fetch_list(awake[k + 4]);
+			if (k + 2 < count)
+				clusters.fetch_neighbours(awake[k + 2], clusters.watched_end(awake[k + 2]));
+			const int32_t s = awake[k];
 			const Disc<T> disc(slots[s], length);
 			if (age == 0)
 				clusters.wakes[s].changed = 0; /* which nobody reads in this step */
@@ -48,27 +68,9 @@ public:
 					return;
 				sieve.add(s, other, Between<T>(disc, Disc<T>(slots[other], length), ahead));
 				if (sieve.is_full())
-					sieve.sift(meet);
+					sieve.sift(meet());
 			});
 		}
-		sieve.sift(meet);
-		if (!seeds.empty())
-			activate();
-	}
-
-private:
-	static constexpr int32_t fetched_ahead = 16; /* slots */
-
-	/* What slots after this one look at, up to an end: others are another thread's. */
-	[[gnu::always_inline]] void fetch(int32_t s, int32_t end) const
-	{
-		const auto is_to_be_fetched = [&](int32_t slot) { return slot < end && is_awake(slot); };
-		if (is_to_be_fetched(s + 3 * fetched_ahead))
-			clusters.fetch_span(s + 3 * fetched_ahead);
-		if (is_to_be_fetched(s + 2 * fetched_ahead))
-			clusters.fetch_list(s + 2 * fetched_ahead);
-		if (const int32_t next = s + fetched_ahead; is_to_be_fetched(next))
-			clusters.fetch_neighbours(next, clusters.watched_end(next), clusters.wakes);
 	}
 
 	bool is_awake(int32_t s) const { return age == 0 || clusters.wakes[s].next <= age; }
@@ -137,7 +139,6 @@ private:
 
 	const Clusters<T> clusters;
 	const int32_t round, age;
-	const bool is_large;
 	Sieve<T> sieve;
 	std::vector<Seed> &seeds;
 };
@@ -187,20 +188,22 @@ template <typename T> static void muster(const Job<T> &job)
 	});
 }
 
-/* While one number's cluster is run, what those after it look at is fetched. */
-template <typename T>
-[[gnu::always_inline]] static inline void fetch_active(const Clusters<T> &clusters, const Box<T> *boxes, int32_t id, int32_t count)
+/* Is what numbers' turns read to be fetched before? What is of few is in caches, and in a later round of a step most have no turn. */
+template <typename T> static bool fetches(const Clusters<T> &clusters, int32_t count, int32_t round)
 {
-	constexpr int32_t ahead = 4; /* numbers */
+	return count >= 4096 && round == clusters.status[STATUS_BEGUN];
+}
+
+/* While one number's turn is, what those after it look at is fetched, of their neighbours only half, or all. */
+template <typename T> [[gnu::always_inline]] static inline void fetch_active(const Clusters<T> &clusters, int32_t id, int32_t count, bool half)
+{
 	const auto slot_of = [&](int32_t number) { return number < count ? clusters.active[number] : -1; };
-	if (const int32_t s = slot_of(id + 3 * ahead); s >= 0)
+	if (const int32_t s = slot_of(id + 6); s >= 0)
 		clusters.fetch_span(s);
-	if (const int32_t s = slot_of(id + 2 * ahead); s >= 0) {
+	if (const int32_t s = slot_of(id + 4); s >= 0)
 		clusters.fetch_list(s);
-		__builtin_prefetch(&boxes[s]);
-	}
-	if (const int32_t s = slot_of(id + ahead); s >= 0)
-		clusters.fetch_neighbours(s, clusters.spans[s].end, clusters.owners);
+	if (const int32_t s = slot_of(id + 2); s >= 0)
+		clusters.fetch_neighbours(s, half ? clusters.spans[s].half : clusters.spans[s].end);
 }
 
 template <typename T> static void resolve(const Job<T> &job)
@@ -214,13 +217,14 @@ template <typename T> static void resolve(const Job<T> &job)
 	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(13));
 	const Hits<T> hits(job.records(19), job.list(6));
 	const int32_t count = clusters.status[STATUS_SEEDS];
+	const bool is_to_fetch = fetches(clusters, count, round);
 	job.pool.run(count, 64, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<int32_t> room;
 		Tally tally{};
 		for (int32_t id = begin; id < end; id++) {
 			const Member &member = clusters.members[id];
-			if (count >= many_active)
-				fetch_active(clusters, boxes, id, count);
+			if (is_to_fetch)
+				fetch_active(clusters, id, count, false);
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
 				tally += Queue<T>(clusters, rubs, work, boxes, job.list(14), job.list(18), hits, id, round, room).run();
 		}
@@ -274,9 +278,14 @@ template <typename T> static void check(const Job<T> &job)
 	const int32_t round = job.domain[2];
 	if (clusters.status[STATUS_ROUND] < round)
 		return;
-	job.pool.run(std::min(clusters.status[STATUS_ACTIVE], clusters.status[STATUS_NUMBERS]), 64, [&](int32_t begin, int32_t end) {
-		for (int32_t id = begin; id < end; id++)
+	const int32_t count = std::min(clusters.status[STATUS_ACTIVE], clusters.status[STATUS_NUMBERS]);
+	const bool is_to_fetch = fetches(clusters, count, round);
+	job.pool.run(count, 64, [&](int32_t begin, int32_t end) {
+		for (int32_t id = begin; id < end; id++) {
+			if (is_to_fetch)
+				fetch_active(clusters, id, count, true);
 			check_one(clusters, work, id, round);
+		}
 	});
 }
 
