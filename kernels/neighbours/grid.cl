@@ -61,10 +61,10 @@ __kernel void neighbours_cells(LIST_OUT(status), LIST_OUT(cells), int4 domain)
 __kernel void neighbours_sort(VERTICES_IN, RECORD_IN(slots), LIST_IN(need), LIST_IN(status), LIST_IN(spans), LIST_OUT(cells), RECORD_OUT(new_slots),
 	LIST_OUT(new_need), RECORD_OUT(reach), LIST_OUT(members), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(places), int4 domain)
 {
-	int s = get_global_id(0);
+	int s = get_global_id(0), to = s < domain.x ? atomic_inc(&cells[CELL_WIDTH * spans[SPAN(s, SPAN_CELL)] + CELL_END]) : 0;
+	barrier(CLK_LOCAL_MEM_FENCE); /* on a CPU an atomic operation waits for what was written before: so all of a group come first */
 	if (s >= domain.x)
 		return;
-	int to = atomic_inc(&cells[CELL_WIDTH * spans[SPAN(s, SPAN_CELL)] + CELL_END]);
 	for (int k = 0; k < SLOT_WIDTH; k++)
 		new_slots[SLOT_WIDTH * to + k] = SLOT_LOAD(slots, s, k);
 	reach[to] = reach_box(VERTICES, slots, s, as_float(need[s]), status);

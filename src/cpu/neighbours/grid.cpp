@@ -113,16 +113,24 @@ template <typename T> static void sort(const Job<T> &job)
 	const bool forget = status[STATUS_COMMIT] != 0;
 	for (int32_t id = job.domain[0]; id < status[STATUS_NUMBERS]; id++)
 		members[id].reset();
+	const auto move = [&](int32_t s, int32_t place) {
+		to[place] = slots[s];
+		boxes[place] = reach_box(slots[s], T(as_float(need[s])), rules, corners);
+		new_need[place] = forget ? 0 : need[s];
+		members[place].reset();
+		owners[place] = -1;
+		parents[place] = place;
+		new_places[slots[s].body()] = place;
+	};
+	/* Some at a time get their places before all that is written there: whoever counts for all threads waits until what it wrote is in its cache. */
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
-		for (int32_t s = begin; s < end; s++) {
-			const int32_t place = fetch_add(&all[CELL_WIDTH * spans[s].found + CELL_END], 1);
-			to[place] = slots[s];
-			boxes[place] = reach_box(slots[s], T(as_float(need[s])), rules, corners);
-			new_need[place] = forget ? 0 : need[s];
-			members[place].reset();
-			owners[place] = -1;
-			parents[place] = place;
-			new_places[slots[s].body()] = place;
+		int32_t taken[32];
+		for (int32_t s = begin, count; s < end; s += count) {
+			count = std::min<int32_t>(end - s, std::size(taken));
+			for (int32_t k = 0; k < count; k++)
+				taken[k] = fetch_add(&all[CELL_WIDTH * spans[s + k].found + CELL_END], 1);
+			for (int32_t k = 0; k < count; k++)
+				move(s + k, taken[k]);
 		}
 	});
 }
