@@ -289,7 +289,7 @@ void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
 void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocities)
 {
 	float4 velocities = pushes[PUSHES_WIDTH * s + 1];
-	slots[SLOT_WIDTH * s + SLOT_PUSH].xyz = pushes[PUSHES_WIDTH * s].xyz;
+	vstore3(pushes[PUSHES_WIDTH * s].xyz, 0, (__global float *)(slots + SLOT_WIDTH * s + SLOT_PUSH)); /* to write .xyz writes all four */
 	if (with_velocities)
 		velocities_set(slots, s, velocities.x, velocities.y, velocities.z);
 }

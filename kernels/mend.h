@@ -7,8 +7,8 @@ bool mend_knows(LIST_IN(spans), LIST_IN(neighbours), LIST_OUT(extra), int s, int
 	for (int k = spans[SPAN(s, SPAN_START)]; k < spans[SPAN(s, SPAN_END)]; k++)
 		if (neighbours[k] == other)
 			return true;
-	for (int node = int_load(extra, s); node >= 0; node = extra[node + NODE_LINK])
-		if (extra[node + NODE_SLOT] == other)
+	for (int node = int_load(extra, s); node >= 0; node = PEEK(extra, node + NODE_LINK))
+		if (PEEK(extra, node + NODE_SLOT) == other)
 			return true;
 	return false;
 }
@@ -21,10 +21,10 @@ void mend_add(LIST_OUT(status), LIST_OUT(extra), int s, int other)
 		atomic_or(&status[STATUS_STALE], 1);
 		return;
 	}
-	extra[node + NODE_SLOT] = other;
+	atomic_xchg(&extra[node + NODE_SLOT], other);
 	do {
 		seen = next;
-		extra[node + NODE_LINK] = seen;
+		atomic_xchg(&extra[node + NODE_LINK], seen);
 		mem_fence(CLK_GLOBAL_MEM_FENCE);
 		next = atomic_cmpxchg(&extra[s], seen, node);
 	} while (next != seen);

@@ -62,9 +62,10 @@ INLINE bool slot_is_kinematic(RECORD_IN(slots), int s)
 	return !slot_is_dynamic(slots, s) && !slot_is_static(slots, s);
 }
 
+/* Alone, for somebody may be writing what is beside it. */
 int slot_body(RECORD_IN(slots), int s)
 {
-	return (int)CHANNEL(SLOT_LOAD(slots, s, SLOT_PUSH), PUSH_BODY);
+	return (int)((__global const float *)(slots + SLOT_WIDTH * s + SLOT_PUSH))[PUSH_BODY];
 }
 
 /* The body in step units, as if the step began at the trajectory's time. */
