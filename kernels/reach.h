@@ -218,7 +218,8 @@ int neighbours_take(LIST_OUT(status), int count)
 /* Do two reaches touch? */
 INLINE bool boxes_touch(float4 a, float4 b)
 {
-	return (b.x <= a.z) & (b.z >= a.x) & (b.y <= a.w) & (b.w >= a.y);
+	int4 apart = (float4)(b.x, b.y, a.x, a.y) > (float4)(a.z, a.w, b.z, b.w);
+	return !(apart.x | apart.y | apart.z | apart.w);
 }
 
 #define NEAR_MOST 48 /* more neighbours are searched twice */
@@ -256,14 +257,14 @@ INLINE void near_range(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIS
 {
 	int count = ahead ? list->ahead : list->behind;
 	for (int other = from; other < to; other++) {
-		int near = boxes_touch(box, reach[other]);
+		bool near = boxes_touch(box, reach[other]);
 		if (!meets_all && near && !slots_meet(slots, filters, s, other))
-			near = 0;
+			near = false;
 		if (half_at < 0)
 			list->found[ahead ? min(count, NEAR_MOST) : max(NEAR_MOST - count, 0)] = other;
 		else if (near)
 			neighbours[ahead ? count : half_at + count] = other;
-		count += near;
+		count += near ? 1 : 0;
 		if (!same_level && near && half_at < 0)
 			node_push(status, nodes, members, other, s);
 	}
@@ -284,20 +285,15 @@ INLINE void near_ranges(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LI
 	near_range(slots, filters, reach, status, nodes, members, s, box, meets_all, same_level, true, from, to, list, neighbours, half_at);
 }
 
-/* Of all levels, as bits, those where a body of one looks for others. */
-INLINE int levels_searched(int levels, int own)
-{
-	return levels & -(1 << max(own - NEAR_LEVELS, 0)) & ~(((1 << NEAR_LEVELS) - 1) << (own + 1));
-}
-
 void near_search(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(status), LIST_IN(cells), LIST_OUT(nodes), LIST_OUT(members), int s,
 	int columns, int rows, near_list *list, LIST_OUT(neighbours), int half_at)
 {
 	float4 box = reach[s];
-	int own = reach_level(box, as_float(status[STATUS_CELL]));
+	int own = reach_level(box, as_float(status[STATUS_CELL])), levels = status[STATUS_LEVELS];
 	bool meets_all = slot_is_dynamic(slots, s) && !filters[FILTERS_ANY];
-	for (int wanted = levels_searched(status[STATUS_LEVELS], own); wanted; wanted &= wanted - 1) {
-		int level = 31 - (int)clz(wanted & -wanted);
+	for (int level = max(own - NEAR_LEVELS, 0); levels >> level; level++) {
+		if (!(levels & (1 << level)) || (level > own && level <= own + NEAR_LEVELS))
+			continue;
 		float side = level_side(status, level);
 		int2 low, high = cells_around(box, side, columns, level_rows(rows, level), &low);
 		for (int y = low.y; y <= high.y; y++) {
