@@ -59,22 +59,22 @@ void keep(lights all, RECORD_OUT(light), int2 first, int2 size)
 	}
 }
 
-void show_row(uint8 words, BYTES_OUT(picture), int x, int y, int2 size)
+void show_row(const uint *words, BYTES_OUT(picture), int x, int y, int2 size)
 {
-	uint each[8];
 	if (y >= size.y)
 		return;
 	if (x + 8 <= size.x) {
-		BYTES_STORE8(picture, x, y, words);
+		BYTES_STORE8(picture, x, y, vload8(0, words));
 		return;
 	}
-	vstore8(words, 0, each);
 	for (int k = 0; x + k < size.x; k++)
-		BYTES_STORE(picture, x + k, y, convert_uint4(as_uchar4(each[k])));
+		BYTES_STORE(picture, x + k, y, convert_uint4(as_uchar4(words[k])));
 }
 
 void show(uint16 words, BYTES_OUT(picture), int2 first, int2 size)
 {
-	show_row(words.lo, TEX(picture), first.x, first.y, size);
-	show_row(words.hi, TEX(picture), first.x, first.y + 1, size);
+	uint each[16]; /* rather than .lo and .hi, for Oclgrind takes what .hi has for uninitialized */
+	vstore16(words, 0, each);
+	show_row(each, TEX(picture), first.x, first.y, size);
+	show_row(each + PATCH_WIDTH, TEX(picture), first.x, first.y + 1, size);
 }
