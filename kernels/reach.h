@@ -225,8 +225,8 @@ INLINE bool boxes_touch(float4 a, float4 b)
 #define NEAR_MOST 48 /* more neighbours are searched twice */
 
 typedef struct near_list {
-	int ahead, behind; /* pairs that this slot tests, and those that the other does */
-	int found[NEAR_MOST + 1];
+	int ahead, behind;        /* pairs that this slot tests, and those that the other does */
+	int found[NEAR_MOST + 1]; /* those ahead from the first on, those behind from the last; between is room for one that is not near */
 } near_list;
 
 /* Of two bodies of different levels one looks for the other, and tells it. */
