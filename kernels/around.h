@@ -1,12 +1,6 @@
 /* The bodies around one, in bunches: on a CPU four side by side, so that what is read of them is read at once, and most are seen to stay apart without a
  * look at each; on a GPU one, for its lanes are side by side already. */
 
-/* Whether one of four is the case: any() is not the same on every device. */
-INLINE bool is_any(int4 flags)
-{
-	return flags.x | flags.y | flags.z | flags.w;
-}
-
 #ifdef CAROM_GPU
 #define BUNCH 1
 #define EACH(what) what()

@@ -16,6 +16,12 @@
 #define SELDOM
 #endif
 
+/* Whether one of four is the case: any() is not the same on every device. */
+INLINE bool is_any(int4 flags)
+{
+	return flags.x | flags.y | flags.z | flags.w;
+}
+
 float2 turn(float2 rotation, float2 v) /* rotation = (cosine, sine) */
 {
 	return (float2)(rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y);

@@ -215,11 +215,10 @@ int neighbours_take(LIST_OUT(status), int count)
 	return -1;
 }
 
-/* Do two reaches touch? */
+/* Do two reaches touch? Of four comparisons by themselves LLVM makes one of vectors, and Oclgrind takes 255 for its truth. */
 INLINE bool boxes_touch(float4 a, float4 b)
 {
-	int4 apart = (float4)(b.x, b.y, a.x, a.y) > (float4)(a.z, a.w, b.z, b.w);
-	return !(apart.x | apart.y | apart.z | apart.w);
+	return !is_any((float4)(b.x, b.y, a.x, a.y) > (float4)(a.z, a.w, b.z, b.w));
 }
 
 #define NEAR_MOST 48 /* more neighbours are searched twice */
