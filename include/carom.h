@@ -274,7 +274,9 @@ CAROM_API carom_world_def carom_default_world_def(void);
 /** An empty world on an opened device. Fails with CAROM_UNKNOWN_NAME for a device or alternative that is not there,
  * CAROM_INVALID_ARGUMENT for a field out of range (named in the error), or one of the environment's CAROM_MAX_IMAGE_SIZE, CAROM_MAX_ALLOCATION and
  * CAROM_KERNEL_DIR (likewise); CAROM_DEVICE, CAROM_OUT_OF_MEMORY.
- * An OpenCL device builds kernels here, and those of pictures when the first is drawn, which may take seconds. The environment's
+ * An OpenCL device builds kernels here, and those of pictures when the first is drawn, which may take seconds. While a world of the same kernels lives
+ * on that device, the next one shares them, in whichever thread, and is there at once: its step, other alternatives and storage must be the same, not its bodies.
+ * So do worlds of one device share the driver's context: what makes a driver give that up ends them all. The environment's
  * CAROM_CACHE names a folder to keep them in for the next world of any process; it is made if it is missing, and nobody else should be
  * able to write there. It changes no bit and is never an error: what it does not have, or not whole, is built. */
 CAROM_API carom_status carom_world_create(const carom_world_def *def, carom_world **world, carom_error *error);

@@ -78,7 +78,8 @@ bool carom_cl_has_alternative(const char *slot, const char *alternative);
 /* The index-th name of an alternative of `slot`, by name; NULL past the last. */
 const char *carom_cl_alternative(const char *slot, size_t index);
 
-/* Asks the system for large pages for memory that nobody has touched yet; where it has none nothing happens. */
+#define CAROM_LARGE_PAGES (2u << 20) /* bytes: less holds no large page */
+/* Asks the system for large pages for memory that nobody has touched yet; where it has none, or none fits, nothing happens. */
 void carom_prefer_large_pages(void *memory, size_t size);
 
 void carom_cpu_info(carom_device_info *info);

@@ -8,13 +8,11 @@
 
 #include "device.h"
 
-#define LEAST (2u << 20) /* bytes: less holds no large page */
-
 void carom_prefer_large_pages(void *memory, size_t size)
 {
 #ifdef MADV_HUGEPAGE
 	const size_t page = (size_t)sysconf(_SC_PAGESIZE), skipped = (page - (uintptr_t)memory % page) % page;
-	if (size >= LEAST)
+	if (size >= CAROM_LARGE_PAGES)
 		(void)madvise((char *)memory + skipped, size - skipped, MADV_HUGEPAGE);
 #else
 	(void)memory;

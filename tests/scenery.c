@@ -1,6 +1,8 @@
 #include "scenery.h"
 
+#include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 const scenery_device scenery_devices[] = {
 	{"cpu", CAROM_STORAGE_AUTO},
@@ -14,6 +16,31 @@ carom_world_def scenery_first_impact(void)
 	carom_world_def def = carom_default_world_def();
 	def.pipeline.step = "first_impact";
 	return def;
+}
+
+static carom_world *kept[8]; /* without bodies */
+
+/* Tests make worlds on several threads, too. */
+static void keep_kernels(const carom_world_def *def)
+{
+	static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+	static size_t count;
+	pthread_mutex_lock(&lock);
+	carom_world **place = &kept[count % (sizeof kept / sizeof *kept)];
+	if (count++ == 0)
+		atexit(scenery_forget_kernels);
+	carom_world_destroy(*place);
+	*place = NULL;
+	carom_world_create(def, place, NULL);
+	pthread_mutex_unlock(&lock);
+}
+
+void scenery_forget_kernels(void)
+{
+	for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
+		carom_world_destroy(kept[i]);
+		kept[i] = NULL;
+	}
 }
 
 carom_world *scenery_world(const carom_world_def *def, const scenery_device *device)
@@ -30,6 +57,8 @@ carom_world *scenery_world(const carom_world_def *def, const scenery_device *dev
 		return NULL;
 	}
 	scenery_check(status, &error);
+	if (strcmp(device->name, "cpu") != 0)
+		keep_kernels(&on_device);
 	return world;
 }
 

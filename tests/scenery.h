@@ -27,6 +27,9 @@ carom_world_def scenery_first_impact(void);
  * said, and is a failure where the environment's CAROM_NO_SKIP is set. */
 carom_world *scenery_world(const carom_world_def *def, const scenery_device *device);
 
+/* What OpenCL built for the last eight of these is kept until the program ends, for worlds to come, or until it is forgotten here. */
+void scenery_forget_kernels(void);
+
 /* A world of its own for each device: `body` is run once on each. */
 #define SCENERY_EACH_DEVICE(device) for (const scenery_device *device = scenery_devices; device < scenery_devices + scenery_device_count; device++)
 

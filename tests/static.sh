@@ -19,7 +19,7 @@ tool() {
 
 # headers NUMBER: the headers of the first program (of steps) or the second (of pictures)
 headers() {
-	sed -n '/^static const char \*const headers/,/^};/p' src/cl/program.c | tr -d '\n\t' | tr '{' '\n' | grep '^"' | sed -n "$1p" | tr -cs 'a-z_' ' '
+	sed -n '/^static const char \*const headers/,/^};/p' src/cl/sources.c | tr -d '\n\t' | tr '{' '\n' | grep '^"' | sed -n "$1p" | tr -cs 'a-z_' ' '
 }
 
 # The slots in their order, each with its default alternative and whether it is one of pictures.

@@ -38,14 +38,40 @@ void carom_cl_check_limits(const carom_cl_api *cl, carom_cl_found *found);
 /* Can images hold what Carom puts into them? */
 cl_int carom_cl_has_formats(const carom_cl_api *cl, cl_context context, bool *has);
 
-/* Builds the program of the chosen alternatives, of the step's slots or of those that draw; the head of the
- * log goes into the error. */
-carom_status carom_cl_build(const carom_cl_api *cl, cl_context context, cl_device_id device, const carom_device_def *def, bool draws, bool images,
-	const carom_device_info *info, cl_program *program, carom_error *error);
+/* The text of the program of the chosen alternatives, of the step's slots or of those that draw, to be freed. */
+carom_status carom_cl_collect(const carom_pipeline *pipeline, bool draws, bool is_gpu, char **text, carom_error *error);
+
+#define CAROM_CL_OPTIONS 256 /* characters at most */
+
+/* A program that was built, with what it was built from. */
+typedef struct carom_cl_program {
+	cl_program id;
+	char options[CAROM_CL_OPTIONS], *text;
+	size_t users;
+	struct carom_cl_program *next;
+} carom_cl_program;
+
+/* A device's context, with its programs: all worlds on the device share it. */
+typedef struct carom_cl_context {
+	cl_context id;
+	cl_device_id device;
+	carom_cl_program *programs;
+	size_t users;
+	struct carom_cl_context *next;
+} carom_cl_context;
+
+/* The context of that device, until it is left. These four may be called by several threads at once. */
+carom_status carom_cl_enter(const carom_cl_api *cl, const carom_cl_found *found, carom_cl_context **context, carom_error *error);
+void carom_cl_leave(const carom_cl_api *cl, carom_cl_context *context);
+/* The program of the chosen alternatives, likewise, until it is dropped; built, where no other world has it. Then others wait. The head of the
+ * build's log goes into the error. */
+carom_status carom_cl_take_program(const carom_cl_api *cl, carom_cl_context *context, const carom_device_def *def, bool draws, bool images,
+	const carom_device_info *info, carom_cl_program **program, carom_error *error);
+void carom_cl_drop_program(const carom_cl_api *cl, carom_cl_context *context, carom_cl_program *program);
 
 /* A place for a program among those kept in the folder that CAROM_CACHE names. NULL, which all take, where nothing is kept. */
 typedef struct carom_cl_entry carom_cl_entry;
-carom_cl_entry *carom_cl_cache_find(const carom_cl_api *cl, cl_device_id device, const char *options, char *const *sources, size_t count);
+carom_cl_entry *carom_cl_cache_find(const carom_cl_api *cl, cl_device_id device, const char *options, const char *text);
 /* The program, built; NULL if it is not there, or not what it was when it was kept. */
 cl_program carom_cl_cache_load(const carom_cl_entry *entry, const carom_cl_api *cl, cl_context context, cl_device_id device, const char *options);
 /* Keeps a program that was built, in place of what is there, if it can. */

@@ -41,28 +41,26 @@ static bool write_device(FILE *key, const carom_cl_api *cl, cl_device_id device)
 	return !code;
 }
 
-static bool make_key(carom_cl_entry *e, const carom_cl_api *cl, cl_device_id device, const char *options, char *const *sources, size_t count)
+static bool make_key(carom_cl_entry *e, const carom_cl_api *cl, cl_device_id device, const char *options, const char *text)
 {
 	FILE *key = open_memstream(&e->key, &e->size);
 	if (!key)
 		return false;
 	fprintf(key, "carom %s\n", carom_version());
 	const bool known = write_device(key, cl, device);
-	fprintf(key, "%s\n", options);
-	for (size_t i = 0; i < count; i++)
-		fputs(sources[i], key);
+	fprintf(key, "%s\n%s", options, text);
 	fputc('\0', key);
 	const bool whole = !ferror(key);
 	return !fclose(key) && whole && known;
 }
 
-carom_cl_entry *carom_cl_cache_find(const carom_cl_api *cl, cl_device_id device, const char *options, char *const *sources, size_t count)
+carom_cl_entry *carom_cl_cache_find(const carom_cl_api *cl, cl_device_id device, const char *options, const char *text)
 {
 	const char *folder = getenv("CAROM_CACHE");
 	carom_cl_entry *e = folder && *folder ? calloc(1, sizeof *e) : NULL;
 	if (!e)
 		return NULL;
-	if (make_key(e, cl, device, options, sources, count)) {
+	if (make_key(e, cl, device, options, text)) {
 		int length = snprintf(e->path, sizeof e->path, "%s/carom-%016" PRIx64 ".kernels", folder, hash(e->key, e->size));
 		if (length > 0 && (size_t)length < sizeof e->path) {
 			mkdir(folder, 0700); /* its owner's alone: what is in it is run */

@@ -67,7 +67,7 @@ static size_t wanted_size(const cl_device *d, carom_stage stage)
 static cl_int local_size(const cl_device *d, carom_stage stage, cl_kernel kernel, size_t *local)
 {
 	size_t wanted = wanted_size(d, stage), most = 1;
-	cl_int code = d->cl.clGetKernelWorkGroupInfo(kernel, d->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
+	cl_int code = d->cl.clGetKernelWorkGroupInfo(kernel, d->context->device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
 	*local = wanted < most ? wanted : most;
 	if (!code && most < wanted && !d->is_cpu && (stage == STAGE_RESOLVE || sorts_shapes(stage)))
 		return CL_INVALID_WORK_GROUP_SIZE;
@@ -97,7 +97,7 @@ static carom_status make_counter(cl_device *d, carom_error *error)
 {
 	cl_uint zero = 0;
 	cl_int code;
-	d->reads = d->cl.clCreateBuffer(d->context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, sizeof zero, &zero, &code);
+	d->reads = d->cl.clCreateBuffer(d->context->id, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, sizeof zero, &zero, &code);
 	return code ? carom_cl_device_fail(d, error, code, "no counter of reads can be made") : CAROM_OK;
 }
 
@@ -170,17 +170,17 @@ static void drop_program(cl_device *d, bool draws)
 		}
 	}
 	if (d->programs[draws])
-		d->cl.clReleaseProgram(d->programs[draws]);
+		carom_cl_drop_program(&d->cl, d->context, d->programs[draws]);
 	d->programs[draws] = NULL;
 }
 
 /* PoCL builds for a while: a world that draws no picture is spared rendering's program. */
 static carom_status build_program(cl_device *d, bool draws, carom_error *error)
 {
-	carom_status status = carom_cl_build(&d->cl, d->context, d->device, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE, &d->base.info,
+	carom_status status = carom_cl_take_program(&d->cl, d->context, &d->def, draws, d->base.storage == CAROM_STORAGE_IMAGE, &d->base.info,
 		&d->programs[draws], error);
 	if (!status)
-		status = create_kernels(d, d->programs[draws], error);
+		status = create_kernels(d, d->programs[draws]->id, error);
 	if (status)
 		drop_program(d, draws);
 	return status;
@@ -232,7 +232,7 @@ static void close_device(carom_device *device)
 	if (d->queue)
 		d->cl.clReleaseCommandQueue(d->queue);
 	if (d->context)
-		d->cl.clReleaseContext(d->context);
+		carom_cl_leave(&d->cl, d->context);
 	free(d);
 }
 
@@ -249,7 +249,7 @@ static carom_status choose_storage(cl_device *d, const carom_device_def *def, co
 {
 	carom_device_info *info = &d->base.info;
 	bool has_formats = false;
-	cl_int code = carom_cl_has_formats(&d->cl, d->context, &has_formats);
+	cl_int code = carom_cl_has_formats(&d->cl, d->context->id, &has_formats);
 	if (code)
 		return carom_cl_device_fail(d, error, code, "the formats of images can't be asked for");
 	info->has_images = info->has_images && has_formats;
@@ -265,21 +265,17 @@ static carom_status choose_storage(cl_device *d, const carom_device_def *def, co
 
 static carom_status set_up(cl_device *d, const carom_device_def *def, const carom_cl_found *found, carom_error *error)
 {
-	cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)found->platform, 0};
 	cl_int code;
-	carom_status status;
-	d->context = d->cl.clCreateContext(properties, 1, &found->device, NULL, NULL, &code);
-	if (code)
-		return carom_cl_device_fail(d, error, code, "no context can be made");
-	status = choose_storage(d, def, found, error);
+	carom_status status = carom_cl_enter(&d->cl, found, &d->context, error);
+	if (!status)
+		status = choose_storage(d, def, found, error);
 	if (status)
 		return status;
-	d->queue = d->cl.clCreateCommandQueue(d->context, found->device, def->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
+	d->queue = d->cl.clCreateCommandQueue(d->context->id, found->device, def->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
 	if (code)
 		return carom_cl_device_fail(d, error, code, "no queue can be made");
 	if (def->count_reads && (status = make_counter(d, error)))
 		return status;
-	d->device = found->device;
 	d->is_cpu = found->info.is_cpu;
 	d->def = *def;
 	return build_program(d, false, error);

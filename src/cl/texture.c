@@ -5,6 +5,8 @@
 #include "cl/texture.h"
 #include "status.h"
 
+#define SMALL 16384 /* bytes, at most */
+
 static size_t texel_size(carom_texel_format format)
 {
 	return format == TEXELS_FLOAT || format == TEXELS_RECORD ? 4 * sizeof(float) : 4; /* bytes, or an int */
@@ -22,27 +24,18 @@ carom_status carom_cl_device_fail(const cl_device *d, carom_error *error, cl_int
 	return carom_cl_fail(error, code, text);
 }
 
-static cl_int make_image(cl_device *d, carom_texture *t)
+static size_t size_of(const carom_texture *t, uint32_t rows)
 {
-	cl_image_format format = {CL_RGBA, t->format == TEXELS_FLOAT ? CL_FLOAT : CL_UNSIGNED_INT8};
-	cl_image_desc desc = {.image_type = CL_MEM_OBJECT_IMAGE2D, .image_width = t->width, .image_height = t->height};
-	cl_int code;
-	t->memory = d->cl.clCreateImage(d->context, CL_MEM_READ_WRITE, &format, &desc, NULL, &code);
-	return code;
-}
-
-static cl_int make_buffer(cl_device *d, carom_texture *t)
-{
-	cl_int code;
-	t->memory = d->cl.clCreateBuffer(d->context, CL_MEM_READ_WRITE, (size_t)t->width * t->height * texel_size(t->format), NULL, &code);
-	return code;
+	return (size_t)t->width * rows * texel_size(t->format);
 }
 
 /* Of a CPU, to which reading whole textures takes a fifth less then. It has to be asked for before they are touched. */
 static cl_int ask_for_large_pages(cl_device *d, carom_texture *t)
 {
-	const size_t size = (size_t)t->width * t->height * texel_size(t->format);
+	const size_t size = size_of(t, t->height);
 	cl_int code;
+	if (size < CAROM_LARGE_PAGES)
+		return CL_SUCCESS; /* the calls take longer than what they are about */
 	void *memory = d->cl.clEnqueueMapBuffer(d->queue, t->memory, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, size, 0, NULL, NULL, &code);
 	if (code)
 		return code;
@@ -50,10 +43,49 @@ static cl_int ask_for_large_pages(cl_device *d, carom_texture *t)
 	return d->cl.clEnqueueUnmapMemObject(d->queue, t->memory, memory, 0, NULL, NULL);
 }
 
-/* Drivers allocate when a texture is first touched: filling it now makes it fail now. */
-static cl_int fill_texture(cl_device *d, carom_texture *t, const float fill[4])
+/* Those of small worlds, each of which would take the queue as long as a kernel. */
+static cl_int make_small_buffer(cl_device *d, carom_texture *t, const void *texel)
 {
-	size_t origin[3] = {0, 0, 0}, region[3] = {t->width, t->height, 1};
+	const size_t size = size_of(t, t->height);
+	char texels[SMALL];
+	cl_int code;
+	for (size_t i = 0; i < size; i += texel_size(t->format))
+		memcpy(texels + i, texel, texel_size(t->format));
+	t->memory = d->cl.clCreateBuffer(d->context->id, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, size, texels, &code);
+	return code;
+}
+
+/* Drivers allocate when a texture is first touched: filling it now makes it fail now. */
+static cl_int make_buffer(cl_device *d, carom_texture *t, const void *texel)
+{
+	const size_t size = size_of(t, t->height);
+	cl_int code;
+	if (size <= SMALL)
+		return make_small_buffer(d, t, texel);
+	t->memory = d->cl.clCreateBuffer(d->context->id, CL_MEM_READ_WRITE, size, NULL, &code);
+	if (!code && d->is_cpu)
+		code = ask_for_large_pages(d, t);
+	if (!code)
+		code = d->cl.clEnqueueFillBuffer(d->queue, t->memory, texel, texel_size(t->format), 0, size, 0, NULL, NULL);
+	return code ? code : d->cl.clFinish(d->queue);
+}
+
+static cl_int make_image(cl_device *d, carom_texture *t, const void *color)
+{
+	const cl_image_format format = {CL_RGBA, t->format == TEXELS_FLOAT ? CL_FLOAT : CL_UNSIGNED_INT8};
+	const cl_image_desc desc = {.image_type = CL_MEM_OBJECT_IMAGE2D, .image_width = t->width, .image_height = t->height};
+	const size_t origin[3] = {0, 0, 0}, region[3] = {t->width, t->height, 1};
+	cl_int code;
+	t->memory = d->cl.clCreateImage(d->context->id, CL_MEM_READ_WRITE, &format, &desc, NULL, &code);
+	if (!code)
+		code = d->cl.clEnqueueFillImage(d->queue, t->memory, color, origin, region, 0, NULL, NULL);
+	return code ? code : d->cl.clFinish(d->queue);
+}
+
+/* Every texel is `fill`. */
+static cl_int make_texture(cl_device *d, carom_texture *t, const float fill[4])
+{
+	const bool floats = texel_size(t->format) == sizeof(float[4]);
 	cl_uint color[4];
 	cl_uchar bytes[4];
 	for (int i = 0; i < 4; i++) {
@@ -61,9 +93,8 @@ static cl_int fill_texture(cl_device *d, carom_texture *t, const float fill[4])
 		color[i] = bytes[i];
 	}
 	if (t->is_image)
-		return d->cl.clEnqueueFillImage(d->queue, t->memory, t->format == TEXELS_FLOAT ? (const void *)fill : color, origin, region, 0, NULL, NULL);
-	return d->cl.clEnqueueFillBuffer(d->queue, t->memory, texel_size(t->format) == sizeof(float[4]) ? (const void *)fill : bytes,
-		texel_size(t->format), 0, (size_t)t->width * t->height * texel_size(t->format), 0, NULL, NULL);
+		return make_image(d, t, floats ? (const void *)fill : color);
+	return make_buffer(d, t, floats ? (const void *)fill : bytes);
 }
 
 void carom_cl_destroy_texture(carom_device *device, carom_texture *texture)
@@ -76,11 +107,6 @@ void carom_cl_destroy_texture(carom_device *device, carom_texture *texture)
 	if (texture->memory)
 		carom_cl_of(device)->cl.clReleaseMemObject(texture->memory);
 	free(texture);
-}
-
-static size_t size_of(const carom_texture *t, uint32_t rows)
-{
-	return (size_t)t->width * rows * texel_size(t->format);
 }
 
 static carom_status check_limits(const cl_device *d, const carom_texture *t, carom_error *error)
@@ -124,13 +150,7 @@ carom_status carom_cl_create_texture(carom_device *device, const char *name, car
 		free(t);
 		return status;
 	}
-	code = t->is_image ? make_image(d, t) : make_buffer(d, t);
-	if (!code && d->is_cpu && !t->is_image)
-		code = ask_for_large_pages(d, t);
-	if (!code)
-		code = fill_texture(d, t, fill);
-	if (!code)
-		code = d->cl.clFinish(d->queue);
+	code = make_texture(d, t, fill);
 	if (code) {
 		status = fail(device, t, code, "made", error);
 		carom_cl_destroy_texture(device, t);

@@ -17,13 +17,12 @@ typedef struct bound_kernel {
 typedef struct cl_device {
 	carom_device base;
 	carom_cl_api cl;
-	cl_context context;
+	carom_cl_context *context;
 	cl_command_queue queue;
-	cl_device_id device;
 	bool is_cpu;
-	carom_device_def def;   /* as given; only its pipeline and flags are good for later */
-	cl_program programs[2]; /* of the step's stages, and of rendering's, which is NULL until the first is run */
-	cl_mem reads;           /* one uint; NULL where reads are not counted */
+	carom_device_def def;          /* as given; only its pipeline and flags are good for later */
+	carom_cl_program *programs[2]; /* of the step's stages, and of rendering's, which is NULL until the first is run */
+	cl_mem reads;                  /* one uint; NULL where reads are not counted */
 	bound_kernel kernels[STAGE_COUNT];
 	bool profile;
 	size_t pending; /* launches whose times are not read yet */

@@ -37,6 +37,7 @@ int walk_code(uint64_t nth)
 static void nothing_is_alive(const char *call)
 {
 	char kinds[1024];
+	scenery_forget_kernels();
 	if (faults_alive(kinds, sizeof kinds))
 		fail_msg("after %s failed there are objects of%s", call ? call : "nothing", kinds);
 }
@@ -93,6 +94,7 @@ bool walk_opening(const scenery_device *device, const char *step, faults_kind ki
 	if (!world)
 		return false;
 	carom_world_destroy(world);
+	scenery_forget_kernels(); /* they are to be built in each run */
 	snprintf(path, sizeof path, "%s/everything.json", folder);
 	write_text(path, everything, sizeof everything - 1);
 	for (uint64_t n = 1; failed; n++) {
