@@ -462,12 +462,12 @@ typedef struct carom_ray {
 
 #define CAROM_NOTHING INT32_MIN /**< where a ray meets neither a body nor a wall */
 
-/** What a ray meets first. */
+/** What a ray, or a body that is cast, meets first. */
 typedef struct carom_ray_hit {
 	int32_t other;     /**< the index of a body, a carom_wall, or CAROM_NOTHING */
 	double part;       /**< 0..1: of the way; 1 for CAROM_NOTHING */
 	carom_vec2 point;  /**< m, where they touch; `to` for CAROM_NOTHING */
-	carom_vec2 normal; /**< 1 long, from what is met to the disc; (0, 0) for CAROM_NOTHING */
+	carom_vec2 normal; /**< 1 long, from what is met to what moves; (0, 0) for CAROM_NOTHING */
 } carom_ray_hit;
 
 /** What each of `count` rays meets first: a body, or from inside a wall of the room. Where it meets several at once it is the body with the lowest index. What a ray
@@ -475,10 +475,20 @@ typedef struct carom_ray_hit {
 CAROM_API carom_status carom_snapshot_cast_rays(const carom_snapshot *snapshot, size_t count, const carom_ray *rays, carom_ray_hit *hits,
 	carom_error *error);
 
+/** The same of `count` bodies that are not in it, where each moves straight from its position to `to[k]` (m) without turning. Of a def its shape, position and angle count, and its filter:
+ * what it may not hit it does not meet. Faces that lie flush touch in the middle of what they share. CAROM_INVALID_ARGUMENT names what carom_world_add would (as `bodies[k]`), or
+ * `to[k]`, where that is not finite; a position may be outside the room. */
+CAROM_API carom_status carom_snapshot_cast_bodies(const carom_snapshot *snapshot, size_t count, const carom_body_def *bodies, const carom_vec2 *to,
+	carom_ray_hit *hits, carom_error *error);
+
 /** Which bodies have a point in common with the box from `min` to `max` (m; where both are the same, with that point). *count becomes how many there are; their indices, in
  * ascending order, are written to `indices`, which has room for `room` of them (NULL for none): where there are more, which of them are written is not said. CAROM_INVALID_ARGUMENT: a
  * number is not finite, or one of `min` above that of `max`. */
 CAROM_API carom_status carom_snapshot_find(const carom_snapshot *snapshot, carom_vec2 min, carom_vec2 max, uint32_t *indices, size_t room,
+	size_t *count, carom_error *error);
+
+/** The same with a body that is not in it: of those that it may hit. Of the def the same counts as for carom_snapshot_cast_bodies, and errors name the same (as `bodies[0]`). */
+CAROM_API carom_status carom_snapshot_find_touching(const carom_snapshot *snapshot, const carom_body_def *body, uint32_t *indices, size_t room,
 	size_t *count, carom_error *error);
 
 /** The body nearest to a point. */

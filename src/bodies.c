@@ -268,7 +268,7 @@ static bool is_computable(const carom_body *body)
 	return body->bound >= 1e-12f && body->bound <= 1e12f;
 }
 
-carom_status carom_body_make(const carom_body_def *def, const carom_world *world, size_t index, carom_body *body, carom_vec2 *vertices,
+carom_status carom_body_make(const carom_body_def *def, const carom_world_def *world, size_t index, carom_body *body, carom_vec2 *vertices,
 	carom_error *error)
 {
 	carom_status status = check_numbers(def, index, error);
@@ -278,8 +278,8 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world *world
 		return status;
 	memset(body, 0, sizeof *body);
 	body->shape = def->shape;
-	body->restitution = isnan(def->restitution) ? world->def.restitution : def->restitution;
-	body->friction = isnan(def->friction) ? world->def.friction : def->friction;
+	body->restitution = isnan(def->restitution) ? world->restitution : def->restitution;
+	body->friction = isnan(def->friction) ? world->friction : def->friction;
 	body->force = def->force;
 	body->torque = def->torque;
 	body->color = def->color;

@@ -47,8 +47,7 @@ static void place_box(carom_placed *at)
 	}
 }
 
-/* Returns how many of `corners`, which `at` keeps, it took. */
-static uint32_t place_body(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners)
+uint32_t carom_place_body(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners)
 {
 	*at = (carom_placed){.x = (double)state->position.x, .y = (double)state->position.y, .radius = (double)body->radius};
 	at->categories = body->categories;
@@ -193,7 +192,7 @@ static carom_status place_all(carom_world *world, carom_crowd *c, carom_body_sta
 		carom_body_info body;
 		status = carom_world_get_body(world, k, &body, error);
 		if (status == CAROM_OK)
-			corners += place_body(&c->bodies[k], &body, &states[k], corners);
+			corners += carom_place_body(&c->bodies[k], &body, &states[k], corners);
 	}
 	return status;
 }

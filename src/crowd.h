@@ -57,6 +57,9 @@ static inline bool carom_meet(const carom_placed *a, const carom_placed *b)
 	return (a->categories & b->mask) && (b->categories & a->mask);
 }
 
+/* Puts a body where its state says, in no grid. Returns how many of `corners` it took, which `at` keeps. */
+uint32_t carom_place_body(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners);
+
 /* Of the world as it is now, in grids those bodies that are of a category in `mask`, and all for CAROM_MASK; to be given to carom_crowd_free, whether this
  * succeeds or not. `why` is for the error: "measure". */
 carom_status carom_crowd_make(carom_world *world, uint32_t mask, const char *why, carom_crowd *crowd, carom_error *error);

@@ -1,4 +1,4 @@
-/* When a disc, or a point, that moves meets what stands: each function gives the part of the way, HUGE_VAL for never.
+/* When what moves meets what stands: functions that give the part of the way give HUGE_VAL for never.
  * SPDX-License-Identifier: MIT */
 #include "ray.h"
 #include "penetration.h"
@@ -36,24 +36,59 @@ static void meet_circle(const carom_way *way, double x, double y, double radius,
 	*meeting = (carom_meeting){part, from_x / length, from_y / length};
 }
 
-/* A point enters a polygon where it has passed all of the faces that it comes to from outside, if it has left none by then. */
+/* Lines along faces, each with a gap before what moves: it enters where it has passed all that it comes to from outside, if it has left none by then. */
+typedef struct passage {
+	carom_meeting in;
+	double out;
+} passage;
+
+static void pass_line(passage *p, double gap, double nearer, double normal_x, double normal_y)
+{
+	if (nearer > 0 && gap / nearer > p->in.part)
+		p->in = (carom_meeting){gap / nearer, normal_x, normal_y};
+	else if (nearer < 0)
+		p->out = carom_least(gap / nearer, p->out);
+	else if (nearer == 0 && gap > 0)
+		p->out = -HUGE_VAL;
+}
+
+static void keep_entry(const passage *p, carom_meeting *meeting)
+{
+	if (p->in.part > 0 && p->in.part <= p->out)
+		*meeting = p->in;
+}
+
 static void enter_polygon(const carom_way *way, const carom_placed *polygon, carom_meeting *meeting)
 {
-	carom_meeting in = {-HUGE_VAL, 0, 0};
-	double out = HUGE_VAL;
+	passage p = {{-HUGE_VAL, 0, 0}, HUGE_VAL};
 	for (uint32_t k = 0; k < polygon->corner_count; k++) {
 		const carom_corner *face = &polygon->corners[k];
-		const double gap = face->normal_x * way->x + face->normal_y * way->y - face->at;
-		const double nearer = -(face->normal_x * way->along_x + face->normal_y * way->along_y);
-		if (nearer > 0 && gap / nearer > in.part)
-			in = (carom_meeting){gap / nearer, face->normal_x, face->normal_y};
-		else if (nearer < 0)
-			out = carom_least(gap / nearer, out);
-		else if (nearer == 0 && gap > 0)
-			out = -HUGE_VAL;
+		pass_line(&p, face->normal_x * way->x + face->normal_y * way->y - face->at, -(face->normal_x * way->along_x + face->normal_y * way->along_y),
+			face->normal_x, face->normal_y);
 	}
-	if (in.part > 0 && in.part <= out)
-		*meeting = in;
+	keep_entry(&p, meeting);
+}
+
+/* How far it reaches along a direction. */
+static double least_along(const carom_placed *polygon, double normal_x, double normal_y)
+{
+	double least = HUGE_VAL;
+	for (uint32_t k = 0; k < polygon->corner_count; k++)
+		least = carom_least(normal_x * polygon->corners[k].x + normal_y * polygon->corners[k].y, least);
+	return least;
+}
+
+/* Of two polygons the lines along the faces of each, that one before the other's nearest corner. */
+static void join_polygon(const carom_way *way, const carom_placed *polygon, carom_meeting *meeting)
+{
+	passage p = {{-HUGE_VAL, 0, 0}, HUGE_VAL};
+	for (const carom_corner *face = polygon->corners; face < polygon->corners + polygon->corner_count; face++)
+		pass_line(&p, least_along(way->body, face->normal_x, face->normal_y) - face->at,
+			-(face->normal_x * way->along_x + face->normal_y * way->along_y), face->normal_x, face->normal_y);
+	for (const carom_corner *face = way->body->corners; face < way->body->corners + way->body->corner_count; face++)
+		pass_line(&p, least_along(polygon, face->normal_x, face->normal_y) - face->at, face->normal_x * way->along_x + face->normal_y * way->along_y,
+			-face->normal_x, -face->normal_y);
+	keep_entry(&p, meeting);
 }
 
 /* A disc meets the polygon where its centre meets what is that far from it: faces moved outwards, and circles about the corners. */
@@ -72,6 +107,15 @@ static void touch_polygon(const carom_way *way, const carom_placed *polygon, car
 	}
 }
 
+/* A polygon meets a circle when the circle, going the other way, meets the polygon. */
+static void join_circle(const carom_way *way, const carom_placed *circle, carom_meeting *meeting)
+{
+	const carom_way back = {circle->x, circle->y, -way->along_x, -way->along_y, circle->radius, NULL};
+	carom_meeting found = {HUGE_VAL, 0, 0};
+	touch_polygon(&back, way->body, &found);
+	*meeting = (carom_meeting){found.part, -found.normal_x, -found.normal_y};
+}
+
 /* Is the line of the way farther from the body than it reaches? */
 static bool passes(const carom_way *way, const carom_placed *body)
 {
@@ -85,7 +129,9 @@ bool carom_ray_meets_body(const carom_way *way, const carom_placed *body, carom_
 	carom_meeting found = {HUGE_VAL, 0, 0};
 	if (passes(way, body))
 		return false;
-	if (!body->corners)
+	if (way->body && way->body->corners)
+		(body->corners ? join_polygon : join_circle)(way, body, &found);
+	else if (!body->corners)
 		meet_circle(way, body->x, body->y, body->radius + way->radius, &found);
 	else if (way->radius > 0)
 		touch_polygon(way, body, &found);
@@ -99,9 +145,61 @@ bool carom_ray_meets_body(const carom_way *way, const carom_placed *body, carom_
 
 bool carom_ray_meets_wall(const carom_way *way, double normal_x, double normal_y, double offset, carom_meeting *meeting)
 {
-	const double part = part_to_line(way, normal_x, normal_y, offset + way->radius);
+	const carom_placed *body = way->body;
+	const double reach = body && body->corners ? normal_x * way->x + normal_y * way->y - least_along(body, normal_x, normal_y) : way->radius;
+	const double part = part_to_line(way, normal_x, normal_y, offset + reach);
 	if (!(part <= 1))
 		return false;
 	*meeting = (carom_meeting){part, normal_x, normal_y};
 	return true;
+}
+
+#define FLUSH 1e-6 /* of a polygon's radius: corners whose heights differ by no more are a face that lies flush */
+
+/* What of a polygon is lowest along a direction: how low, and from where to where across it, to the left. */
+typedef struct foot {
+	double height, from, to;
+} foot;
+
+static foot foot_of(const carom_placed *polygon, double normal_x, double normal_y)
+{
+	foot f = {least_along(polygon, normal_x, normal_y), HUGE_VAL, -HUGE_VAL};
+	for (uint32_t k = 0; k < polygon->corner_count; k++) {
+		const carom_corner *corner = &polygon->corners[k];
+		const double across = normal_x * corner->y - normal_y * corner->x;
+		if (normal_x * corner->x + normal_y * corner->y > f.height + FLUSH * polygon->radius)
+			continue;
+		f.from = carom_least(across, f.from);
+		f.to = carom_most(across, f.to);
+	}
+	return f;
+}
+
+/* What is met, seen from what moves; a wall is as broad as need be. */
+static foot foot_of_other(const carom_placed *other, double normal_x, double normal_y)
+{
+	if (!other)
+		return (foot){0, -HUGE_VAL, HUGE_VAL};
+	const double across = normal_x * other->y - normal_y * other->x;
+	if (!other->corners)
+		return (foot){0, across, across};
+	const foot f = foot_of(other, -normal_x, -normal_y);
+	return (foot){f.height, -f.to, -f.from};
+}
+
+/* Of polygons that lie flush in the middle of what they share. */
+void carom_ray_touches(const carom_way *way, const carom_placed *other, const carom_meeting *meeting, double *x, double *y)
+{
+	const double normal_x = meeting->normal_x, normal_y = meeting->normal_y;
+	const double shift_x = meeting->part * way->along_x, shift_y = meeting->part * way->along_y;
+	if (!way->body || !way->body->corners) {
+		*x = way->x + shift_x - way->radius * normal_x;
+		*y = way->y + shift_y - way->radius * normal_y;
+		return;
+	}
+	const foot own = foot_of(way->body, normal_x, normal_y), met = foot_of_other(other, normal_x, normal_y);
+	const double height = own.height + normal_x * shift_x + normal_y * shift_y, aside = normal_x * shift_y - normal_y * shift_x;
+	const double across = 0.5 * (carom_most(own.from + aside, met.from) + carom_least(own.to + aside, met.to));
+	*x = height * normal_x - across * normal_y;
+	*y = height * normal_y + across * normal_x;
 }

@@ -1,9 +1,10 @@
-/* What is where in a world: rays and boxes are asked of a copy of its bodies, which never changes.
+/* What is where in a world: rays, boxes and other bodies are asked of a copy of its bodies, which never changes.
  * SPDX-License-Identifier: MIT */
 #include "nearest.h"
 #include "penetration.h"
 #include "ray.h"
 #include "status.h"
+#include "world.h"
 
 #include <float.h>
 #include <math.h>
@@ -45,9 +46,32 @@ void carom_snapshot_destroy(carom_snapshot *snapshot)
 	free(snapshot);
 }
 
+/* A body that is asked for, and is not in it. */
+typedef struct visitor {
+	carom_placed at;
+	carom_corner corners[CAROM_MAX_VERTICES];
+} visitor;
+
+static carom_status place_visitor(const carom_body_def *def, size_t index, visitor *v, carom_error *error)
+{
+	const carom_world_def world = carom_default_world_def();
+	const carom_body_state state = {.position = def->position, .angle = carom_wrapped(def->angle)};
+	carom_vec2 vertices[CAROM_MAX_VERTICES];
+	carom_body body;
+	TRY(carom_body_make(def, &world, index, &body, vertices, error));
+	const carom_body_info info = {.radius = body.bound,
+		.vertex_count = body.vertex_count,
+		.vertices = body.vertex_count > 1 ? vertices : NULL,
+		.mass = body.mass,
+		.categories = body.categories,
+		.mask = body.mask};
+	carom_place_body(&v->at, &info, &state, v->corners);
+	return CAROM_OK;
+}
+
 /* ---- Rays ----------------------------------------------------------------------------------------------------- */
 
-/* What a ray met first, so far. */
+/* What was met first, so far. */
 typedef struct first_meeting {
 	carom_meeting at;
 	int32_t other;
@@ -73,6 +97,8 @@ static void meet_cell(const carom_crowd *crowd, const carom_grid *grid, uint32_t
 	for (uint32_t k = grid->starts[cell]; k < grid->starts[cell + 1]; k++) {
 		const int32_t body = (int32_t)grid->members[k];
 		carom_meeting meeting;
+		if (way->body && !carom_meet(way->body, &crowd->bodies[body]))
+			continue;
 		if (!carom_ray_meets_body(way, &crowd->bodies[body], &meeting))
 			continue;
 		if (meeting.part < first->at.part || (meeting.part == first->at.part && (first->other < 0 || body < first->other)))
@@ -121,23 +147,28 @@ static void meet_grid(const carom_crowd *crowd, const carom_grid *g, const carom
 	}
 }
 
-static carom_ray_hit cast(const carom_snapshot *snapshot, const carom_ray *ray)
+static carom_ray_hit cast(const carom_snapshot *snapshot, const carom_way *way, carom_vec2 to)
 {
 	const carom_crowd *crowd = &snapshot->crowd;
-	const carom_way way = {(double)ray->from.x, (double)ray->from.y, (double)ray->to.x - (double)ray->from.x, (double)ray->to.y - (double)ray->from.y,
-		(double)ray->radius};
 	first_meeting first = {{HUGE_VAL, 0, 0}, CAROM_NOTHING};
-	meet_walls(snapshot, &way, &first);
+	double x, y;
+	meet_walls(snapshot, way, &first);
 	for (const carom_grid *g = crowd->grids; g < crowd->grids + CAROM_GRIDS; g++) {
 		if (g->count > 0)
-			meet_grid(crowd, g, &way, &first);
+			meet_grid(crowd, g, way, &first);
 	}
 	if (first.other == CAROM_NOTHING)
-		return (carom_ray_hit){CAROM_NOTHING, 1, ray->to, {0, 0}};
-	const carom_meeting at = first.at;
-	return (carom_ray_hit){first.other, at.part,
-		{(float)(way.x + at.part * way.along_x - way.radius * at.normal_x), (float)(way.y + at.part * way.along_y - way.radius * at.normal_y)},
-		{(float)at.normal_x, (float)at.normal_y}};
+		return (carom_ray_hit){CAROM_NOTHING, 1, to, {0, 0}};
+	carom_ray_touches(way, first.other >= 0 ? &crowd->bodies[first.other] : NULL, &first.at, &x, &y);
+	const carom_vec2 normal = {(float)(first.at.normal_x + 0), (float)(first.at.normal_y + 0)}; /* without -0 */
+	return (carom_ray_hit){first.other, first.at.part, {(float)(x + 0), (float)(y + 0)}, normal};
+}
+
+static carom_ray_hit cast_ray(const carom_snapshot *snapshot, const carom_ray *ray)
+{
+	const double x = (double)ray->from.x, y = (double)ray->from.y;
+	const carom_way way = {x, y, (double)ray->to.x - x, (double)ray->to.y - y, (double)ray->radius, NULL};
+	return cast(snapshot, &way, ray->to);
 }
 
 static carom_status check_ray(const carom_ray *ray, size_t k, carom_error *error)
@@ -166,14 +197,38 @@ carom_status carom_snapshot_cast_rays(const carom_snapshot *snapshot, size_t cou
 	for (size_t k = 0; k < count; k++)
 		TRY(check_ray(&rays[k], k, error));
 	for (size_t k = 0; k < count; k++)
-		hits[k] = cast(snapshot, &rays[k]);
+		hits[k] = cast_ray(snapshot, &rays[k]);
 	return CAROM_OK;
 }
 
-/* ---- Boxes ---------------------------------------------------------------------------------------------------- */
+carom_status carom_snapshot_cast_bodies(const carom_snapshot *snapshot, size_t count, const carom_body_def *bodies, const carom_vec2 *to,
+	carom_ray_hit *hits, carom_error *error)
+{
+	visitor v;
+	GIVEN(snapshot, error);
+	if (count == 0)
+		return CAROM_OK;
+	GIVEN(bodies, error);
+	GIVEN(to, error);
+	GIVEN(hits, error);
+	for (size_t k = 0; k < count; k++) {
+		TRY(place_visitor(&bodies[k], k, &v, error));
+		if (!carom_is_finite(to[k]))
+			return carom_fail(error, CAROM_INVALID_ARGUMENT, "to[%zu]: found (%g, %g); allowed: finite numbers", k, (double)to[k].x, (double)to[k].y);
+	}
+	for (size_t k = 0; k < count; k++) {
+		TRY(place_visitor(&bodies[k], k, &v, error));
+		const carom_way way = {v.at.x, v.at.y, (double)to[k].x - v.at.x, (double)to[k].y - v.at.y, v.at.radius, &v.at};
+		hits[k] = cast(snapshot, &way, to[k]);
+	}
+	return CAROM_OK;
+}
+
+/* ---- Boxes, and bodies ---------------------------------------------------------------------------------------- */
 
 typedef struct finding {
-	carom_placed box;
+	const carom_placed *what;
+	bool by_filters; /* only those that it may hit */
 	uint32_t *indices;
 	size_t room, count;
 } finding;
@@ -181,12 +236,12 @@ typedef struct finding {
 /* Bodies whose own boxes touch it may still be outside. */
 static void find_in_cells(const carom_crowd *crowd, const carom_grid *g, uint32_t start, uint32_t end, finding *f)
 {
-	const carom_placed *box = &f->box;
+	const carom_placed *what = f->what;
 	for (uint32_t k = start; k < end; k++) {
 		const carom_placed *body = &crowd->bodies[g->members[k]];
-		if (body->min_x > box->max_x || body->max_x < box->min_x || body->min_y > box->max_y || body->max_y < box->min_y)
+		if (body->min_x > what->max_x || body->max_x < what->min_x || body->min_y > what->max_y || body->max_y < what->min_y)
 			continue;
-		if (carom_separation(box, body, DBL_MIN) > 0)
+		if ((f->by_filters && !carom_meet(what, body)) || carom_separation(what, body, DBL_MIN) > 0)
 			continue;
 		if (f->count < f->room)
 			f->indices[f->count] = g->members[k];
@@ -200,6 +255,22 @@ static int compare_indices(const void *left, const void *right)
 	return a < b ? -1 : a > b;
 }
 
+static void find(const carom_crowd *crowd, finding *f, size_t *count)
+{
+	const carom_placed *what = f->what;
+	for (const carom_grid *g = crowd->grids; g < crowd->grids + CAROM_GRIDS; g++) {
+		if (g->count == 0)
+			continue;
+		const uint32_t first = carom_grid_column(g, what->min_x - g->radius), last = carom_grid_column(g, what->max_x + g->radius);
+		const uint32_t high = carom_grid_row(g, what->max_y + g->radius);
+		for (uint32_t row = carom_grid_row(g, what->min_y - g->radius); row <= high; row++)
+			find_in_cells(crowd, g, g->starts[row * g->columns + first], g->starts[row * g->columns + last + 1], f);
+	}
+	if (f->count > 1 && f->room > 1)
+		qsort(f->indices, f->count < f->room ? f->count : f->room, sizeof *f->indices, compare_indices);
+	*count = f->count;
+}
+
 carom_status carom_snapshot_find(const carom_snapshot *snapshot, carom_vec2 min, carom_vec2 max, uint32_t *indices, size_t room, size_t *count,
 	carom_error *error)
 {
@@ -210,21 +281,26 @@ carom_status carom_snapshot_find(const carom_snapshot *snapshot, carom_vec2 min,
 	if (!isfinite(min.x) || !isfinite(min.y) || !isfinite(max.x) || !isfinite(max.y) || min.x > max.x || min.y > max.y)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "box: found (%g, %g) to (%g, %g); allowed: finite numbers, min no larger than max",
 			(double)min.x, (double)min.y, (double)max.x, (double)max.y);
-	const carom_crowd *crowd = &snapshot->crowd;
 	const double left = (double)min.x, bottom = (double)min.y, right = (double)max.x, top = (double)max.y;
 	const carom_corner corners[] = {{left, bottom, 0, -1, -bottom}, {right, bottom, 1, 0, right}, {right, top, 0, 1, top}, {left, top, -1, 0, -left}};
-	finding f = {{.min_x = left, .min_y = bottom, .max_x = right, .max_y = top, .corners = corners, .corner_count = 4}, indices, room, 0};
-	for (const carom_grid *g = crowd->grids; g < crowd->grids + CAROM_GRIDS; g++) {
-		if (g->count == 0)
-			continue;
-		const uint32_t first = carom_grid_column(g, left - g->radius), last = carom_grid_column(g, right + g->radius);
-		const uint32_t high = carom_grid_row(g, top + g->radius);
-		for (uint32_t row = carom_grid_row(g, bottom - g->radius); row <= high; row++)
-			find_in_cells(crowd, g, g->starts[row * g->columns + first], g->starts[row * g->columns + last + 1], &f);
-	}
-	if (f.count > 1 && room > 1)
-		qsort(indices, f.count < room ? f.count : room, sizeof *indices, compare_indices);
-	*count = f.count;
+	const carom_placed box = {.min_x = left, .min_y = bottom, .max_x = right, .max_y = top, .corners = corners, .corner_count = 4};
+	finding f = {&box, false, indices, room, 0};
+	find(&snapshot->crowd, &f, count);
+	return CAROM_OK;
+}
+
+carom_status carom_snapshot_find_touching(const carom_snapshot *snapshot, const carom_body_def *body, uint32_t *indices, size_t room, size_t *count,
+	carom_error *error)
+{
+	visitor v;
+	GIVEN(snapshot, error);
+	GIVEN(body, error);
+	GIVEN(count, error);
+	if (room > 0)
+		GIVEN(indices, error);
+	TRY(place_visitor(body, 0, &v, error));
+	finding f = {&v.at, true, indices, room, 0};
+	find(&snapshot->crowd, &f, count);
 	return CAROM_OK;
 }
 

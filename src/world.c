@@ -137,7 +137,7 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 {
 	carom_vec2 vertices[CAROM_MAX_VERTICES];
 	carom_body body;
-	carom_status status = carom_body_make(def, world, index, &body, vertices, error);
+	carom_status status = carom_body_make(def, &world->def, index, &body, vertices, error);
 	if (status)
 		return status;
 	if (!def->is_kinematic && carom_outside_room(&world->def, def->position, def->velocity))

@@ -151,7 +151,7 @@ struct carom_world {
 };
 
 /* bodies.c */
-carom_status carom_body_make(const carom_body_def *def, const carom_world *world, size_t index, carom_body *body, carom_vec2 *vertices,
+carom_status carom_body_make(const carom_body_def *def, const carom_world_def *world, size_t index, carom_body *body, carom_vec2 *vertices,
 	carom_error *error);
 carom_body *carom_world_bodies(const carom_world *world);
 /* world.c: are there so many things from number `first` on? If not, the error says what `there_are`. And of bodies: */

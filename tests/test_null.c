@@ -133,6 +133,7 @@ static void what_has_to_be_given_of_a_snapshot(void **unused)
 	carom_world *world = world_of_one();
 	carom_snapshot *snapshot = NULL;
 	const carom_ray ray = {{0, 0}, {1, 1}, 0};
+	const carom_body_def body = carom_default_body_def();
 	carom_ray_hit hit;
 	const carom_vec2 point = {0, 0};
 	carom_nearest nearest;
@@ -146,6 +147,14 @@ static void what_has_to_be_given_of_a_snapshot(void **unused)
 	REFUSE("snapshot", carom_snapshot_cast_rays(NULL, 1, &ray, &hit, &error));
 	REFUSE("rays", carom_snapshot_cast_rays(snapshot, 1, NULL, &hit, &error));
 	REFUSE("hits", carom_snapshot_cast_rays(snapshot, 1, &ray, NULL, &error));
+	REFUSE("snapshot", carom_snapshot_cast_bodies(NULL, 1, &body, &point, &hit, &error));
+	REFUSE("bodies", carom_snapshot_cast_bodies(snapshot, 1, NULL, &point, &hit, &error));
+	REFUSE("to", carom_snapshot_cast_bodies(snapshot, 1, &body, NULL, &hit, &error));
+	REFUSE("hits", carom_snapshot_cast_bodies(snapshot, 1, &body, &point, NULL, &error));
+	REFUSE("snapshot", carom_snapshot_find_touching(NULL, &body, &index, 1, &count, &error));
+	REFUSE("body", carom_snapshot_find_touching(snapshot, NULL, &index, 1, &count, &error));
+	REFUSE("indices", carom_snapshot_find_touching(snapshot, &body, NULL, 1, &count, &error));
+	REFUSE("count", carom_snapshot_find_touching(snapshot, &body, &index, 1, NULL, &error));
 	REFUSE("snapshot", carom_snapshot_find_nearest(NULL, 1, &point, 1.0f, &nearest, &error));
 	REFUSE("points", carom_snapshot_find_nearest(snapshot, 1, NULL, 1.0f, &nearest, &error));
 	REFUSE("nearest", carom_snapshot_find_nearest(snapshot, 1, &point, 1.0f, NULL, &error));

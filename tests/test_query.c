@@ -45,6 +45,24 @@ static void many_rays_come_from_a_file(void **unused)
 	check_table("seq 100 | sed 's/.*/-4,-4,-4,-6/' >$D/rays.csv; $C query $D/s.json --rays $D/rays.csv | tail -n 1", "100,bottom,0.5,-4,-5,0,1,\n");
 }
 
+/* Not what it touches where it is, nor itself; a body that is not hit is not met. */
+static void a_body_meets_what_is_first(void **unused)
+{
+	(void)unused;
+	const char *const columns = "body,met,part,x_m,y_m,normal_x,normal_y,name\n";
+	char table[256];
+	snprintf(table, sizeof table, "%s0,1,0.25,2,0,-1,0,box\n", columns);
+	check_table("$C query $D/s.json --move 0,4,0", table);
+	snprintf(table, sizeof table, "%s1,0,0.25,1,0,1,0,\"a \"\"disc\"\", red\"\n", columns);
+	check_table("$C query $D/s.json --move 1,-1,0", table);
+	snprintf(table, sizeof table, "%s0,top,0.5,0,5,0,-1,\n", columns);
+	check_table("$C query $D/s.json --move 0,0,8", table);
+	snprintf(table, sizeof table, "%s1,nothing,1,3,3,0,0,\n", columns);
+	check_table("$C query $D/s.json --move 1,3,3", table);
+	check_table("$C query $D/s.json --move 0,3.5,0 --mask 1 | cut -d, -f 1-3", "body,met,part\n0,nothing,1\n");
+	check_table("sed 's/\"categories\": 6/\"mask\": 0/' $D/s.json | $C query - --move 0,3.5,0 | cut -d, -f 1-3", "body,met,part\n0,nothing,1\n");
+}
+
 static void bodies_are_at_a_place(void **unused)
 {
 	(void)unused;
@@ -52,6 +70,9 @@ static void bodies_are_at_a_place(void **unused)
 	check_table("$C query $D/s.json --point 0.9,0.9", "body,name\n");
 	check_table("$C query $D/s.json --box 0.5,-0.25,2,0.5", "body,name\n0,\"a \"\"disc\"\", red\"\n1,box\n");
 	check_table("$C query $D/s.json --box 2,1,0,0", "body,name\n1,box\n");
+	check_table("$C query $D/s.json --touching 0", "body,name\n");
+	check_table("sed 's/\"position\": .3/\"position\": [1.9/' $D/s.json | $C query - --touching 0", "body,name\n1,box\n");
+	check_table("sed 's/\"position\": .3/\"position\": [1.9/' $D/s.json | $C query - --touching 1", "body,name\n0,\"a \"\"disc\"\", red\"\n");
 }
 
 static void a_body_is_nearest(void **unused)
@@ -90,7 +111,7 @@ static void wrong_questions_are_errors(void **unused)
 {
 	(void)unused;
 	check("$C query", 2, "query: SCENE.json is missing");
-	check("$C query $D/s.json", 2, "nothing is asked; give one of --ray, --rays, --box, --point and --nearest");
+	check("$C query $D/s.json", 2, "nothing is asked; give one of --ray, --rays, --move, --box, --point, --touching and --nearest");
 	check("$C query $D/s.json --point 0,0 --ray 0,0,1,1", 2, "several things are asked at once");
 	check("$C query $D/s.json --ray 0,0,1", 2, "--ray: found \"0,0,1\"; allowed: X,Y,X,Y");
 	check("$C query $D/s.json --ray 0,0,1,1,-1", 2, "--ray: found");
@@ -99,6 +120,11 @@ static void wrong_questions_are_errors(void **unused)
 	check("$C query $D/s.json --point 0", 2, "--point: found \"0\"; allowed: X,Y");
 	check("$C query $D/s.json --nearest 0,1,2", 2, "--nearest: found \"0,1,2\"; allowed: X,Y");
 	check("$C query $D/s.json --nearest 0,1 --point 0,1", 2, "several things are asked at once");
+	check("$C query $D/s.json --move 0,1", 2, "--move: found \"0,1\"; allowed: BODY,X,Y");
+	check("$C query $D/s.json --move 0.5,1,1", 2, "--move: found");
+	check("$C query $D/s.json --move 2,1,1", 2, "--move: there is no body 2; the scene has 2");
+	check("$C query $D/s.json --touching=-1", 2, "--touching: found \"-1\"; allowed: a body's index");
+	check("$C query $D/s.json --touching 1 --move 1,0,0", 2, "several things are asked at once");
 	check("$C query $D/s.json --box 0,0,-1,1", 2, "--box: found \"0,0,-1,1\"; allowed: X,Y,W,H");
 	static const char *const masks[] = {"", "-1", "4294967296", "0x", "0x1G", "0x100000000", "1.5", "1 ", "99999999999999999999"};
 	for (size_t i = 0; i < COUNT(masks); i++) {
@@ -123,7 +149,7 @@ static void wrong_questions_are_errors(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_meets_what_is_first), cmocka_unit_test(many_rays_come_from_a_file),
-		cmocka_unit_test(bodies_are_at_a_place), cmocka_unit_test(a_body_is_nearest), cmocka_unit_test(bodies_are_left_out),
-		cmocka_unit_test(a_state_is_a_scene), cmocka_unit_test(wrong_questions_are_errors)};
+		cmocka_unit_test(a_body_meets_what_is_first), cmocka_unit_test(bodies_are_at_a_place), cmocka_unit_test(a_body_is_nearest),
+		cmocka_unit_test(bodies_are_left_out), cmocka_unit_test(a_state_is_a_scene), cmocka_unit_test(wrong_questions_are_errors)};
 	return cmocka_run_group_tests_name("query", tests, make_scene, remove_folder);
 }

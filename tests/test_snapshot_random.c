@@ -1,11 +1,10 @@
-/* carom_snapshot: any rays, boxes and points, by answers that know nothing of grids, faces or circles: how far a point is from a body, which along a straight way falls and then
- * rises.
+/* carom_snapshot: any rays, boxes and points among any bodies.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 
 #include "count.h"
-#include "runs.h"
+#include "solids.h"
 
 static carom_world *world_of(const carom_body_def *bodies, size_t count)
 {
@@ -13,116 +12,7 @@ static carom_world *world_of(const carom_body_def *bodies, size_t count)
 	return runs_world(&def, &scenery_devices[0], bodies, count);
 }
 
-typedef struct solid {
-	double x, y, radius; /* a circle, or with corners a polygon */
-	double corners[CAROM_MAX_VERTICES][2];
-	uint32_t count;
-} solid;
-
-static solid solid_of(carom_world *world, uint32_t index)
-{
-	carom_body_info info;
-	carom_body_state state;
-	carom_error error;
-	solid s = {0};
-	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
-	scenery_check(carom_world_get_states(world, index, 1, &state, &error), &error);
-	s.x = (double)state.position.x, s.y = (double)state.position.y, s.radius = (double)info.radius, s.count = info.vertices ? info.vertex_count : 0;
-	for (uint32_t k = 0; k < s.count; k++) {
-		const double x = (double)info.vertices[k].x, y = (double)info.vertices[k].y, c = cos((double)state.angle), n = sin((double)state.angle);
-		s.corners[k][0] = s.x + c * x - n * y;
-		s.corners[k][1] = s.y + n * x + c * y;
-	}
-	return s;
-}
-
-/* Negative inside. */
-static double distance(const solid *s, double x, double y)
-{
-	double nearest = HUGE_VAL;
-	bool inside = true;
-	if (s->count == 0)
-		return hypot(x - s->x, y - s->y) - s->radius;
-	for (uint32_t k = 0; k < s->count; k++) {
-		const double *a = s->corners[k], *b = s->corners[(k + 1) % s->count], ex = b[0] - a[0], ey = b[1] - a[1];
-		const double part = fmin(fmax(((x - a[0]) * ex + (y - a[1]) * ey) / (ex * ex + ey * ey), 0), 1);
-		nearest = fmin(nearest, hypot(x - a[0] - part * ex, y - a[1] - part * ey));
-		inside = inside && ex * (y - a[1]) - ey * (x - a[0]) > 0;
-	}
-	return inside ? -nearest : nearest;
-}
-
-static double distance_at(const solid *s, const carom_ray *ray, double part)
-{
-	return distance(s, (double)ray->from.x + part * ((double)ray->to.x - (double)ray->from.x),
-			   (double)ray->from.y + part * ((double)ray->to.y - (double)ray->from.y))
-		- (double)ray->radius;
-}
-
-#define SURE 1e-7 /* m: closer to touching than that two ways of counting may differ */
-
-/* When they meet: 2 for never, -1 where that is not sure. */
-static double meeting(const solid *s, const carom_ray *ray)
-{
-	double low = 0, high = 1, before = 0;
-	const double start = distance_at(s, ray, 0);
-	if (fabs(start) < SURE)
-		return -1;
-	if (start < 0)
-		return 2;
-	while (high - low > 1e-13) { /* the least distance is in between */
-		const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-		if (distance_at(s, ray, a) < distance_at(s, ray, b))
-			high = b;
-		else
-			low = a;
-	}
-	const double least = distance_at(s, ray, low);
-	if (fabs(least) < SURE)
-		return -1;
-	if (least > 0)
-		return 2;
-	while (low - before > 1e-15) {
-		const double middle = 0.5 * (before + low);
-		if (distance_at(s, ray, middle) > 0)
-			before = middle;
-		else
-			low = middle;
-	}
-	return low;
-}
-
-enum { BODIES = 150, RAYS = 1000, BOXES = 1000, POINTS = 20000 };
-
-/* Half of them of sizes from 1 to 1,000, all over each other, the others of about one size in the middle. */
-static carom_world *wild_world(scenery_random *random, solid *solids)
-{
-	carom_body_def bodies[BODIES];
-	carom_world *world;
-	scenery_bodies(random, SCENERY_MIXED, BODIES, 1.4f, 0.0f, bodies);
-	for (int k = 0; k < BODIES; k++) {
-		const float size = k < 3 ? 6.0f : powf(10.0f, k % 2 ? scenery_uniform(random, -2.2f, 0.3f) : scenery_uniform(random, -0.5f, -0.3f));
-		const float half = k % 2 ? 20.0f : 4.0f;
-		bodies[k].position = (carom_vec2){scenery_uniform(random, -half, half), scenery_uniform(random, -half, half)};
-		bodies[k].angle = scenery_uniform(random, -3, 3);
-		if (bodies[k].shape == CAROM_POLYGON) {
-			bodies[k] = scenery_box(bodies[k].position.x, bodies[k].position.y, 0, 0, size, size * scenery_uniform(random, 0.05f, 1));
-			bodies[k].angle = scenery_uniform(random, -3, 3);
-		} else {
-			bodies[k].radius = size;
-		}
-	}
-	world = world_of(bodies, BODIES);
-	for (uint32_t k = 0; k < BODIES; k++)
-		solids[k] = solid_of(world, k);
-	return world;
-}
-
-static carom_vec2 somewhere(scenery_random *random)
-{
-	const float half = scenery_uniform(random, 0, 1) < 0.5f ? 24.0f : 5.0f;
-	return (carom_vec2){scenery_uniform(random, -half, half), scenery_uniform(random, -half, half)};
-}
+enum { BODIES = SOLIDS_COUNT, RAYS = 1000, BOXES = 1000, POINTS = 20000 };
 
 static void rays_meet_what_is_nearest(void **unused)
 {
@@ -131,43 +21,34 @@ static void rays_meet_what_is_nearest(void **unused)
 	(void)unused;
 	for (uint64_t seed = 1; seed <= 2; seed++) {
 		scenery_random random = {seed};
-		carom_world *world = wild_world(&random, solids);
+		carom_world *world = solids_wild(&random, solids);
 		carom_snapshot *snapshot = runs_snapshot(world);
 		for (int i = 0; i < RAYS; i++) {
-			carom_ray ray = {somewhere(&random), somewhere(&random), 0};
-			double first = 2, next = 2;
-			uint32_t nearest = 0;
-			bool known = true;
+			carom_ray ray = {solids_somewhere(&random), solids_somewhere(&random), 0};
+			int32_t nearest;
+			carom_ray_hit hit;
 			if (i % 3 == 1)
 				ray.to.x = ray.from.x;
 			if (i % 3 == 2)
 				ray.to = (carom_vec2){ray.from.x + scenery_uniform(&random, -2, 2), ray.from.y + scenery_uniform(&random, -2, 2)};
 			if (i % 2)
 				ray.radius = powf(10.0f, scenery_uniform(&random, -3, 0.5f));
-			for (uint32_t k = 0; k < BODIES && known; k++) {
-				const double part = meeting(&solids[k], &ray);
-				known = part >= 0;
-				if (part < first)
-					next = first, first = part, nearest = k;
-				else
-					next = fmin(next, part);
-			}
-			if (!known || (first <= 1 && next - first < 1e-6))
+			const solid disc = {.x = (double)ray.from.x, .y = (double)ray.from.y, .radius = (double)ray.radius};
+			const double first = solids_first(solids, &disc, (double)ray.to.x - disc.x, (double)ray.to.y - disc.y, &nearest);
+			if (first < 0)
 				continue;
-			carom_ray_hit hit;
 			assert_int_equal(carom_snapshot_cast_rays(snapshot, 1, &ray, &hit, NULL), CAROM_OK);
-			const int32_t wanted = first <= 1 ? (int32_t)nearest : CAROM_NOTHING;
-			if (hit.other != wanted || (first <= 1 && !(fabs(hit.part - first) < 1e-6)))
-				fail_msg("seed %llu, ray %d: %d at %.12g instead of %d at %.12g", (unsigned long long)seed, i, hit.other, hit.part, wanted, first);
+			if (hit.other != nearest || (nearest >= 0 && !(fabs(hit.part - first) < 1e-6)))
+				fail_msg("seed %llu, ray %d: %d at %.12g instead of %d at %.12g", (unsigned long long)seed, i, hit.other, hit.part, nearest, first);
 			sure++;
-			if (first > 1)
+			if (nearest < 0)
 				continue;
 			met++;
 			thick += ray.radius > 0;
 			/* the point is on the body, and the normal leads away from it */
-			assert_true(fabs(distance(&solids[nearest], (double)hit.point.x, (double)hit.point.y)) < 1e-5);
+			assert_true(fabs(solids_distance(&solids[nearest], (double)hit.point.x, (double)hit.point.y)) < 1e-5);
 			assert_true(fabs(hypot((double)hit.normal.x, (double)hit.normal.y) - 1) < 1e-6);
-			const double away = distance(&solids[nearest], (double)hit.point.x + 0.001 * (double)hit.normal.x,
+			const double away = solids_distance(&solids[nearest], (double)hit.point.x + 0.001 * (double)hit.normal.x,
 				(double)hit.point.y + 0.001 * (double)hit.normal.y);
 			assert_true(fabs(away - 0.001) < 1e-5);
 		}
@@ -189,12 +70,12 @@ static double distance_of_box(const solid *s, carom_vec2 min, carom_vec2 max)
 			double left = (double)min.x, right = (double)max.x;
 			for (int n = 0; n < 50; n++) {
 				const double a = left + (right - left) / 3, b = right - (right - left) / 3;
-				if (distance(s, a, ys[i]) < distance(s, b, ys[i]))
+				if (solids_distance(s, a, ys[i]) < solids_distance(s, b, ys[i]))
 					right = b;
 				else
 					left = a;
 			}
-			found[i] = distance(s, left, ys[i]);
+			found[i] = solids_distance(s, left, ys[i]);
 			least = fmin(least, found[i]);
 		}
 		if (found[0] < found[1])
@@ -209,12 +90,12 @@ static void boxes_hold_what_reaches_into_them(void **unused)
 {
 	static solid solids[BODIES];
 	scenery_random random = {3};
-	carom_world *world = wild_world(&random, solids);
+	carom_world *world = solids_wild(&random, solids);
 	carom_snapshot *snapshot = runs_snapshot(world);
 	size_t all = 0;
 	(void)unused;
 	for (int i = 0; i < BOXES; i++) {
-		const carom_vec2 min = somewhere(&random);
+		const carom_vec2 min = solids_somewhere(&random);
 		const float size = i % 4 == 0 ? 0.0f : i % 4 == 1 ? 10.0f : 1.0f;
 		const carom_vec2 max = {min.x + scenery_uniform(&random, 0, size), min.y + scenery_uniform(&random, 0, size)};
 		uint32_t found[BODIES];
@@ -225,9 +106,9 @@ static void boxes_hold_what_reaches_into_them(void **unused)
 			const bool is_found = next < count && found[next] == k;
 			const double far = hypot(fmax(fmax((double)min.x - solids[k].x, solids[k].x - (double)max.x), 0),
 				fmax(fmax((double)min.y - solids[k].y, solids[k].y - (double)max.y), 0));
-			const double least = far > solids[k].radius + SURE ? far : distance_of_box(&solids[k], min, max);
+			const double least = far > solids[k].radius + SOLIDS_SURE ? far : distance_of_box(&solids[k], min, max);
 			next += is_found;
-			if (fabs(least) > SURE && is_found != (least < 0))
+			if (fabs(least) > SOLIDS_SURE && is_found != (least < 0))
 				fail_msg("box %d, body %u: %s, but its distance is %g", i, k, is_found ? "found" : "not found", least);
 		}
 		assert_int_equal(next, count);
@@ -244,20 +125,20 @@ static void the_nearest_is_found(void **unused)
 {
 	static solid solids[BODIES];
 	scenery_random random = {6};
-	carom_world *world = wild_world(&random, solids);
+	carom_world *world = solids_wild(&random, solids);
 	carom_snapshot *snapshot = runs_snapshot(world);
 	int inside = 0, none = 0;
 	(void)unused;
 	for (int i = 0; i < POINTS; i++) {
 		const float scale = i % 5 == 4 ? 1000.0f : 1.0f, within = i % 3 == 2 ? scenery_uniform(&random, 0, 2) : INFINITY;
-		const carom_vec2 place = somewhere(&random), point = {scale * place.x, scale * place.y};
+		const carom_vec2 place = solids_somewhere(&random), point = {scale * place.x, scale * place.y};
 		double least = HUGE_VAL, of_body;
 		carom_nearest found;
 		carom_error error;
 		scenery_check(carom_snapshot_find_nearest(snapshot, 1, &point, within, &found, &error), &error);
 		for (uint32_t k = 0; k < BODIES; k++)
-			least = fmin(least, fmax(distance(&solids[k], (double)point.x, (double)point.y), 0));
-		if (fabs(least - (double)within) < SURE)
+			least = fmin(least, fmax(solids_distance(&solids[k], (double)point.x, (double)point.y), 0));
+		if (fabs(least - (double)within) < SOLIDS_SURE)
 			continue;
 		if (least > (double)within) {
 			assert_true(found.body == CAROM_NOTHING && found.distance == (double)within && found.point.x == point.x && found.normal.x == 0.0f);
@@ -265,17 +146,17 @@ static void the_nearest_is_found(void **unused)
 			continue;
 		}
 		assert_true(found.body >= 0 && found.body < BODIES);
-		of_body = distance(&solids[found.body], (double)point.x, (double)point.y);
-		assert_true(fabs(fmax(of_body, 0) - least) < SURE && fabs(found.distance - least) < SURE);
+		of_body = solids_distance(&solids[found.body], (double)point.x, (double)point.y);
+		assert_true(fabs(fmax(of_body, 0) - least) < SOLIDS_SURE && fabs(found.distance - least) < SOLIDS_SURE);
 		for (int32_t k = 0; k < found.body && found.distance == 0; k++)
-			assert_true(distance(&solids[k], (double)point.x, (double)point.y) > -SURE);
+			assert_true(solids_distance(&solids[k], (double)point.x, (double)point.y) > -SOLIDS_SURE);
 		/* the point is on the body, and the normal leads from it to where it was asked */
-		if (of_body < SURE) {
+		if (of_body < SOLIDS_SURE) {
 			inside++;
-			assert_true(found.point.x == point.x && found.point.y == point.y && found.distance < SURE);
+			assert_true(found.point.x == point.x && found.point.y == point.y && found.distance < SOLIDS_SURE);
 			continue;
 		}
-		assert_true(fabs(distance(&solids[found.body], (double)found.point.x, (double)found.point.y)) < 1e-5);
+		assert_true(fabs(solids_distance(&solids[found.body], (double)found.point.x, (double)found.point.y)) < 1e-5);
 		assert_true(fabs(hypot((double)found.normal.x, (double)found.normal.y) - 1) < 1e-6);
 		const double far = 1e-5 + 1e-6 * found.distance;
 		assert_true(fabs((double)found.point.x + found.distance * (double)found.normal.x - (double)point.x) < far);

@@ -13,9 +13,9 @@ struct query_options {
 	carom_ray ray;
 	carom_vec2 min, max; /* of --box, or of --point, which is both */
 	const char *rays;    /* the name of a file */
-	carom_vec2 near;
-	uint32_t mask;
-	bool has_ray, has_box, has_point, has_near;
+	carom_vec2 near, to; /* of --nearest, of --move */
+	uint32_t body, mask; /* of --move and of --touching */
+	bool has_ray, has_box, has_point, has_near, has_move, has_touching;
 };
 
 /* ---- Options ---- */
@@ -71,6 +71,34 @@ static carom_status read_near(const char *text, void *target, carom_error *error
 	return take_point(text, &options->has_near, &options->near, error);
 }
 
+static bool is_index(float number)
+{
+	return number >= 0 && number < (float)UINT32_MAX && number == floorf(number);
+}
+
+static carom_status read_move(const char *text, void *target, carom_error *error)
+{
+	struct query_options *options = target;
+	float numbers[3];
+	if (read_floats(text, numbers, 3) != 3 || !is_index(numbers[0]))
+		return wrong(error, "found \"%s\"; allowed: BODY,X,Y: an index, and where to in metres", text);
+	options->body = (uint32_t)numbers[0];
+	options->to = (carom_vec2){numbers[1], numbers[2]};
+	options->has_move = true;
+	return CAROM_OK;
+}
+
+static carom_status read_touching(const char *text, void *target, carom_error *error)
+{
+	struct query_options *options = target;
+	float number;
+	if (read_floats(text, &number, 1) != 1 || !is_index(number))
+		return wrong(error, "found \"%s\"; allowed: a body's index", text);
+	options->body = (uint32_t)number;
+	options->has_touching = true;
+	return CAROM_OK;
+}
+
 static carom_status read_mask(const char *text, void *target, carom_error *error)
 {
 	const bool is_hexadecimal = text[0] == '0' && text[1] == 'x';
@@ -87,8 +115,10 @@ static const struct option options_table[] = {
 	{"ray", "X,Y,X,Y[,RADIUS]", read_ray, 0, "what a ray from the first point to the second meets first, or a disc of this radius"},
 	{"rays", "FILE.csv", read_input, offsetof(struct query_options, rays),
 		"the same of many: a row X,Y,X,Y or X,Y,X,Y,RADIUS each; a first row that is no such row names the columns; - is standard input"},
+	{"move", "BODY,X,Y", read_move, 0, "what this body of the scene meets first on its way straight to this place, without turning"},
 	{"box", "X,Y,W,H", read_box, 0, "which bodies reach into the box with this lower left corner and size"},
 	{"point", "X,Y", read_point, 0, "which bodies this point is in"},
+	{"touching", "BODY", read_touching, 0, "which other bodies have a point in common with this body of the scene"},
 	{"nearest", "X,Y", read_near, 0, "which body is nearest to this point"},
 	{"mask", "BITS", read_mask, offsetof(struct query_options, mask), "only bodies of a category in these bits are there, as 6 or 0x6; default all"},
 	{NULL, NULL, NULL, 0, NULL},
@@ -96,9 +126,10 @@ static const struct option options_table[] = {
 
 static carom_status check_options(const struct query_options *options, carom_error *error)
 {
-	const int asked = options->has_ray + (options->rays != NULL) + options->has_box + options->has_point + options->has_near;
+	const int asked = options->has_ray + (options->rays != NULL) + options->has_move + options->has_box + options->has_point + options->has_touching
+		+ options->has_near;
 	if (asked != 1)
-		return wrong(error, "%s; give one of --ray, --rays, --box, --point and --nearest",
+		return wrong(error, "%s; give one of --ray, --rays, --move, --box, --point, --touching and --nearest",
 			asked ? "several things are asked at once" : "nothing is asked");
 	if (options->rays && (strcmp(options->rays, options->common.arguments[0]) == 0 || are_one_file(options->rays, options->common.arguments[0])))
 		return wrong(error, "the scene and --rays are the same, %s; one of them may be a file", options->rays);
@@ -180,6 +211,19 @@ static void print_name_of(const carom_world *world, uint32_t index)
 	print_name(body.name);
 }
 
+static void print_hit(const carom_world *world, const carom_ray_hit *hit)
+{
+	if (hit->other == CAROM_NOTHING)
+		printf("nothing");
+	else
+		print_other(stdout, hit->other);
+	printf(",%.17g,%.9g,%.9g,%.9g,%.9g", hit->part, (double)hit->point.x, (double)hit->point.y, (double)hit->normal.x, (double)hit->normal.y);
+	if (hit->other >= 0)
+		print_name_of(world, (uint32_t)hit->other);
+	else
+		print_name(NULL);
+}
+
 static carom_status print_rays(const carom_world *world, const carom_snapshot *snapshot, const struct rays *rays, carom_error *error)
 {
 	puts("ray,met,part,x_m,y_m,normal_x,normal_y,name");
@@ -189,29 +233,42 @@ static carom_status print_rays(const carom_world *world, const carom_snapshot *s
 		if (status != CAROM_OK)
 			return status;
 		printf("%zu,", k + 1);
-		if (hit.other == CAROM_NOTHING)
-			printf("nothing");
-		else
-			print_other(stdout, hit.other);
-		printf(",%.17g,%.9g,%.9g,%.9g,%.9g", hit.part, (double)hit.point.x, (double)hit.point.y, (double)hit.normal.x, (double)hit.normal.y);
-		if (hit.other >= 0)
-			print_name_of(world, (uint32_t)hit.other);
-		else
-			print_name(NULL);
+		print_hit(world, &hit);
 	}
 	return CAROM_OK;
 }
 
-static carom_status print_found(const carom_world *world, const carom_snapshot *snapshot, const struct query_options *options, carom_error *error)
+static carom_status print_move(const carom_world *world, const carom_snapshot *snapshot, const struct query_options *options,
+	const carom_body_def *body, carom_error *error)
+{
+	carom_ray_hit hit;
+	const carom_status status = carom_snapshot_cast_bodies(snapshot, 1, body, &options->to, &hit, error);
+	if (status != CAROM_OK)
+		return status;
+	printf("body,met,part,x_m,y_m,normal_x,normal_y,name\n%u,", (unsigned)options->body);
+	print_hit(world, &hit);
+	return CAROM_OK;
+}
+
+/* `body` is NULL for a box or a point. */
+static carom_status print_found(const carom_world *world, const carom_snapshot *snapshot, const struct query_options *options,
+	const carom_body_def *body, carom_error *error)
 {
 	const size_t room = carom_world_body_count(world);
 	uint32_t *indices = malloc(room * sizeof *indices + 1);
 	size_t count = 0;
-	const carom_status status = indices ? carom_snapshot_find(snapshot, options->min, options->max, indices, room, &count, error)
-										: out_of_memory(error, "there is not enough memory for %zu bodies", room);
+	carom_status status;
+	if (!indices)
+		return out_of_memory(error, "there is not enough memory for %zu bodies", room);
+	if (body)
+		status = carom_snapshot_find_touching(snapshot, body, indices, room, &count, error);
+	else
+		status = carom_snapshot_find(snapshot, options->min, options->max, indices, room, &count, error);
 	if (status == CAROM_OK)
 		puts("body,name");
 	for (size_t k = 0; k < count; k++) {
+		if (body && indices[k] == options->body)
+			continue;
 		printf("%u", (unsigned)indices[k]);
 		print_name_of(world, indices[k]);
 	}
@@ -235,13 +292,19 @@ static carom_status print_nearest(const carom_world *world, const carom_snapshot
 }
 
 static carom_status print_answer(const carom_world *world, const carom_snapshot *snapshot, const struct query_options *options,
-	const struct rays *rays, carom_error *error)
+	const carom_scene *scene, const struct rays *rays, carom_error *error)
 {
 	if (options->has_ray || options->rays)
 		return print_rays(world, snapshot, rays, error);
 	if (options->has_near)
 		return print_nearest(world, snapshot, options->near, error);
-	return print_found(world, snapshot, options, error);
+	if (!options->has_move && !options->has_touching)
+		return print_found(world, snapshot, options, NULL, error);
+	if (options->body >= scene->body_count)
+		return wrong(error, "--%s: there is no body %u; the scene has %zu", options->has_move ? "move" : "touching", (unsigned)options->body,
+			scene->body_count);
+	const carom_body_def *body = &scene->bodies[options->body];
+	return (options->has_move ? print_move : print_found)(world, snapshot, options, body, error);
 }
 
 /* ---- The command ---- */
@@ -254,7 +317,7 @@ static carom_status answer(const struct query_options *options, const carom_scen
 	if (status == CAROM_OK)
 		status = carom_snapshot_create_masked(world, options->mask, &snapshot, error);
 	if (status == CAROM_OK)
-		status = print_answer(world, snapshot, options, rays, error);
+		status = print_answer(world, snapshot, options, scene, rays, error);
 	carom_snapshot_destroy(snapshot);
 	carom_world_destroy(world);
 	return status;
@@ -292,13 +355,14 @@ const struct command query_command = {
 	.arguments = "SCENE.json",
 	.least_arguments = 1,
 	.most_arguments = 1,
-	.summary = "Prints what rays meet in a scene, or which bodies are at or near a place",
+	.summary = "Prints what rays or bodies meet in a scene, or which bodies are at or near a place",
 	.details = "\nSCENE.json is a file of the format carom-scene/1, as `carom run --out` writes one; - reads standard\n"
 			   "input. One thing is asked at a time; the answer is a table:\n"
 			   "\n--ray, --rays: ray (from 1), met (a body's index, a wall of the room: left, bottom, right, top, or\n"
 			   "nothing), part (0 to 1, of the way), x_m, y_m (where they touch), normal_x, normal_y (from what is met),\n"
 			   "name (of the body). What a ray touches where it begins it does not meet.\n"
-			   "--box, --point: body (its index), name.\n"
+			   "--move: body (its index), then the same columns. It meets what it may hit by its filter.\n"
+			   "--box, --point, --touching: body (its index), name.\n"
 			   "--nearest: body (of equally near ones the lowest index), distance_m (0 in it), x_m, y_m (its nearest\n"
 			   "point), normal_x, normal_y (from there to the point asked for), name.\n",
 	.options = options_table,

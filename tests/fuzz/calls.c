@@ -213,6 +213,24 @@ static void measure(calls *c)
 	FUZZ_EXPECT(carom_world_measure(NULL, &measure, NULL) == CAROM_INVALID_ARGUMENT);
 }
 
+static void cast_body(calls *c, const carom_snapshot *snapshot)
+{
+	bytes_body_room room;
+	const carom_body_def body = bytes_body_def(&c->bytes, carom_world_get_def(*c->slot), &room);
+	const carom_vec2 to = {bytes_wild(&c->bytes), bytes_wild(&c->bytes)};
+	carom_ray_hit hit;
+	carom_error error = fuzz_blank();
+	size_t count = 0;
+	if (calls_judge(c, carom_snapshot_cast_bodies(snapshot, 1, &body, &to, &hit, &error), &error)) {
+		FUZZ_EXPECT(hit.part > 0 && hit.part <= 1 && hit.other < (int64_t)carom_world_body_count(*c->slot));
+		calls_note(c, &hit.part, sizeof hit.part);
+	}
+	error = fuzz_blank();
+	calls_judge(c, carom_snapshot_find_touching(snapshot, &body, NULL, 0, &count, &error), &error);
+	FUZZ_EXPECT(count <= carom_world_body_count(*c->slot));
+	free(room.vertices);
+}
+
 /* What a ray meets lies where it was met. */
 static void ask_where(calls *c)
 {
@@ -240,6 +258,7 @@ static void ask_where(calls *c)
 							(carom_vec2){hit.point.x + pad, hit.point.y + pad}, NULL, 0, &count, NULL)
 				&& count > 0);
 	}
+	cast_body(c, made);
 	carom_snapshot_destroy(made);
 }
 
