@@ -213,7 +213,7 @@ static void measure(calls *c)
 	FUZZ_EXPECT(carom_world_measure(NULL, &measure, NULL) == CAROM_INVALID_ARGUMENT);
 }
 
-static void cast_body(calls *c, const carom_snapshot *snapshot)
+static void cast_body(calls *c, const carom_snapshot *made)
 {
 	bytes_body_room room;
 	const carom_body_def body = bytes_body_def(&c->bytes, carom_world_get_def(*c->slot), &room);
@@ -221,12 +221,12 @@ static void cast_body(calls *c, const carom_snapshot *snapshot)
 	carom_ray_hit hit;
 	carom_error error = fuzz_blank();
 	size_t count = 0;
-	if (calls_judge(c, carom_snapshot_cast_bodies(snapshot, 1, &body, &to, &hit, &error), &error)) {
+	if (calls_judge(c, carom_snapshot_cast_bodies(made, 1, &body, &to, &hit, &error), &error)) {
 		FUZZ_EXPECT(hit.part > 0 && hit.part <= 1 && hit.other < (int64_t)carom_world_body_count(*c->slot));
 		calls_note(c, &hit.part, sizeof hit.part);
 	}
 	error = fuzz_blank();
-	calls_judge(c, carom_snapshot_find_touching(snapshot, &body, NULL, 0, &count, &error), &error);
+	calls_judge(c, carom_snapshot_find_touching(made, &body, NULL, 0, &count, &error), &error);
 	FUZZ_EXPECT(count <= carom_world_body_count(*c->slot));
 	free(room.vertices);
 }
