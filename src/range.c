@@ -139,7 +139,7 @@ bool carom_range_holds(carom_world *world)
 		most.spin += moves ? 0.0 : before.spin;
 		all = both(&all, &most);
 	}
-	if (count > 0 || !world->gravity_sent) {
+	if (count > 0 || !world->gravity_sent || !world->time_step_sent) {
 		if (excess(world, &all) || has_momentum(&all))
 			return false;
 		world->range = all;

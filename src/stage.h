@@ -96,7 +96,7 @@ typedef enum carom_stage {
 	/* the step events; "share": work-items that share what is active, `round` being the number of the round */
 	STAGE_LOAD,    /* (slots): the state into slots */
 	STAGE_CHANGE,  /* (changed bodies, 1, room in Movers): what the host has changed, into slots */
-	STAGE_PUSH,    /* (slots, 1, room in Movers): gravity, which has changed, into slots */
+	STAGE_PUSH,    /* (slots, 1, room in Movers): gravity into slots, once it is another one, or the time step */
 	STAGE_PICK,    /* (bodies, 1, the first of them): their states into Changes */
 	STAGE_PACE,    /* (one group, 1, slots, tenths of a radius that all get at least) */
 	STAGE_REACH,   /* (slots, 1, cells a row, rows) */

@@ -10,6 +10,7 @@
 
 #define FIRST_CHANGES 64 /* bodies that Changes has room for */
 #define PICKED_PART 4    /* of all bodies: more than that are many */
+#define LIST_STEPS 1.25f /* of those that lists were made for, so long may a step be: what leaves its box then gets one for 1.5 of them */
 #define MOST_PICKS 4     /* calls that pick bodies after a batch: who asks more often asks for all, one after the other */
 
 static size_t count_of(const carom_world *world)
@@ -95,13 +96,21 @@ static carom_status upload(carom_world *world, uint32_t count, carom_error *erro
 	return status;
 }
 
-static carom_status tell_gravity(carom_world *world, carom_error *error)
+static bool is_def_sent(const carom_world *world)
 {
-	if (world->gravity_sent)
+	return world->gravity_sent && world->time_step_sent;
+}
+
+/* Lists made for much shorter steps may not reach as far as a step. */
+static carom_status tell_def(carom_world *world, carom_error *error)
+{
+	if (is_def_sent(world))
 		return CAROM_OK;
+	if (world->def.time_step > LIST_STEPS * world->events.list_step)
+		carom_events_drop_lists(world);
 	TRY(carom_uniforms_send(world, error));
 	TRY(carom_run(world, STAGE_PUSH, (int32_t)world->body_count, 1, carom_events_movers(world), 0, error));
-	world->gravity_sent = true;
+	world->gravity_sent = world->time_step_sent = true;
 	return CAROM_OK;
 }
 
@@ -120,14 +129,14 @@ carom_status carom_changes_send(carom_world *world, carom_error *error)
 {
 	const uint32_t count = (uint32_t)count_of(world);
 	const carom_change *changes = world->changes.items;
-	if (count == 0 && world->gravity_sent)
+	if (count == 0 && is_def_sent(world))
 		return CAROM_OK;
 	if (world->newest & PLACE_SLOTS) {
-		TRY(tell_gravity(world, error));
+		TRY(tell_def(world, error));
 		TRY(tell_changes(world, count, error));
 	} else { /* the host has all of it, and the device is to be loaded anew */
 		world->bodies_current = false;
-		world->gravity_sent = true;
+		world->gravity_sent = world->time_step_sent = true;
 	}
 	for (uint32_t k = 0; k < count; k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
@@ -293,13 +302,15 @@ carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, car
 	return CAROM_OK;
 }
 
-/* Lists, and how long a look is good, go by it: all are loaded anew. */
 carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error)
 {
 	GIVEN(world, error);
 	carom_world_def def = world->def;
 	def.time_step = time_step;
 	TRY(change_def(world, &def, error));
-	world->bodies_current = false;
+	if (goes_on(world))
+		world->time_step_sent = false;
+	else
+		world->bodies_current = false;
 	return CAROM_OK;
 }

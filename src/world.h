@@ -65,7 +65,8 @@ typedef struct carom_events {
 	uint32_t steps_a_list;    /* steps handed over between two makings of the lists */
 	uint32_t rounds;          /* handed over a step, */
 	uint32_t iterations;      /* and of the step contacts iterations */
-	uint32_t since;           /* steps handed over since the last making */
+	uint32_t since;           /* steps handed over since the last making, */
+	float list_step;          /* s: the time step that the world had then */
 	bool sleeps;              /* most bodies do not look for hits in each step */
 	uint32_t good;            /* makings since one died before its time */
 	int32_t round, iteration; /* numbers of the last ones handed over */
@@ -125,7 +126,7 @@ struct carom_world {
 	bool rubs;                            /* a body has friction */
 	unsigned newest;                      /* carom_place: all that have the newest state, but for `changes` */
 	bool bodies_current;                  /* the device's constant textures are those of the bodies */
-	bool gravity_sent;                    /* the device has that, too */
+	bool gravity_sent, time_step_sent;    /* the device has these, too */
 	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */

@@ -4,10 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "count.h"
 #include "runs.h"
 #include "world.h"
 
-enum { CROWD = 300, STEPS = 40 };
+enum { CROWD = 300, STEPS = 40, PAIRS = 32, IDLE = 1024 };
 
 static void set_state(carom_world *world, uint32_t index, const carom_body_state *state)
 {
@@ -83,10 +84,11 @@ static carom_world *crowd(const scenery_device *device, const char *step)
 	return runs_world(&def, device, bodies, CROWD);
 }
 
-/* The bits of a world that is loaded anew before each step, as it is once a time step was set. */
+/* The bits of a world that is loaded anew before each step, as it is once a filter was set. The time step gets shorter, and longer than lists were made for. */
 static void it_is_as_loaded_anew(void **unused)
 {
 	static const char *const steps[] = {"events", "contacts"};
+	static const float lengths[] = {0.004f, 0.0045f, 0.01f, 0.001f, 0.05f, 0.0166f};
 	(void)unused;
 	for (size_t i = 0; i < 2; i++) {
 		uint64_t first = 0;
@@ -104,14 +106,97 @@ static void it_is_as_loaded_anew(void **unused)
 					carom_error error;
 					if (step % 7 == 6)
 						scenery_check(carom_world_set_gravity(world, (carom_vec2){0.5f * (float)step, -9.0f}, &error), &error);
-					if (anew)
-						scenery_check(carom_world_set_time_step(world, carom_world_get_def(world)->time_step, &error), &error);
+					if (step % 5 > 2)
+						scenery_check(carom_world_set_time_step(world, lengths[step / 5 % 6], &error), &error);
+					if (anew) /* all are hit by all, whatever else they are */
+						scenery_check(carom_world_set_filter(world, 0, CAROM_CATEGORIES | (step % 2 ? 2 : 4), CAROM_MASK, &error), &error);
 					runs_step(world, 1 + (uint64_t)(step % 2));
 				}
 				if (world)
 					runs_same_hash(&first, runs_hash(world), device);
 				carom_world_destroy(world);
 			}
+		}
+	}
+}
+
+/* What is far away in short steps is met in a long one, by what moves by itself and by what is moved, on every way. */
+static void a_longer_step_misses_nothing(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		for (int k = 0; k < 8; k++) {
+			const float x = 4.0f * cosf(0.7f * (float)k), y = 4.0f * sinf(0.7f * (float)k), speed = k % 2 ? 2.5f : 6.0f;
+			carom_world_def def = runs_def();
+			carom_body_def bodies[] = {scenery_circle(x, y, -x * speed, -y * speed, 0.5f), scenery_circle(0, 0, 0, 0, 0.5f)};
+			carom_error error;
+			bodies[0].is_kinematic = k < 4;
+			def.time_step = 0.001f;
+			carom_world *world = runs_world(&def, device, bodies, COUNT(bodies));
+			if (!world)
+				continue;
+			runs_step(world, 4);
+			scenery_check(carom_world_set_time_step(world, 1.0f, &error), &error);
+			assert_int_equal(runs_step(world, 1).hits, 1);
+			/* twice as fast as what is moved, or as fast as what stops */
+			const carom_body_state state = runs_state(world, 1);
+			const double wanted = (k < 4 ? 8.0 : 4.0) * (double)speed;
+			runs_near(hypot((double)state.velocity.x, (double)state.velocity.y), wanted, 1e-5 * wanted);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* Discs that glide towards others at rest, or will fall to static ones, and many more that keep the world calm: most are not looked at in each step. */
+static carom_world *calm_world(const scenery_device *device, bool falls, double length)
+{
+	static carom_body_def bodies[2 * PAIRS + IDLE];
+	carom_world_def def = runs_def();
+	for (int k = 0; k < PAIRS; k++) {
+		const double gap = (3.0 + 7.0 * (k + 0.5) / PAIRS) * length * (falls ? 0.5 : 1.0);
+		bodies[2 * k] = scenery_circle(-1.0f - (float)gap, 2.0f * (float)(k - PAIRS / 2), falls ? 0.0f : 1.0f, 0.0f, 0.5f);
+		bodies[2 * k + 1] = scenery_circle(0.0f, 2.0f * (float)(k - PAIRS / 2), 0.0f, 0.0f, 0.5f);
+		bodies[2 * k + 1].is_static = falls;
+	}
+	for (int k = 0; k < IDLE; k++) {
+		bodies[2 * PAIRS + k] = scenery_circle(50.0f + 2.0f * (float)(k % 32), 2.0f * (float)(k / 32), 0.0f, 0.0f, 0.5f);
+		bodies[2 * PAIRS + k].is_static = falls && k % 2;
+	}
+	def.time_step = (float)length;
+	return runs_world(&def, device, bodies, COUNT(bodies));
+}
+
+/* Until then it was known that nothing is hit for some steps. Steps that are longer by less than what has lists made anew, and gravity. */
+static void looks_are_no_longer_good(void **unused)
+{
+	const double length = 1.0 / 64, longer = 1.1875 * length;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		for (int falls = 0; falls < 2; falls++) {
+			carom_world *world = calm_world(device, falls, length);
+			const double pull = 10.0, time = 8 * (falls ? length : longer);
+			carom_error error;
+			int hit = 0;
+			if (!world)
+				continue;
+			runs_step(world, 2);
+			if (falls)
+				scenery_check(carom_world_set_gravity(world, (carom_vec2){(float)pull, 0.0f}, &error), &error);
+			else
+				scenery_check(carom_world_set_time_step(world, (float)longer, &error), &error);
+			runs_step(world, 8);
+			for (uint32_t k = 0; k < PAIRS; k++) {
+				const carom_body_state glides = runs_state(world, 2 * k), stands = runs_state(world, 2 * k + 1);
+				const double gap = (3.0 + 7.0 * (k + 0.5) / PAIRS) * length * (falls ? 0.5 : 1.0);
+				const double until = falls ? sqrt(2.0 * gap / pull) : gap - 2.0 * length; /* it meets it */
+				const bool meets = until < time;
+				hit += meets;
+				/* what falls is found to touch when it is nearer than CONTRACT's slop */
+				runs_near((double)glides.velocity.x, falls ? pull * (meets ? time - 2.0 * until : time) : meets ? 0.0 : 1.0, falls ? 2e-3 : 1e-4);
+				runs_near((double)stands.position.x, !falls && meets ? time - until : 0.0, 1e-5);
+			}
+			assert_true(hit > PAIRS / 2);
+			carom_world_destroy(world);
 		}
 	}
 }
@@ -241,7 +326,8 @@ static void who_reads_all_reads_them_once(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_as_loaded_anew), cmocka_unit_test(what_slept_hits),
-		cmocka_unit_test(forces_hold_until_others_do), cmocka_unit_test(who_reads_all_reads_them_once), cmocka_unit_test(what_is_set_is_read)};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_as_loaded_anew), cmocka_unit_test(a_longer_step_misses_nothing),
+		cmocka_unit_test(looks_are_no_longer_good), cmocka_unit_test(what_slept_hits), cmocka_unit_test(forces_hold_until_others_do),
+		cmocka_unit_test(who_reads_all_reads_them_once), cmocka_unit_test(what_is_set_is_read)};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,12 +46,12 @@ __kernel void slots_change(TEX_IN(uniforms), RECORD_IN(changes), LIST_IN(places)
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 }
 
-/* Gravity is another one. */
+/* Gravity, or the time step, is another one: of that kinematic bodies, too, get farther. */
 __kernel void slots_push(TEX_IN(uniforms), TEX_IN(forces), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers),
 	int4 domain)
 {
 	int s = get_global_id(0);
-	if (s >= domain.x || !slot_is_dynamic(slots, s))
+	if (s >= domain.x || slot_is_static(slots, s))
 		return;
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	int i = slot_body(slots, s);

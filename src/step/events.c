@@ -86,6 +86,7 @@ carom_status carom_events_find_neighbours(carom_world *world, carom_error *error
 	TRY(carom_run(world, STAGE_NEAR, count, 1, columns, rows, error));
 	TRY(carom_run(world, STAGE_GATHER, count, 1, 0, 0, error));
 	events->since = 0;
+	events->list_step = world->def.time_step;
 	return CAROM_OK;
 }
 

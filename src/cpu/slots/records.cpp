@@ -79,7 +79,7 @@ template <typename T> static void change(const Job<T> &job)
 	});
 }
 
-/* All that gravity pushes, once it is another one. */
+/* All that move, once gravity or the time step is another one. */
 template <typename T> static void push_all(const Job<T> &job)
 {
 	const Texels<T> uniforms = job.texels(0), forces = job.texels(1);
@@ -89,7 +89,7 @@ template <typename T> static void push_all(const Job<T> &job)
 	const T gravity_x = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_X), gravity_y = uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_Y);
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		for (int32_t s = begin; s < end; s++) {
-			if (!slots[s].is_dynamic())
+			if (slots[s].is_static())
 				continue;
 			const int32_t body = slots[s].body();
 			push(slots[s], gravity_x, gravity_y, forces.of(body, FORCES_X), forces.of(body, FORCES_Y), forces.of(body, FORCES_TORQUE));
