@@ -309,7 +309,7 @@ CAROM_API carom_status carom_world_set_states(carom_world *world, uint32_t first
 CAROM_API carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec2 force, float torque, carom_error *error);
 
 /** What the body is and what it hits, from now on: as in carom_body_def. Bodies that overlap as they begin to hit each other get no deeper, and part as they move. Where it is
- * another one than before, all bodies are loaded anew. */
+ * another one than before, the next step of events or contacts looks for all neighbours anew. */
 CAROM_API carom_status carom_world_set_filter(carom_world *world, uint32_t index, uint32_t categories, uint32_t mask, carom_error *error);
 
 /** Gravity (m/s^2, finite) from now on; carom_world_get_def has it, too. It may be another one before each step: by events and contacts all bodies then look for hits in it, but none

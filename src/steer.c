@@ -96,15 +96,21 @@ static carom_status upload(carom_world *world, uint32_t count, carom_error *erro
 	return status;
 }
 
-static bool is_def_sent(const carom_world *world)
+/* Lists are of those that may hit each other. */
+static carom_status tell_filters(carom_world *world, carom_error *error)
 {
-	return world->gravity_sent && world->time_step_sent;
+	if (world->filters_sent)
+		return CAROM_OK;
+	TRY(carom_filters_send(world, error));
+	carom_events_drop_lists(world);
+	world->filters_sent = true;
+	return CAROM_OK;
 }
 
 /* Lists made for much shorter steps may not reach as far as a step. */
 static carom_status tell_def(carom_world *world, carom_error *error)
 {
-	if (is_def_sent(world))
+	if (world->gravity_sent && world->time_step_sent)
 		return CAROM_OK;
 	if (world->def.time_step > LIST_STEPS * world->events.list_step)
 		carom_events_drop_lists(world);
@@ -129,14 +135,15 @@ carom_status carom_changes_send(carom_world *world, carom_error *error)
 {
 	const uint32_t count = (uint32_t)count_of(world);
 	const carom_change *changes = world->changes.items;
-	if (count == 0 && is_def_sent(world))
+	if (count == 0 && world->gravity_sent && world->time_step_sent && world->filters_sent)
 		return CAROM_OK;
 	if (world->newest & PLACE_SLOTS) {
+		TRY(tell_filters(world, error));
 		TRY(tell_def(world, error));
 		TRY(tell_changes(world, count, error));
 	} else { /* the host has all of it, and the device is to be loaded anew */
 		world->bodies_current = false;
-		world->gravity_sent = world->time_step_sent = true;
+		world->gravity_sent = world->time_step_sent = world->filters_sent = true;
 	}
 	for (uint32_t k = 0; k < count; k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
@@ -276,7 +283,10 @@ carom_status carom_world_set_filter(carom_world *world, uint32_t index, uint32_t
 		return CAROM_OK;
 	body->categories = categories;
 	body->mask = mask;
-	world->bodies_current = false; /* lists of neighbours go by it */
+	if (goes_on(world))
+		world->filters_sent = false;
+	else
+		world->bodies_current = false;
 	return CAROM_OK;
 }
 

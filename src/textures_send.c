@@ -124,7 +124,7 @@ static void fill_filters(const carom_world *world, void *data)
 }
 
 /* The head alone where no body may pass through another. */
-static carom_status send_filters(carom_world *world, carom_error *error)
+carom_status carom_filters_send(carom_world *world, carom_error *error)
 {
 	const uint32_t room = is_filtered(world) ? (uint32_t)FILTER(world->capacity, 0) : FILTERS_FIRST;
 	if (room != world->filter_room) {
@@ -141,7 +141,7 @@ carom_status carom_textures_send(carom_world *world, carom_error *error)
 	TRY(send(world, ROLE_GEOMETRY, world->capacity, fill_geometry, error));
 	TRY(send(world, ROLE_FORCES, world->capacity, fill_forces, error));
 	TRY(send(world, ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction, error));
-	TRY(send_filters(world, error));
+	TRY(carom_filters_send(world, error));
 	TRY(send(world, ROLE_VERTICES, world->vertex_capacity, fill_vertices, error));
 	return carom_uniforms_send(world, error);
 }

@@ -123,11 +123,11 @@ struct carom_world {
 	carom_array changes;            /* carom_change, of bodies that each has one alone */
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count;
-	bool rubs;                            /* a body has friction */
-	unsigned newest;                      /* carom_place: all that have the newest state, but for `changes` */
-	bool bodies_current;                  /* the device's constant textures are those of the bodies */
-	bool gravity_sent, time_step_sent;    /* the device has these, too */
-	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
+	bool rubs;                                       /* a body has friction */
+	unsigned newest;                                 /* carom_place: all that have the newest state, but for `changes` */
+	bool bodies_current;                             /* the device's constant textures are those of the bodies */
+	bool gravity_sent, time_step_sent, filters_sent; /* the device has these, too */
+	bool contacts_current, contacts_sent;            /* the host has the device's contacts; the device has the host's */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
 	uint32_t vertex_capacity;  /* texels of Vertices, likewise, */
@@ -211,6 +211,7 @@ carom_status carom_hits_add(carom_world *world, const carom_hit *hit, carom_erro
 /* textures_send.c: what bodies are, as the device has it */
 carom_status carom_textures_send(carom_world *world, carom_error *error);
 carom_status carom_uniforms_send(carom_world *world, carom_error *error);
+carom_status carom_filters_send(carom_world *world, carom_error *error);
 void carom_forces_fill(const carom_body *body, float texel[4]); /* of Forces */
 /* Is the world's device one that runs many work-items at once, and slowly each? */
 bool carom_is_gpu(const carom_world *world);

@@ -325,6 +325,10 @@ static carom_status steer(carom_world *world, carom_body_state *read, carom_repo
 	if (!status)
 		status = carom_world_set_gravity(world, (carom_vec2){1.0f, -2.0f}, error);
 	if (!status)
+		status = carom_world_set_time_step(world, 0.125f, error);
+	if (!status)
+		status = carom_world_set_filter(world, 4, 2, CAROM_MASK - 2, error);
+	if (!status)
 		status = carom_world_get_states(world, 3, 1, read, error);
 	return status ? status : carom_world_step(world, 1, report, error);
 }
@@ -335,6 +339,8 @@ static void restart(carom_world *world, const carom_body_state *start)
 	scenery_check(carom_world_set_states(world, 0, BODIES, start, &error), &error);
 	scenery_check(carom_world_set_force(world, 2, (carom_vec2){0.0f, 0.0f}, 0.0f, &error), &error);
 	scenery_check(carom_world_set_gravity(world, (carom_vec2){0.0f, 0.0f}, &error), &error);
+	scenery_check(carom_world_set_time_step(world, 0.0625f, &error), &error);
+	scenery_check(carom_world_set_filter(world, 4, CAROM_CATEGORIES, CAROM_MASK, &error), &error);
 	runs_step(world, 1);
 	world->events.change_room = 0; /* say so: it grows */
 }
