@@ -69,6 +69,18 @@ queue *runs_queue(const carom_world_def *def, const carom_body_def *bodies, size
 	return q;
 }
 
+void runs_load_anew(carom_world *world)
+{
+	const carom_world_def *def = carom_world_get_def(world);
+	const float x = def->has_room ? 0.5f * (def->room_min.x + def->room_max.x) : 0.0f;
+	const float y = def->has_room ? 0.5f * (def->room_min.y + def->room_max.y) : 0.0f;
+	const carom_body_def one = scenery_circle(x, y, 0.0f, 0.0f, 0.5f);
+	uint32_t index;
+	carom_error error;
+	scenery_check(carom_world_add(world, &one, 1, &index, &error), &error);
+	scenery_check(carom_world_remove(world, &index, 1, &error), &error);
+}
+
 carom_report runs_step(carom_world *world, uint64_t steps)
 {
 	carom_report report;

@@ -21,6 +21,9 @@ carom_world *runs_scene(carom_scene *scene, const scenery_device *device);
 /* The queue over the same world. */
 queue *runs_queue(const carom_world_def *def, const carom_body_def *bodies, size_t count);
 
+/* All bodies are loaded anew by the next step: there was one more. */
+void runs_load_anew(carom_world *world);
+
 carom_report runs_step(carom_world *world, uint64_t steps);
 carom_report runs_advance(carom_world *world, double seconds);
 carom_body_state runs_state(carom_world *world, uint32_t index);

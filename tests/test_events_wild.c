@@ -84,10 +84,12 @@ static void steer(carom_world *world, uint32_t index)
 		scenery_check(carom_world_set_force(world, index, (carom_vec2){3.0f * info.mass, info.mass}, 0.0f, &error), &error);
 }
 
-/* Bodies are steered before each third step; `anew`: and then all are loaded anew. */
+/* Bodies are steered before each third step, what holds for all changes now and then; `anew`: and then all are loaded anew. */
 static outcome run_steered(carom_world *world, uint32_t steps, bool anew)
 {
+	static const float lengths[] = {1.1f, 0.6f, 1.6f, 1.0f};
 	const uint32_t count = (uint32_t)carom_world_body_count(world);
+	const float time_step = carom_world_get_def(world)->time_step;
 	outcome o = {0};
 	carom_error error;
 	for (uint32_t i = 0; i < steps; i++) {
@@ -95,8 +97,12 @@ static outcome run_steered(carom_world *world, uint32_t steps, bool anew)
 			steer(world, 7 * i % count);
 		if (i % 12 == 9)
 			scenery_check(carom_world_set_gravity(world, (carom_vec2){(float)(i % 5) - 2.0f, -1.0f}, &error), &error);
+		if (i % 8 == 5)
+			scenery_check(carom_world_set_time_step(world, lengths[i / 8 % 4] * time_step, &error), &error);
+		if (i % 10 == 7)
+			scenery_check(carom_world_set_filter(world, 5 * i % count, 1 + i % 20 / 10, CAROM_MASK - i % 30 / 10, &error), &error);
 		if (anew)
-			scenery_check(carom_world_set_time_step(world, carom_world_get_def(world)->time_step, &error), &error);
+			runs_load_anew(world);
 		go_on(world, 1, 1, &o);
 	}
 	return end(world, o);

@@ -100,16 +100,6 @@ static void change_world(carom_world *world, scenery_random *random, int step)
 	}
 }
 
-/* All bodies are, when there is one more, or one fewer. */
-static void load_anew(carom_world *world)
-{
-	const carom_body_def one = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f);
-	uint32_t index;
-	carom_error error;
-	scenery_check(carom_world_add(world, &one, 1, &index, &error), &error);
-	scenery_check(carom_world_remove(world, &index, 1, &error), &error);
-}
-
 /* The bits of a world that is loaded anew before each step. */
 static void it_is_as_loaded_anew(void **unused)
 {
@@ -130,7 +120,7 @@ static void it_is_as_loaded_anew(void **unused)
 						steer_all(world, &random, step % 20 == 5);
 					change_world(world, &random, step);
 					if (anew)
-						load_anew(world);
+						runs_load_anew(world);
 					runs_step(world, 1 + (uint64_t)(step % 2));
 				}
 				if (world)
