@@ -127,7 +127,7 @@ bool carom_range_holds(carom_world *world)
 	const size_t count = world->changes.used / sizeof *changes;
 	const carom_range before = grown(&world->range, world->time);
 	carom_range all = before;
-	if (!world->gravity_sent) {
+	if (world->unsent & UNSENT_GRAVITY) {
 		all.push += larger_of(world->def.gravity);
 		all.speed += all.push * (double)world->def.time_step;
 	}
@@ -139,7 +139,7 @@ bool carom_range_holds(carom_world *world)
 		most.spin += moves ? 0.0 : before.spin;
 		all = both(&all, &most);
 	}
-	if (count > 0 || !world->gravity_sent || !world->time_step_sent) {
+	if (count > 0 || world->unsent & UNSENT_DEF) {
 		if (excess(world, &all) || has_momentum(&all))
 			return false;
 		world->range = all;

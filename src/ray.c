@@ -116,6 +116,11 @@ static void join_circle(const carom_way *way, const carom_placed *circle, carom_
 	*meeting = (carom_meeting){found.part, -found.normal_x, -found.normal_y};
 }
 
+static bool is_polygon(const carom_way *way)
+{
+	return way->body && way->body->corners;
+}
+
 /* Is the line of the way farther from the body than it reaches? */
 static bool passes(const carom_way *way, const carom_placed *body)
 {
@@ -129,7 +134,7 @@ bool carom_ray_meets_body(const carom_way *way, const carom_placed *body, carom_
 	carom_meeting found = {HUGE_VAL, 0, 0};
 	if (passes(way, body))
 		return false;
-	if (way->body && way->body->corners)
+	if (is_polygon(way))
 		(body->corners ? join_polygon : join_circle)(way, body, &found);
 	else if (!body->corners)
 		meet_circle(way, body->x, body->y, body->radius + way->radius, &found);
@@ -145,8 +150,7 @@ bool carom_ray_meets_body(const carom_way *way, const carom_placed *body, carom_
 
 bool carom_ray_meets_wall(const carom_way *way, double normal_x, double normal_y, double offset, carom_meeting *meeting)
 {
-	const carom_placed *body = way->body;
-	const double reach = body && body->corners ? normal_x * way->x + normal_y * way->y - least_along(body, normal_x, normal_y) : way->radius;
+	const double reach = is_polygon(way) ? normal_x * way->x + normal_y * way->y - least_along(way->body, normal_x, normal_y) : way->radius;
 	const double part = part_to_line(way, normal_x, normal_y, offset + reach);
 	if (!(part <= 1))
 		return false;
@@ -192,7 +196,7 @@ void carom_ray_touches(const carom_way *way, const carom_placed *other, const ca
 {
 	const double normal_x = meeting->normal_x, normal_y = meeting->normal_y;
 	const double shift_x = meeting->part * way->along_x, shift_y = meeting->part * way->along_y;
-	if (!way->body || !way->body->corners) {
+	if (!is_polygon(way)) {
 		*x = way->x + shift_x - way->radius * normal_x;
 		*y = way->y + shift_y - way->radius * normal_y;
 		return;

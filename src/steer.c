@@ -24,6 +24,15 @@ static bool goes_on(const carom_world *world)
 	return world->newest & PLACE_SLOTS && !world->events.within && world->prepared && world->bodies_current;
 }
 
+/* The device is told as it goes on; where it can't, it is loaded anew. */
+static void tell_later(carom_world *world, carom_unsent what)
+{
+	if (goes_on(world))
+		world->unsent |= (unsigned)what;
+	else
+		world->bodies_current = false;
+}
+
 /* Room for so many changes more, which then do not fail. */
 static carom_status reserve(carom_world *world, size_t count, carom_error *error)
 {
@@ -99,24 +108,24 @@ static carom_status upload(carom_world *world, uint32_t count, carom_error *erro
 /* Lists are of those that may hit each other. */
 static carom_status tell_filters(carom_world *world, carom_error *error)
 {
-	if (world->filters_sent)
+	if (!(world->unsent & UNSENT_FILTERS))
 		return CAROM_OK;
 	TRY(carom_filters_send(world, error));
 	carom_events_drop_lists(world);
-	world->filters_sent = true;
+	world->unsent &= ~(unsigned)UNSENT_FILTERS;
 	return CAROM_OK;
 }
 
 /* Lists made for much shorter steps may not reach as far as a step. */
 static carom_status tell_def(carom_world *world, carom_error *error)
 {
-	if (world->gravity_sent && world->time_step_sent)
+	if (!(world->unsent & UNSENT_DEF))
 		return CAROM_OK;
 	if (world->def.time_step > LIST_STEPS * world->events.list_step)
 		carom_events_drop_lists(world);
 	TRY(carom_uniforms_send(world, error));
 	TRY(carom_run(world, STAGE_PUSH, (int32_t)world->body_count, 1, carom_events_movers(world), 0, error));
-	world->gravity_sent = world->time_step_sent = true;
+	world->unsent &= ~(unsigned)UNSENT_DEF;
 	return CAROM_OK;
 }
 
@@ -135,7 +144,7 @@ carom_status carom_changes_send(carom_world *world, carom_error *error)
 {
 	const uint32_t count = (uint32_t)count_of(world);
 	const carom_change *changes = world->changes.items;
-	if (count == 0 && world->gravity_sent && world->time_step_sent && world->filters_sent)
+	if (count == 0 && !world->unsent)
 		return CAROM_OK;
 	if (world->newest & PLACE_SLOTS) {
 		TRY(tell_filters(world, error));
@@ -143,7 +152,7 @@ carom_status carom_changes_send(carom_world *world, carom_error *error)
 		TRY(tell_changes(world, count, error));
 	} else { /* the host has all of it, and the device is to be loaded anew */
 		world->bodies_current = false;
-		world->gravity_sent = world->time_step_sent = world->filters_sent = true;
+		world->unsent = 0;
 	}
 	for (uint32_t k = 0; k < count; k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
@@ -283,10 +292,7 @@ carom_status carom_world_set_filter(carom_world *world, uint32_t index, uint32_t
 		return CAROM_OK;
 	body->categories = categories;
 	body->mask = mask;
-	if (goes_on(world))
-		world->filters_sent = false;
-	else
-		world->bodies_current = false;
+	tell_later(world, UNSENT_FILTERS);
 	return CAROM_OK;
 }
 
@@ -305,10 +311,7 @@ carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, car
 	carom_world_def def = world->def;
 	def.gravity = gravity;
 	TRY(change_def(world, &def, error));
-	if (goes_on(world))
-		world->gravity_sent = false;
-	else
-		world->bodies_current = false;
+	tell_later(world, UNSENT_GRAVITY);
 	return CAROM_OK;
 }
 
@@ -318,9 +321,6 @@ carom_status carom_world_set_time_step(carom_world *world, float time_step, caro
 	carom_world_def def = world->def;
 	def.time_step = time_step;
 	TRY(change_def(world, &def, error));
-	if (goes_on(world))
-		world->time_step_sent = false;
-	else
-		world->bodies_current = false;
+	tell_later(world, UNSENT_TIME_STEP);
 	return CAROM_OK;
 }

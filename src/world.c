@@ -58,7 +58,7 @@ carom_status carom_world_create(const carom_world_def *def, carom_world **world,
 	w->pipeline = device_def.pipeline;
 	keep_names(&w->def.pipeline, &w->pipeline);
 	w->step = step_named(w->pipeline.step);
-	w->contacts_current = w->gravity_sent = w->time_step_sent = w->filters_sent = true;
+	w->contacts_current = true;
 	w->newest = PLACE_HOST;
 	w->target = NAN;
 	w->batch = 1;

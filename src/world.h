@@ -98,6 +98,14 @@ typedef enum carom_place {
 	PLACE_SLOTS = 4,    /* of the step events */
 } carom_place;
 
+/* What holds for all bodies, where it has changed since the device was told. */
+typedef enum carom_unsent {
+	UNSENT_GRAVITY = 1,
+	UNSENT_TIME_STEP = 2,
+	UNSENT_DEF = UNSENT_GRAVITY | UNSENT_TIME_STEP,
+	UNSENT_FILTERS = 4,
+} carom_unsent;
+
 /* What a body may be at the end of a step, or the most that any of some may be. */
 typedef struct carom_range {
 	double place, speed, spin; /* m, m/s, rad/s */
@@ -123,11 +131,11 @@ struct carom_world {
 	carom_array changes;            /* carom_change, of bodies that each has one alone */
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count;
-	bool rubs;                                       /* a body has friction */
-	unsigned newest;                                 /* carom_place: all that have the newest state, but for `changes` */
-	bool bodies_current;                             /* the device's constant textures are those of the bodies */
-	bool gravity_sent, time_step_sent, filters_sent; /* the device has these, too */
-	bool contacts_current, contacts_sent;            /* the host has the device's contacts; the device has the host's */
+	bool rubs;                            /* a body has friction */
+	unsigned newest;                      /* carom_place: all that have the newest state, but for `changes` */
+	bool bodies_current;                  /* the device's constant textures are those of the bodies */
+	unsigned unsent;                      /* carom_unsent: what the device, as it goes on, is to be told beside `changes` */
+	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
 	uint32_t vertex_capacity;  /* texels of Vertices, likewise, */
