@@ -241,6 +241,15 @@
 #define CHANGE_BODY 2
 #define CHANGE_MOVES 3   /* 1: that is its state now; 0: only its forces are others */
 #define CHANGES_FORCES 2 /* record: as in Forces */
+/* or four a body that comes, with the first vertex of a polygon alone, */
+#define ADDED_WIDTH 4
+#define ADDED_LINEAR 0 /* records: as in the textures of that name */
+#define ADDED_ROTATIONAL 1
+#define ADDED_GEOMETRY 2
+#define ADDED_FORCES 3
+/* or one a body that goes, in the order of their indices */
+#define REMOVED_BODY 0
+#define REMOVED_LAST 1 /* the last slot there is when it goes: one fewer for each */
 
 /* Spans: four ints a slot */
 #define SPAN_WIDTH 4
@@ -445,6 +454,7 @@
 #define STATUS_KEPT_BEFORE 45 /* of these, when the last step was done: those behind are of one that is under way, or began again */
 /* What nobody changes but the host. */
 #define STATUS_KEPT_ROOM 48 /* hits there are room for in Hits; 0: none are kept */
+#define STATUS_HEADS 49     /* ints of Extra before the first node: one for each slot that there may be */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.

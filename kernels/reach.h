@@ -11,8 +11,8 @@
 #define MOST_STEPS 6.0f     /* that lists are made for at most, */
 #define LEAST_STEPS 1.5f    /* and at least: more than DRIFT_FACTOR, or they are too old as soon as they are made */
 
-/* Lists begin of so many slots. */
-void status_begin(LIST_OUT(status), int count)
+/* Lists begin. */
+void status_begin(LIST_OUT(status))
 {
 	status[STATUS_SMALL] = status[STATUS_KEPT] > status[STATUS_KEPT_ROOM];
 	status[STATUS_STALE] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
@@ -21,7 +21,7 @@ void status_begin(LIST_OUT(status), int count)
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;
 	status[STATUS_LEVELS] = 1;
-	status[STATUS_EXTRA] = count;
+	status[STATUS_EXTRA] = status[STATUS_HEADS];
 	status[STATUS_BUILDS]++;
 }
 
@@ -372,11 +372,9 @@ bool leaves_reach(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(status), float4 b
 		|| y + way > CHANNEL(box, AABB_MAX_Y);
 }
 
-/* A body that might gets another reach, and new neighbours before that step. True if it does. */
-bool reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
+/* A body gets another reach, and new neighbours before the next step. */
+void slot_moves(RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
 {
-	if (!leaves_reach(TEX(uniforms), slots, status, reach[s], s))
-		return false;
 	int mover = atomic_inc(&status[STATUS_MOVERS]);
 	if (mover < room)
 		movers[mover] = s;
@@ -384,5 +382,13 @@ bool reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(
 		atomic_or(&status[STATUS_STALE], 1);
 	reach[s] = reach_about(slots, s, 0.0f, status);
 	slot_rouse(status, wakes, s);
-	return true;
+}
+
+/* A body that might leave its reach gets another one. True if it does. */
+bool reach_keep(TEX_IN(uniforms), RECORD_IN(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
+{
+	bool leaves = leaves_reach(TEX(uniforms), slots, status, reach[s], s);
+	if (leaves)
+		slot_moves(slots, reach, status, wakes, movers, s, room);
+	return leaves;
 }

@@ -168,7 +168,7 @@ static carom_status run_leg(carom_world *world, uint64_t steps, carom_report *re
 /* What the device has made itself is good to go on from, for a while. */
 static carom_status get_ready(carom_world *world, carom_error *error)
 {
-	const bool is_changed = !world->bodies_current || world->newest == PLACE_HOST, is_good = !is_changed && carom_range_holds(world);
+	const bool is_changed = !carom_bodies_are_known(world), is_good = !is_changed && carom_range_holds(world);
 	carom_status status = is_good ? CAROM_OK : carom_textures_fetch(world, error);
 	if (is_changed)
 		world->stalled = 0; /* what stood still did so as it was before */

@@ -42,7 +42,7 @@ typedef struct warm {
 static carom_status warm_create(const carom_world *world, warm *w, carom_error *error)
 {
 	const uint32_t width = WARM_WIDTH(world->rubs), records = CONTACTS_MOST * width, n = (uint32_t)world->body_count;
-	*w = (warm){.width = width, .rows = carom_row_count(records * n), .count_rows = carom_row_count(n)};
+	*w = (warm){.width = width, .rows = carom_row_count(records * n), .count_rows = carom_row_count(world->capacity)};
 	w->records = calloc((size_t)w->rows * carom_row_width(records * world->capacity), 4 * sizeof *w->records);
 	w->counts = calloc(w->count_rows * carom_row_width(world->capacity), sizeof *w->counts);
 	if (w->records && w->counts)

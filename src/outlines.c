@@ -63,7 +63,7 @@ static void fill_corner(float *corner, carom_vec2 from, carom_vec2 to)
 carom_status carom_outlines_send(carom_world *world, carom_error *error)
 {
 	const carom_vec2 *vertices = world->vertices.items;
-	uint32_t items = 2 * world->polygon_capacity, next = 0;
+	uint32_t items = 2 * world->polygon_capacity;
 	float(*corners)[4];
 	carom_status status;
 	if (!items)
@@ -74,12 +74,13 @@ carom_status carom_outlines_send(carom_world *world, carom_error *error)
 	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
 		const carom_vec2 *own = vertices + body->vertex_first;
-		if (body->vertex_count == 1 || body->vertex_first < next)
+		const float *first = corners[body->vertex_first];
+		if (body->vertex_count == 1 || first[OUTLINE_NORMAL_X] != 0.0f || first[OUTLINE_NORMAL_Y] != 0.0f)
 			continue; /* a circle, or one that shares what has been filled in */
 		for (uint32_t k = 0; k < body->vertex_count; k++)
 			fill_corner(corners[body->vertex_first + k], own[k], own[(k + 1) % body->vertex_count]);
-		next = body->vertex_first + body->vertex_count;
 	}
+	world->events.outlines = world->vertices.used;
 	status = world->device->kind->upload(world->device, world->textures[ROLE_OUTLINES].front, carom_row_count(items), corners, error);
 	free(corners);
 	return status;

@@ -131,6 +131,12 @@ bool carom_range_holds(carom_world *world)
 		all.push += larger_of(world->def.gravity);
 		all.speed += all.push * (double)world->def.time_step;
 	}
+	const size_t first = world->newest & PLACE_SLOTS ? world->events.known : world->body_count;
+	for (size_t i = first; i < world->body_count; i++) {
+		const carom_range most = range_of(world, &carom_world_bodies(world)[i], (const float *)world->linear.items + 4 * i,
+			(const float *)world->rotational.items + 4 * i);
+		all = both(&all, &most);
+	}
 	for (size_t k = 0; k < count; k++) {
 		const bool moves = changes[k].moves;
 		carom_range most = range_of(world, &carom_world_bodies(world)[changes[k].body], moves ? changes[k].linear : still,
@@ -139,7 +145,7 @@ bool carom_range_holds(carom_world *world)
 		most.spin += moves ? 0.0 : before.spin;
 		all = both(&all, &most);
 	}
-	if (count > 0 || world->unsent & UNSENT_DEF) {
+	if (count > 0 || first < world->body_count || world->unsent & UNSENT_DEF) {
 		if (excess(world, &all) || has_momentum(&all))
 			return false;
 		world->range = all;

@@ -29,6 +29,11 @@ const carom_stage_def carom_stages[STAGE_COUNT] = {
 	[STAGE_LOAD] = {"slots", NULL, "slots_load", 5, 3, {STATE, ROLE_SLOTS, ROLE_NEED, ROLE_PLACES}},
 	[STAGE_CHANGE] = {"slots", NULL, "slots_change", 8, 1,
 		{ROLE_UNIFORMS, ROLE_CHANGES, ROLE_PLACES, ROLE_SLOTS, ROLE_REACH, ROLE_STATUS, ROLE_WAKE, ROLE_MOVERS, ROLE_FORCES}},
+	[STAGE_ADD] = {"slots", NULL, "slots_add", 13, 0,
+		{ROLE_UNIFORMS, ROLE_CHANGES, ROLE_SLOTS, ROLE_NEED, ROLE_PLACES, ROLE_REACH, ROLE_STATUS, ROLE_WAKE, ROLE_MOVERS, ROLE_SPANS, ROLE_EXTRA,
+			ROLE_OWNERS, ROLE_PARENTS}},
+	[STAGE_REMOVE] = {"slots", NULL, "slots_remove", 10, 0,
+		{ROLE_CHANGES, ROLE_SLOTS, ROLE_PLACES, ROLE_REACH, ROLE_STATUS, ROLE_WAKE, ROLE_MOVERS, ROLE_SPANS, ROLE_NEIGHBOURS, ROLE_EXTRA}},
 	[STAGE_PUSH] = {"slots", NULL, "slots_push", 7, 0, {ROLE_UNIFORMS, ROLE_FORCES, ROLE_SLOTS, ROLE_REACH, ROLE_STATUS, ROLE_WAKE, ROLE_MOVERS}},
 	[STAGE_PICK] = {"slots", NULL, "slots_pick", 3, 0, {ROLE_PLACES, ROLE_SLOTS, ROLE_CHANGES}},
 	[STAGE_PACE] = {"neighbours", NULL, "neighbours_pace", 3, 0, {ROLE_UNIFORMS, ROLE_SLOTS, ROLE_STATUS}},
@@ -101,7 +106,7 @@ const size_t carom_slot_count = sizeof carom_slots / sizeof *carom_slots;
 
 bool carom_stage_runs_groups(carom_stage stage)
 {
-	return stage == STAGE_PACE || stage == STAGE_CELLS || stage == STAGE_MEND || stage == STAGE_RESOLVE
+	return stage == STAGE_REMOVE || stage == STAGE_PACE || stage == STAGE_CELLS || stage == STAGE_MEND || stage == STAGE_RESOLVE
 		|| (stage >= STAGE_BIN_COUNT && stage <= STAGE_BIN_TILES);
 }
 

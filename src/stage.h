@@ -33,7 +33,7 @@ typedef enum carom_role {
 	ROLE_OUTLINES,   /* records, one a vertex of polygons */
 	ROLE_SLOTS,      /* pair of records, SLOT_WIDTH a slot: a slot is a body, sorted by place */
 	ROLE_NEED,       /* pair of lists, float bits: m, how far from its place a body needs to get */
-	ROLE_CHANGES,    /* records, CHANGES_WIDTH a body that is changed or picked */
+	ROLE_CHANGES,    /* records, CHANGES_WIDTH a body that is changed or picked, ADDED_WIDTH one that is added, 1 one that is removed */
 	ROLE_REACH,      /* records, one a slot */
 	ROLE_WORK,       /* records, WORK_WIDTH a slot */
 	ROLE_MEMBERS,    /* list, MEMBER_WIDTH a slot */
@@ -96,6 +96,8 @@ typedef enum carom_stage {
 	/* the step events; "share": work-items that share what is active, `round` being the number of the round */
 	STAGE_LOAD,    /* (slots): the state into slots */
 	STAGE_CHANGE,  /* (changed bodies, 1, room in Movers): what the host has changed, into slots */
+	STAGE_ADD,     /* (added bodies, 1, room in Movers, the first of them): behind the others */
+	STAGE_REMOVE,  /* (one group, 1, removed bodies, room in Movers): and the others get their new indices */
 	STAGE_PUSH,    /* (slots, 1, room in Movers): gravity into slots, once it is another one, or the time step */
 	STAGE_PICK,    /* (bodies, 1, the first of them): their states into Changes */
 	STAGE_PACE,    /* (one group, 1, slots, tenths of a radius that all get at least) */

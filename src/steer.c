@@ -1,5 +1,5 @@
 /* Bodies between two steps: their states are read and changed, and what pushes them. Where the step events has them in its slots, it tells of few alone,
- * and changes are noted, and handed over together before it goes on, with its lists as they are. */
+ * and changes are noted, and handed over together (tell.c) before it goes on. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,29 +8,20 @@
 #include "status.h"
 #include "step/events.h"
 
-#define FIRST_CHANGES 64 /* bodies that Changes has room for */
-#define PICKED_PART 4    /* of all bodies: more than that are many */
-#define LIST_STEPS 1.25f /* of those that lists were made for, so long may a step be: what leaves its box then gets one for 1.5 of them */
-#define MOST_PICKS 4     /* calls that pick bodies after a batch: who asks more often asks for all, one after the other */
+#define MOST_PICKS 4 /* calls that pick bodies after a batch: who asks more often asks for all, one after the other */
 
 static size_t count_of(const carom_world *world)
 {
 	return world->changes.used / sizeof(carom_change);
 }
 
-/* Can the device go on with a body that is changed, without being loaded anew? */
-static bool goes_on(const carom_world *world)
-{
-	return world->newest & PLACE_SLOTS && !world->events.within && world->prepared && world->bodies_current;
-}
-
 /* The device is told as it goes on; where it can't, it is loaded anew. */
 static void tell_later(carom_world *world, carom_unsent what)
 {
-	if (goes_on(world))
+	if (carom_goes_on(world))
 		world->unsent |= (unsigned)what;
 	else
-		world->bodies_current = false;
+		carom_load_anew(world);
 }
 
 /* Room for so many changes more, which then do not fail. */
@@ -56,110 +47,6 @@ static carom_change *change_of(carom_world *world, uint32_t index)
 	return &changes[body->change - 1];
 }
 
-static void fill(const carom_world *world, float *texels)
-{
-	const carom_change *changes = world->changes.items;
-	for (size_t k = 0; k < count_of(world); k++, texels += 4 * CHANGES_WIDTH) {
-		float *turn = texels + 4 * CHANGES_TURN;
-		memcpy(texels + 4 * CHANGES_PLACE, changes[k].linear, sizeof changes[k].linear);
-		turn[CHANGE_ANGLE] = changes[k].rotational[ROTATIONAL_ANGLE];
-		turn[CHANGE_VELOCITY] = changes[k].rotational[ROTATIONAL_VELOCITY];
-		turn[CHANGE_BODY] = (float)changes[k].body;
-		turn[CHANGE_MOVES] = changes[k].moves ? 1.0f : 0.0f;
-		carom_forces_fill(&carom_world_bodies(world)[changes[k].body], texels + 4 * CHANGES_FORCES);
-	}
-}
-
-static carom_status make_room(carom_world *world, uint32_t count, carom_error *error)
-{
-	uint32_t room = FIRST_CHANGES;
-	if (count <= world->events.change_room)
-		return CAROM_OK;
-	while (room < count)
-		room *= 2;
-	world->events.change_room = 0;
-	TRY(carom_events_create_list(world, ROLE_CHANGES, false, CHANGES_WIDTH * (uint64_t)room, error));
-	world->events.change_room = room;
-	return CAROM_OK;
-}
-
-static uint32_t rows_of(uint32_t count)
-{
-	return carom_row_count(CHANGES_WIDTH * count);
-}
-
-/* For so many bodies' rows of Changes; to be given to free. */
-static carom_status create_texels(const carom_world *world, uint32_t count, float **texels, carom_error *error)
-{
-	*texels = calloc((size_t)rows_of(count) * carom_row_width(CHANGES_WIDTH * world->events.change_room), 4 * sizeof **texels);
-	return *texels ? CAROM_OK : carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for the states of %u bodies", count);
-}
-
-static carom_status upload(carom_world *world, uint32_t count, carom_error *error)
-{
-	float *texels;
-	TRY(create_texels(world, count, &texels, error));
-	fill(world, texels);
-	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, rows_of(count), texels, error);
-	free(texels);
-	return status;
-}
-
-/* Lists are of those that may hit each other. */
-static carom_status tell_filters(carom_world *world, carom_error *error)
-{
-	if (!(world->unsent & UNSENT_FILTERS))
-		return CAROM_OK;
-	TRY(carom_filters_send(world, error));
-	carom_events_drop_lists(world);
-	world->unsent &= ~(unsigned)UNSENT_FILTERS;
-	return CAROM_OK;
-}
-
-/* Lists made for much shorter steps may not reach as far as a step. */
-static carom_status tell_def(carom_world *world, carom_error *error)
-{
-	if (!(world->unsent & UNSENT_DEF))
-		return CAROM_OK;
-	if (world->def.time_step > LIST_STEPS * world->events.list_step)
-		carom_events_drop_lists(world);
-	TRY(carom_uniforms_send(world, error));
-	TRY(carom_run(world, STAGE_PUSH, (int32_t)world->body_count, 1, carom_events_movers(world), 0, error));
-	world->unsent &= ~(unsigned)UNSENT_DEF;
-	return CAROM_OK;
-}
-
-static carom_status tell_changes(carom_world *world, uint32_t count, carom_error *error)
-{
-	if (count == 0)
-		return CAROM_OK;
-	TRY(make_room(world, count, error));
-	TRY(upload(world, count, error));
-	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
-	world->newest &= ~(unsigned)PLACE_TEXTURES;
-	return CAROM_OK;
-}
-
-carom_status carom_changes_send(carom_world *world, carom_error *error)
-{
-	const uint32_t count = (uint32_t)count_of(world);
-	const carom_change *changes = world->changes.items;
-	if (count == 0 && !world->unsent)
-		return CAROM_OK;
-	if (world->newest & PLACE_SLOTS) {
-		TRY(tell_filters(world, error));
-		TRY(tell_def(world, error));
-		TRY(tell_changes(world, count, error));
-	} else { /* the host has all of it, and the device is to be loaded anew */
-		world->bodies_current = false;
-		world->unsent = 0;
-	}
-	for (uint32_t k = 0; k < count; k++)
-		carom_world_bodies(world)[changes[k].body].change = 0;
-	world->changes.used = 0;
-	return CAROM_OK;
-}
-
 static carom_body_state state_of(const float *linear, const float *rotational)
 {
 	return (carom_body_state){
@@ -169,13 +56,14 @@ static carom_body_state state_of(const float *linear, const float *rotational)
 /* Of few bodies, from their slots alone. */
 static carom_status pick(carom_world *world, uint32_t first, uint32_t count, carom_body_state *states, carom_error *error)
 {
+	const uint32_t records = CHANGES_WIDTH * count;
 	float *texels;
 	world->events.picks++;
 	TRY(carom_changes_send(world, error));
-	TRY(make_room(world, count, error));
-	TRY(carom_run(world, STAGE_PICK, (int32_t)count, 1, (int32_t)first, 0, error));
-	TRY(create_texels(world, count, &texels, error));
-	const carom_status status = world->device->kind->download(world->device, world->textures[ROLE_CHANGES].front, rows_of(count), texels, error);
+	TRY(carom_records_create(world, records, &texels, error));
+	carom_status status = carom_run(world, STAGE_PICK, (int32_t)count, 1, (int32_t)first, 0, error);
+	if (!status)
+		status = world->device->kind->download(world->device, world->textures[ROLE_CHANGES].front, carom_row_count(records), texels, error);
 	for (uint32_t k = 0; !status && k < count; k++)
 		states[k] = state_of(texels + 4 * (CHANGES_WIDTH * k + CHANGES_PLACE), texels + 4 * (CHANGES_WIDTH * k + CHANGES_TURN));
 	free(texels);
@@ -184,8 +72,8 @@ static carom_status pick(carom_world *world, uint32_t first, uint32_t count, car
 
 static bool are_picked(const carom_world *world, size_t count)
 {
-	return count > 0 && count <= world->body_count / PICKED_PART && world->events.picks < MOST_PICKS && !(world->newest & PLACE_HOST)
-		&& goes_on(world);
+	return count > 0 && carom_are_few(count, world->body_count) && world->events.picks < MOST_PICKS && !(world->newest & PLACE_HOST)
+		&& carom_goes_on(world);
 }
 
 carom_status carom_world_get_states(carom_world *world, uint32_t first, size_t count, carom_body_state *states, carom_error *error)
@@ -215,19 +103,25 @@ static carom_status check_state(const carom_world *world, uint32_t index, const 
 	return CAROM_OK;
 }
 
+/* A body that the slots do not know has its state where it is to be told from. */
+static bool is_known(const carom_world *world, uint32_t index)
+{
+	return index < world->events.known;
+}
+
 static void set_state(carom_world *world, uint32_t index, const carom_body_state *s)
 {
 	const float linear[4] = {[LINEAR_X] = s->position.x, [LINEAR_Y] = s->position.y, [LINEAR_VX] = s->velocity.x, [LINEAR_VY] = s->velocity.y};
 	const float rotational[4] = {[ROTATIONAL_ANGLE] = carom_wrapped(s->angle),
 		[ROTATIONAL_VELOCITY] = s->angular_velocity,
 		[ROTATIONAL_RADIUS] = carom_world_bodies(world)[index].bound};
-	if (goes_on(world)) {
+	if (carom_goes_on(world) && is_known(world, index)) {
 		carom_change *change = change_of(world, index);
 		change->moves = true;
 		memcpy(change->linear, linear, sizeof linear);
 		memcpy(change->rotational, rotational, sizeof rotational);
 	}
-	if (world->newest & PLACE_HOST) {
+	if (world->newest & PLACE_HOST || !is_known(world, index)) {
 		memcpy((float *)world->linear.items + 4 * (size_t)index, linear, sizeof linear);
 		memcpy((float *)world->rotational.items + 4 * (size_t)index, rotational, sizeof rotational);
 	}
@@ -236,7 +130,7 @@ static void set_state(carom_world *world, uint32_t index, const carom_body_state
 /* Who sets many and has not read them goes back to where they were, far from where they are: then it costs less to load all than to look for what is around each. */
 static bool is_set_anew(const carom_world *world, size_t count)
 {
-	return !(world->newest & PLACE_HOST) && count > world->body_count / PICKED_PART;
+	return !(world->newest & PLACE_HOST) && !carom_are_few(count, world->body_count);
 }
 
 carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t count, const carom_body_state *states, carom_error *error)
@@ -251,7 +145,7 @@ carom_status carom_world_set_states(carom_world *world, uint32_t first, size_t c
 	if (count == 0)
 		return CAROM_OK;
 	TRY(reserve(world, count, error));
-	if (!goes_on(world) || is_set_anew(world, count)) {
+	if (!carom_goes_on(world) || is_set_anew(world, count)) {
 		TRY(carom_textures_fetch(world, error));
 		world->newest = PLACE_HOST;
 	}
@@ -271,11 +165,12 @@ carom_status carom_world_set_force(carom_world *world, uint32_t index, carom_vec
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "the force and torque on body %u must be finite (N, N m)", index);
 	if (!carom_is_dynamic(body) && (force.x != 0.0f || force.y != 0.0f || torque != 0.0f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "body %u is %s and feels no force", index, body->is_static ? "static" : "kinematic");
-	if (goes_on(world)) {
+	if (carom_goes_on(world)) {
 		TRY(reserve(world, 1, error));
-		change_of(world, index);
+		if (is_known(world, index))
+			change_of(world, index);
 	} else {
-		world->bodies_current = false;
+		carom_load_anew(world);
 	}
 	body->force = force;
 	body->torque = torque;

@@ -178,14 +178,6 @@ uint32_t carom_polygon_texels(const carom_world *world)
 	return (uint32_t)(world->vertices.used / (2 * sizeof(carom_vec2)));
 }
 
-static uint32_t circle_texels(const carom_world *world)
-{
-	uint32_t circles = 0;
-	for (size_t i = 0; i < world->body_count; i++)
-		circles += carom_world_bodies(world)[i].vertex_count == 1;
-	return circles;
-}
-
 uint32_t carom_friction_texels(uint32_t capacity)
 {
 	return (capacity + FRICTION_BODIES - 1) >> FRICTION_LOG2;
@@ -259,28 +251,51 @@ static carom_status unload(carom_world *world, carom_error *error)
 	return world->newest & PLACE_SLOTS && !(world->newest & PLACE_TEXTURES) ? world->step->unload(world, error) : CAROM_OK;
 }
 
-static carom_status hold(carom_world *world, carom_error *error)
+typedef struct capacities {
+	uint32_t bodies, vertices, polygons;
+} capacities;
+
+static capacities wanted(const carom_world *world, size_t body_count, size_t circle_count)
 {
 	const uint32_t polygons = carom_polygon_texels(world);
-	const uint32_t capacity = carom_capacity(world->body_count), vertex_capacity = carom_capacity(polygons + circle_texels(world));
-	const uint32_t polygon_capacity = polygons ? carom_capacity(polygons) : 0;
-	carom_status status = CAROM_OK;
-	if (capacity != world->capacity || vertex_capacity != world->vertex_capacity || polygon_capacity != world->polygon_capacity) {
+	return (capacities){carom_capacity(body_count), carom_capacity(polygons + circle_count), polygons ? carom_capacity(polygons) : 0};
+}
+
+/* Also if half of it would do: where bodies come and go there is no end of making textures else. */
+static bool fits(uint32_t has, uint32_t wants)
+{
+	return has == wants || has == 2 * wants;
+}
+
+bool carom_textures_fit(const carom_world *world, size_t body_count, size_t circle_count)
+{
+	const capacities all = wanted(world, body_count, circle_count);
+	return fits(world->capacity, all.bodies) && fits(world->vertex_capacity, all.vertices) && fits(world->polygon_capacity, all.polygons);
+}
+
+static carom_status create_anew(carom_world *world, carom_error *error)
+{
+	const capacities all = wanted(world, world->body_count, world->circle_count);
+	carom_textures_destroy(world);
+	const carom_status status = create_all(world, all.bodies, all.vertices, error);
+	if (status) {
 		carom_textures_destroy(world);
-		status = create_all(world, capacity, vertex_capacity, error);
-		if (status) {
-			carom_textures_destroy(world);
-			return status;
-		}
-		world->capacity = capacity;
-		world->vertex_capacity = vertex_capacity;
-		world->polygon_capacity = polygon_capacity;
+		return status;
 	}
-	if (!world->bodies_current) {
-		world->newest &= ~(unsigned)PLACE_SLOTS; /* which know of the bodies, too */
-		TRY(carom_textures_send(world, error));
-	}
-	world->bodies_current = true;
+	world->capacity = all.bodies;
+	world->vertex_capacity = all.vertices;
+	world->polygon_capacity = all.polygons;
+	return CAROM_OK;
+}
+
+static carom_status hold(carom_world *world, carom_error *error)
+{
+	if (!carom_textures_fit(world, world->body_count, world->circle_count))
+		TRY(create_anew(world, error));
+	if (!world->slots_current)
+		world->newest &= ~(unsigned)PLACE_SLOTS;
+	TRY(carom_textures_send(world, error));
+	world->slots_current = true;
 	if (!(world->newest & PLACE_TEXTURES))
 		TRY(transfer(world, false, error));
 	world->newest |= PLACE_TEXTURES;
@@ -293,10 +308,20 @@ carom_status carom_textures_hold(carom_world *world, carom_error *error)
 	return status || (world->bodies_current && world->newest & PLACE_TEXTURES) ? status : hold(world, error);
 }
 
+bool carom_bodies_are_known(const carom_world *world)
+{
+	return world->newest & PLACE_SLOTS ? world->slots_current : world->newest & PLACE_TEXTURES && world->bodies_current;
+}
+
+void carom_load_anew(carom_world *world)
+{
+	world->bodies_current = world->slots_current = false;
+}
+
 carom_status carom_textures_update(carom_world *world, carom_error *error)
 {
 	carom_status status;
-	if (world->prepared && world->bodies_current && world->newest != PLACE_HOST)
+	if (world->prepared && carom_bodies_are_known(world))
 		return carom_changes_send(world, error);
 	status = carom_textures_hold(world, error);
 	if (status || world->prepared)

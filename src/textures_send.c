@@ -29,16 +29,23 @@ static void fill_uniforms(const carom_world *world, void *data)
 	rubs[RUBS_ANY] = world->rubs ? 1.0f : 0.0f;
 }
 
+void carom_geometry_fill(const carom_body *body, float texel[4])
+{
+	texel[GEOMETRY_FIRST] = (float)(body->vertex_first / 2);
+	texel[GEOMETRY_COUNT] = (float)body->vertex_count;
+	texel[GEOMETRY_MASS] = body->mass;
+	texel[GEOMETRY_INERTIA] = body->inertia;
+}
+
 static void fill_geometry(const carom_world *world, void *data)
 {
 	float *texels = data;
 	uint32_t circle = carom_polygon_texels(world);
 	for (size_t i = 0; i < world->body_count; i++, texels += 4) {
 		const carom_body *body = &carom_world_bodies(world)[i];
-		texels[GEOMETRY_FIRST] = (float)(body->vertex_count == 1 ? circle++ : body->vertex_first / 2);
-		texels[GEOMETRY_COUNT] = (float)body->vertex_count;
-		texels[GEOMETRY_MASS] = body->mass;
-		texels[GEOMETRY_INERTIA] = body->inertia;
+		carom_geometry_fill(body, texels);
+		if (body->vertex_count == 1)
+			texels[GEOMETRY_FIRST] = (float)circle++;
 	}
 }
 
@@ -135,13 +142,22 @@ carom_status carom_filters_send(carom_world *world, carom_error *error)
 	return send(world, ROLE_FILTERS, room, fill_filters, error);
 }
 
+carom_status carom_friction_send(carom_world *world, carom_error *error)
+{
+	return send(world, ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction, error);
+}
+
 /* One after the other, since of millions of bodies each takes much memory. */
 carom_status carom_textures_send(carom_world *world, carom_error *error)
 {
+	if (world->bodies_current)
+		return CAROM_OK;
 	TRY(send(world, ROLE_GEOMETRY, world->capacity, fill_geometry, error));
 	TRY(send(world, ROLE_FORCES, world->capacity, fill_forces, error));
-	TRY(send(world, ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction, error));
+	TRY(carom_friction_send(world, error));
 	TRY(carom_filters_send(world, error));
 	TRY(send(world, ROLE_VERTICES, world->vertex_capacity, fill_vertices, error));
-	return carom_uniforms_send(world, error);
+	TRY(carom_uniforms_send(world, error));
+	world->bodies_current = true;
+	return CAROM_OK;
 }

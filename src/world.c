@@ -130,6 +130,7 @@ static bool append_body(carom_world *world, const carom_body_def *def, carom_bod
 	}
 	*slot = *body;
 	world->body_count++;
+	world->circle_count += body->vertex_count == 1;
 	return true;
 }
 
@@ -160,37 +161,97 @@ void carom_look_for_friction(carom_world *world, size_t first)
 	world->prepared = world->prepared && world->rubs == rubbed;
 }
 
+/* How much there was of what grows with each body. */
+typedef struct ends {
+	size_t bodies, vertices, names, linear, rotational, body_count, circle_count;
+} ends;
+
+static ends ends_of(const carom_world *world)
+{
+	return (ends){world->bodies.used, world->vertices.used, world->names.used, world->linear.used, world->rotational.used, world->body_count,
+		world->circle_count};
+}
+
+static void go_back_to(carom_world *world, const ends *before)
+{
+	world->bodies.used = before->bodies;
+	world->vertices.used = before->vertices;
+	memset(world->notes, 0, sizeof world->notes);
+	world->names.used = before->names;
+	world->linear.used = before->linear;
+	world->rotational.used = before->rotational;
+	world->body_count = before->body_count;
+	world->circle_count = before->circle_count;
+}
+
+/* Do the device's textures, as they are, take the bodies from that index on? */
+static bool may_join(const carom_world *world, size_t first)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	bool rub = world->rubs;
+	for (size_t i = first; i < world->body_count && !rub; i++)
+		rub = bodies[i].friction > 0.0f;
+	return world->body_count > first && carom_goes_on(world) && rub == world->rubs && carom_are_few(world->body_count - world->events.known, first)
+		&& carom_textures_fit(world, world->body_count, world->circle_count);
+}
+
+/* Is there one that is not filtered as the first of all bodies is? If all are, those that come pass through others only where some did before. */
+static bool are_filtered(const carom_world *world, size_t first)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	bool is_other = world->filter_room > FILTERS_FIRST;
+	for (size_t i = first; i < world->body_count && !is_other; i++)
+		is_other = bodies[i].categories != bodies->categories || bodies[i].mask != bodies->mask;
+	return is_other;
+}
+
+static void join(carom_world *world, size_t first)
+{
+	if (world->rubs || are_filtered(world, first))
+		world->unsent |= UNSENT_INDICES;
+	world->bodies_current = false;
+	world->newest &= ~(unsigned)PLACE_TEXTURES;
+}
+
+/* The host has all of the state, and the device is loaded with it and with those that have come. */
+static carom_status begin_anew(carom_world *world, const ends *before, carom_error *error)
+{
+	const ends after = ends_of(world);
+	world->body_count = before->body_count; /* of which the device knows */
+	carom_status status = carom_textures_fetch(world, error);
+	if (!status)
+		status = carom_contacts_fetch(world, error);
+	world->body_count = after.body_count;
+	if (status)
+		return status;
+	carom_look_for_friction(world, before->body_count);
+	world->newest = PLACE_HOST;
+	world->contacts_sent = false; /* where others were before, the device still has their contacts */
+	carom_load_anew(world);
+	return CAROM_OK;
+}
+
 carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error)
 {
 	GIVEN(world, error);
 	TRY(carom_check_idle(world, error));
-	const size_t used[5] = {world->bodies.used, world->vertices.used, world->names.used, world->linear.used, world->rotational.used};
-	const size_t before = world->body_count;
-	if (count > MAX_BODIES - before)
+	const ends before = ends_of(world);
+	if (count > MAX_BODIES - before.body_count)
 		return carom_fail(error, CAROM_LIMIT, "a world holds at most %u bodies", MAX_BODIES);
 	if (count > 0)
 		GIVEN(defs, error);
-	carom_status status = carom_textures_fetch(world, error);
-	if (!status)
-		status = carom_contacts_fetch(world, error);
+	carom_status status = CAROM_OK;
 	for (size_t i = 0; !status && i < count; i++)
 		status = add_one(world, &defs[i], i, error);
-	if (status) {
-		world->bodies.used = used[0];
-		world->vertices.used = used[1];
-		world->names.used = used[2];
-		memset(world->notes, 0, sizeof world->notes);
-		world->linear.used = used[3];
-		world->rotational.used = used[4];
-		world->body_count = before;
-		return status;
-	}
-	carom_look_for_friction(world, before);
-	if (first)
-		*first = (uint32_t)before;
-	world->newest = PLACE_HOST;
-	world->bodies_current = world->contacts_sent = false; /* where others were before, the device still has their contacts */
-	return CAROM_OK;
+	if (!status && may_join(world, before.body_count))
+		join(world, before.body_count);
+	else if (!status && count > 0)
+		status = begin_anew(world, &before, error);
+	if (status)
+		go_back_to(world, &before);
+	else if (first)
+		*first = (uint32_t)before.body_count;
+	return status;
 }
 
 size_t carom_world_body_count(const carom_world *world)

@@ -72,7 +72,9 @@ typedef struct carom_events {
 	int32_t round, iteration; /* numbers of the last ones handed over */
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */
 	bool within;              /* the last one ended within a step: of clusters that are under way, or whose forces were being found */
-	uint32_t change_room;     /* bodies of Changes */
+	uint32_t change_room;     /* records of Changes */
+	uint32_t known;           /* bodies that have slots; those behind them are to be told of */
+	size_t outlines;          /* bytes of world->vertices that Outlines has */
 	uint32_t picks;           /* calls since the last batch that read bodies from their slots alone */
 	uint32_t idle;            /* batches in a row that ended no step, */
 	uint32_t stale;           /* and of these those that ended with lists that were too old, or too short */
@@ -98,12 +100,13 @@ typedef enum carom_place {
 	PLACE_SLOTS = 4,    /* of the step events */
 } carom_place;
 
-/* What holds for all bodies, where it has changed since the device was told. */
+/* What holds for all bodies, or is told of all together, where it has changed since the device was told. */
 typedef enum carom_unsent {
 	UNSENT_GRAVITY = 1,
 	UNSENT_TIME_STEP = 2,
 	UNSENT_DEF = UNSENT_GRAVITY | UNSENT_TIME_STEP,
 	UNSENT_FILTERS = 4,
+	UNSENT_INDICES = 8, /* which body has which friction and filter */
 } carom_unsent;
 
 /* What a body may be at the end of a step, or the most that any of some may be. */
@@ -130,11 +133,13 @@ struct carom_world {
 	carom_array contacts;           /* carom_contact, in order */
 	carom_array changes;            /* carom_change, of bodies that each has one alone */
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
-	size_t body_count;
-	bool rubs;                            /* a body has friction */
-	unsigned newest;                      /* carom_place: all that have the newest state, but for `changes` */
-	bool bodies_current;                  /* the device's constant textures are those of the bodies */
-	unsigned unsent;                      /* carom_unsent: what the device, as it goes on, is to be told beside `changes` */
+	size_t body_count, circle_count;
+	size_t waste;        /* bytes of vertices and names that may be of bodies that are gone alone */
+	bool rubs;           /* a body has friction */
+	unsigned newest;     /* carom_place: all that have the newest state, but for `changes` */
+	bool bodies_current; /* the device's constant textures are those of the bodies */
+	bool slots_current;  /* its slots are of the bodies as they are, but for what is to be told of; else they are to be loaded anew */
+	unsigned unsent;     /* carom_unsent: what the device, as it goes on, is to be told beside `changes` */
 	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
@@ -186,8 +191,18 @@ carom_status carom_check_idle(const carom_world *world, carom_error *error);
 carom_status carom_check_range(carom_world *world, carom_error *error);
 /* Is a step good without that, for all that is known? Changes that the device has not been told of are considered. */
 bool carom_range_holds(carom_world *world);
-/* steer.c: tells the device what has been changed of single bodies */
+/* tell.c: can the device go on with bodies that are changed, come or go, without being loaded anew? */
+bool carom_goes_on(const carom_world *world);
+/* Of so many bodies, are these few? Where many are set, come or go it costs less to load all. */
+bool carom_are_few(size_t count, size_t of);
+/* Tells it of bodies that are changed or have come, */
 carom_status carom_changes_send(carom_world *world, carom_error *error);
+/* and of some that go, in order, which the host still has. */
+carom_status carom_removed_send(carom_world *world, const uint32_t *indices, uint32_t count, carom_error *error);
+/* Room in Changes for so many records, and as many numbers for the host, to be given to free. */
+carom_status carom_records_create(carom_world *world, uint32_t count, float **records, carom_error *error);
+/* Nothing of bodies on the device is as it is now. */
+void carom_load_anew(carom_world *world);
 /* Can a body not be here, at this speed? */
 bool carom_outside_room(const carom_world_def *def, carom_vec2 p, carom_vec2 v);
 
@@ -205,6 +220,10 @@ void carom_textures_drop(carom_world *world, carom_role role);
 carom_status carom_textures_hold(carom_world *world, carom_error *error);
 /* The same, and makes the step's own. */
 carom_status carom_textures_update(carom_world *world, carom_error *error);
+/* Is it known, where the device has the newest state, what bodies are? */
+bool carom_bodies_are_known(const carom_world *world);
+/* Do the textures hold the bodies, and are they not much larger? */
+bool carom_textures_fit(const carom_world *world, size_t body_count, size_t circle_count);
 /* Brings the state back to the host. */
 carom_status carom_textures_fetch(carom_world *world, carom_error *error);
 uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs);
@@ -220,7 +239,9 @@ carom_status carom_hits_add(carom_world *world, const carom_hit *hit, carom_erro
 carom_status carom_textures_send(carom_world *world, carom_error *error);
 carom_status carom_uniforms_send(carom_world *world, carom_error *error);
 carom_status carom_filters_send(carom_world *world, carom_error *error);
-void carom_forces_fill(const carom_body *body, float texel[4]); /* of Forces */
+carom_status carom_friction_send(carom_world *world, carom_error *error);
+void carom_geometry_fill(const carom_body *body, float texel[4]); /* of Geometry, with the first vertex of a polygon alone */
+void carom_forces_fill(const carom_body *body, float texel[4]);   /* of Forces */
 /* Is the world's device one that runs many work-items at once, and slowly each? */
 bool carom_is_gpu(const carom_world *world);
 /* Runs a stage over the world's textures: fronts to read, backs to write. */

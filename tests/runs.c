@@ -75,10 +75,19 @@ void runs_load_anew(carom_world *world)
 	const float x = def->has_room ? 0.5f * (def->room_min.x + def->room_max.x) : 0.0f;
 	const float y = def->has_room ? 0.5f * (def->room_min.y + def->room_max.y) : 0.0f;
 	const carom_body_def one = scenery_circle(x, y, 0.0f, 0.0f, 0.5f);
-	uint32_t index;
+	const size_t many = carom_world_body_count(world) / 4 + 1; /* with few it would go on */
+	uint32_t *indices = malloc(many * sizeof *indices), first;
+	carom_body_def *bodies = malloc(many * sizeof *bodies);
 	carom_error error;
-	scenery_check(carom_world_add(world, &one, 1, &index, &error), &error);
-	scenery_check(carom_world_remove(world, &index, 1, &error), &error);
+	assert_true(indices && bodies);
+	for (size_t i = 0; i < many; i++)
+		bodies[i] = one;
+	scenery_check(carom_world_add(world, bodies, many, &first, &error), &error);
+	for (uint32_t i = 0; i < many; i++)
+		indices[i] = first + i;
+	scenery_check(carom_world_remove(world, indices, many, &error), &error);
+	free(bodies);
+	free(indices);
 }
 
 carom_report runs_step(carom_world *world, uint64_t steps)

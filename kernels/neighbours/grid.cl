@@ -12,7 +12,7 @@ __kernel void neighbours_pace(TEX_IN(uniforms), RECORD_IN(slots), LIST_OUT(statu
 		return;
 	for (int k = 1; k < lanes; k++)
 		found[0] += found[k];
-	status_begin(status, domain.z);
+	status_begin(status);
 	pace_choose(found[0], window, LEAST_STEPS * step, (float)domain.w, status);
 }
 

@@ -1,29 +1,48 @@
 /* The state as records in slots, one a body, and back; and of some bodies alone, what the host changes and reads. */
 
-/* A body's push, from its texel of Forces. */
-float4 push_of(TEX_IN(uniforms), float4 f, float inverse_mass, float inverse_inertia, int i)
-{
-	float4 world = TEX_LOAD(uniforms, UNIFORMS_WORLD, 0);
-	if (!(inverse_mass > 0.0f))
-		return (float4)(0.0f, 0.0f, 0.0f, (float)i);
-	return (float4)(CHANNEL(world, WORLD_GRAVITY_X) + CHANNEL(f, FORCES_X) * inverse_mass,
-		CHANNEL(world, WORLD_GRAVITY_Y) + CHANNEL(f, FORCES_Y) * inverse_mass, CHANNEL(f, FORCES_TORQUE) * inverse_inertia, (float)i);
-}
-
 __kernel void slots_load(STATE_IN, RECORD_OUT(slots), LIST_OUT(need), LIST_OUT(places), int4 domain)
 {
 	int i = get_global_id(0);
-	if (i >= domain.x)
+	if (i < domain.x)
+		slot_fill(TEX(uniforms), slots, need, places, i, ROW_LOAD(linear, i), ROW_LOAD(rotational, i), ROW_LOAD(geometry, i), ROW_LOAD(forces, i));
+}
+
+/* Behind the others, where its slot is in no list yet. */
+__kernel void slots_add(TEX_IN(uniforms), RECORD_IN(changes), RECORD_OUT(slots), LIST_OUT(need), LIST_OUT(places), RECORD_OUT(reach),
+	LIST_OUT(status), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(spans), LIST_OUT(extra), LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+{
+	int k = get_global_id(0), s = domain.w + k;
+	if (k >= domain.x)
 		return;
-	float4 r = ROW_LOAD(rotational, i), g = ROW_LOAD(geometry, i), f = ROW_LOAD(forces, i);
-	float inverse_mass = 1.0f / CHANNEL(g, GEOMETRY_MASS), inverse_inertia = 1.0f / CHANNEL(g, GEOMETRY_INERTIA);
-	slots[SLOT_WIDTH * i + SLOT_PLACE] = ROW_LOAD(linear, i);
-	slots[SLOT_WIDTH * i + SLOT_TURN] = (float4)(CHANNEL(r, ROTATIONAL_ANGLE), CHANNEL(r, ROTATIONAL_VELOCITY), CHANNEL(r, ROTATIONAL_RADIUS),
-		CHANNEL(f, FORCES_RESTITUTION));
-	slots[SLOT_WIDTH * i + SLOT_MASS] = (float4)(inverse_mass, inverse_inertia, 2.0f * CHANNEL(g, GEOMETRY_FIRST), CHANNEL(g, GEOMETRY_COUNT));
-	slots[SLOT_WIDTH * i + SLOT_PUSH] = push_of(TEX(uniforms), f, inverse_mass, inverse_inertia, i);
-	need[i] = 0;
-	places[i] = i;
+	RECORD_IN(own) = changes + ADDED_WIDTH * k;
+	slot_fill(TEX(uniforms), slots, need, places, s, own[ADDED_LINEAR], own[ADDED_ROTATIONAL], own[ADDED_GEOMETRY], own[ADDED_FORCES]);
+	owners[s] = extra[s] = -1;
+	parents[s] = s;
+	spans[SPAN(s, SPAN_START)] = spans[SPAN(s, SPAN_HALF)] = spans[SPAN(s, SPAN_END)] = 0;
+	spans[SPAN(s, SPAN_FOUND)] = FOUND_NONE;
+	reach[s] = NO_REACH;
+	if (!PEEK(status, STATUS_STALE))
+		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
+}
+
+/* Bodies go, one after the other, and then the others get their new indices. */
+__kernel void slots_remove(RECORD_IN(changes), RECORD_OUT(slots), LIST_OUT(places), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(wakes),
+	LIST_OUT(movers), LIST_OUT(spans), LIST_OUT(neighbours), LIST_OUT(extra), int4 domain)
+{
+	int lane = get_local_id(0), lanes = get_local_size(0), gone = get_group_id(0) == 0 ? domain.z : 0;
+	for (int k = 0; k < gone && lane == 0; k++) {
+		int s = places[(int)CHANNEL(changes[k], REMOVED_BODY)], last = (int)CHANNEL(changes[k], REMOVED_LAST);
+		slot_take_over(slots, places, s, last);
+		if (!status[STATUS_STALE])
+			lists_let_go(slots, reach, status, wakes, movers, spans, neighbours, extra, s, last, domain.w);
+	}
+	barrier(CLK_GLOBAL_MEM_FENCE);
+	for (int s = lane; gone > 0 && s < (int)CHANNEL(changes[gone - 1], REMOVED_LAST); s += lanes) {
+		int i = slot_body(slots, s);
+		i -= removed_below(changes, gone, i);
+		((__global float *)(slots + SLOT_WIDTH * s + SLOT_PUSH))[PUSH_BODY] = (float)i;
+		places[i] = s;
+	}
 }
 
 __kernel void slots_change(TEX_IN(uniforms), RECORD_IN(changes), LIST_IN(places), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status),

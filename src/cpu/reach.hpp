@@ -4,6 +4,8 @@
 
 #include "cpu/slots.hpp"
 
+#include <algorithm>
+
 namespace carom::cpu {
 
 /* None of these changes a result: they decide how long lists last. */
@@ -65,6 +67,8 @@ template <typename T> struct Box {
 		const T x = std::max(min_x - other.max_x, other.min_x - max_x), y = std::max(min_y - other.max_y, other.min_y - max_y);
 		return std::max(x, y) <= 0;
 	}
+	/* Touches no other. */
+	static Box nowhere() { return {T(1e30), T(1e30), T(-1e30), T(-1e30)}; }
 	T half() const { return T(0.5) * std::max(max_x - min_x, max_y - min_y); }
 	T middle_x() const { return T(0.5) * (min_x + max_x); }
 	T middle_y() const { return T(0.5) * (min_y + max_y); }
@@ -164,16 +168,55 @@ template <typename T> Box<T> reach_about(const Slot<T> &slot, T need, const Reac
 	return {x - way, y - way, x + way, y + way};
 }
 
-/* Bodies that might get out of their boxes in the next step get others, and new neighbours before it. */
-template <typename T> class ReachKeeper
+/* Bodies that get other boxes, and new neighbours before the next step. */
+template <typename T> class MoverList
+{
+public:
+	MoverList(const Slot<T> *all, T *reach, int32_t *to_status, int32_t *wake, int32_t *to_movers, int32_t movers_room)
+		: slots(all), boxes(reinterpret_cast<Box<T> *>(reach)), status(to_status), wakes(reinterpret_cast<Wake *>(wake)), movers(to_movers),
+		  room(movers_room)
+	{
+	}
+
+	/* Few do: apart, it is not in the way of the others. */
+	[[gnu::noinline]] void move(int32_t s) const
+	{
+		const int32_t k = fetch_add(&status[STATUS_MOVERS], 1);
+		if (k >= room) {
+			__atomic_store_n(&status[STATUS_STALE], 1, __ATOMIC_RELAXED);
+			return;
+		}
+		movers[k] = s;
+		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>(status));
+		rouse(s);
+	}
+
+	/* A slot that is known by another number. */
+	void rename(int32_t from, int32_t to) const { std::replace(movers, movers + std::min(status[STATUS_MOVERS], room), from, to); }
+
+protected:
+	void rouse(int32_t s) const { wakes[s] = {CHANGED_AFTER(status[STATUS_AGE]), status[STATUS_AGE]}; }
+
+	const Slot<T> *const slots;
+	Box<T> *const boxes;
+	int32_t *const status;
+
+private:
+	Wake *const wakes;
+	int32_t *const movers;
+	const int32_t room;
+};
+
+/* Bodies that might get out of their boxes in the next step get others. */
+template <typename T> class ReachKeeper : MoverList<T>
 {
 public:
 	ReachKeeper(const Slot<T> *all, T *reach, int32_t *to_status, int32_t *wake, int32_t *to_movers, int32_t movers_room, const Texels<T> &uniforms)
-		: slots(all), boxes(reinterpret_cast<Box<T> *>(reach)), status(to_status), wakes(reinterpret_cast<Wake *>(wake)), movers(to_movers),
-		  room(movers_room), step(uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP)),
+		: MoverList<T>(all, reach, to_status, wake, to_movers, movers_room), step(uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP)),
 		  common(drift_part * T(as_float(status[STATUS_PACE])) * (step / T(as_float(status[STATUS_WINDOW]))))
 	{
 	}
+	using MoverList<T>::move;
 
 	/* True if it got another. */
 	[[gnu::always_inline]] bool keep(int32_t s) const
@@ -201,19 +244,6 @@ public:
 			| (place[LINEAR_Y] + way > box[3]);
 	}
 
-	/* Few do: apart, it is not in the way of the others. */
-	[[gnu::noinline]] void move(int32_t s) const
-	{
-		const int32_t k = fetch_add(&status[STATUS_MOVERS], 1);
-		if (k >= room) {
-			__atomic_store_n(&status[STATUS_STALE], 1, __ATOMIC_RELAXED);
-			return;
-		}
-		movers[k] = s;
-		boxes[s] = reach_about(slots[s], T(0), ReachRules<T>(status));
-		rouse(s);
-	}
-
 	/* Of a body whose push is another one: all around looks at it again. */
 	bool pushed(int32_t s) const
 	{
@@ -230,7 +260,10 @@ public:
 	}
 
 private:
-	void rouse(int32_t s) const { wakes[s] = {CHANGED_AFTER(status[STATUS_AGE]), status[STATUS_AGE]}; }
+	using MoverList<T>::boxes;
+	using MoverList<T>::rouse;
+	using MoverList<T>::slots;
+	using MoverList<T>::status;
 
 	[[gnu::always_inline]] bool may_leave(const Slot<T> &slot, const Box<T> &box) const
 	{
@@ -239,12 +272,6 @@ private:
 		return (x - way < box.min_x) | (y - way < box.min_y) | (x + way > box.max_x) | (y + way > box.max_y);
 	}
 
-	const Slot<T> *const slots;
-	Box<T> *const boxes;
-	int32_t *const status;
-	Wake *const wakes;
-	int32_t *const movers;
-	const int32_t room;
 	const T step, common;
 };
 

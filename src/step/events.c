@@ -159,6 +159,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
 	if (world->newest & PLACE_SLOTS && (world->events.round > LAST_NUMBER || world->events.iteration > LAST_NUMBER)) { /* numbers begin anew */
 		TRY(world->step->unload(world, error));
+		TRY(carom_textures_send(world, error));
 		world->newest &= ~(unsigned)PLACE_SLOTS;
 	}
 	if (world->events.in_batch)
@@ -169,6 +170,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	status[STATUS_ROOM] = (int32_t)world->events.room;
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
 	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
+	status[STATUS_HEADS] = (int32_t)world->capacity;
 	world->events.hits_taken = 0;
 	status[STATUS_KEPT_ROOM] = (int32_t)world->events.hit_room;
 	status[STATUS_NUMBERS] = status[STATUS_ACTIVE] = (int32_t)carom_events_numbers(world->capacity); /* all are to be reset */
@@ -178,6 +180,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	carom_swap(world, ROLE_SLOTS);
 	carom_swap(world, ROLE_NEED);
 	world->newest |= PLACE_SLOTS;
+	world->events.known = (uint32_t)world->body_count;
 	carom_events_drop_lists(world);
 	world->events.round = world->events.iteration = 0;
 	return CAROM_OK;

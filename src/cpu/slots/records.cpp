@@ -1,7 +1,8 @@
-#include "cpu/reach.hpp"
+#include "cpu/leaver.hpp"
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace carom::cpu {
 
@@ -23,6 +24,26 @@ template <typename T> static void push(Slot<T> &slot, T gravity_x, T gravity_y, 
 	slot.push[PUSH_TORQUE] = moves ? torque * slot.mass[MASS_INVERSE_INERTIA] : 0;
 }
 
+/* A body as the host or the state tells of it, into the slot of its index. */
+template <typename T> struct Newcomer {
+	const T *linear, *rotational, *geometry, *forces;
+
+	void fill(Slot<T> &slot, int32_t index, T gravity_x, T gravity_y) const
+	{
+		std::copy_n(linear, 4, slot.place);
+		slot.turn[TURN_ANGLE] = rotational[ROTATIONAL_ANGLE];
+		slot.turn[TURN_VELOCITY] = rotational[ROTATIONAL_VELOCITY];
+		slot.turn[TURN_RADIUS] = rotational[ROTATIONAL_RADIUS];
+		slot.turn[TURN_RESTITUTION] = forces[FORCES_RESTITUTION];
+		slot.mass[MASS_INVERSE] = 1 / geometry[GEOMETRY_MASS];
+		slot.mass[MASS_INVERSE_INERTIA] = 1 / geometry[GEOMETRY_INERTIA];
+		slot.mass[MASS_FIRST] = 2 * geometry[GEOMETRY_FIRST];
+		slot.mass[MASS_COUNT] = geometry[GEOMETRY_COUNT];
+		push(slot, gravity_x, gravity_y, forces[FORCES_X], forces[FORCES_Y], forces[FORCES_TORQUE]);
+		slot.push[PUSH_BODY] = static_cast<T>(index);
+	}
+};
+
 template <typename T> static void load(const Job<T> &job)
 {
 	const State<T> state(job, 1);
@@ -30,22 +51,69 @@ template <typename T> static void load(const Job<T> &job)
 	int32_t *need = job.list(STATE_COUNT + 1), *places = job.list(STATE_COUNT + 2);
 	job.pool.run(job.domain[0], chunk, [&](int32_t begin, int32_t end) {
 		for (int32_t i = begin; i < end; i++) {
-			Slot<T> &slot = slots[i];
-			for (int32_t k = 0; k < 4; k++)
-				slot.place[k] = state.linear.of(i, k);
-			slot.turn[TURN_ANGLE] = state.rotational.of(i, ROTATIONAL_ANGLE);
-			slot.turn[TURN_VELOCITY] = state.rotational.of(i, ROTATIONAL_VELOCITY);
-			slot.turn[TURN_RADIUS] = state.rotational.of(i, ROTATIONAL_RADIUS);
-			slot.turn[TURN_RESTITUTION] = state.restitution(i);
-			slot.mass[MASS_INVERSE] = 1 / state.geometry.of(i, GEOMETRY_MASS);
-			slot.mass[MASS_INVERSE_INERTIA] = 1 / state.geometry.of(i, GEOMETRY_INERTIA);
-			slot.mass[MASS_FIRST] = 2 * state.geometry.of(i, GEOMETRY_FIRST);
-			slot.mass[MASS_COUNT] = state.geometry.of(i, GEOMETRY_COUNT);
-			push(slot, state.world(WORLD_GRAVITY_X), state.world(WORLD_GRAVITY_Y), state.forces.of(i, FORCES_X), state.forces.of(i, FORCES_Y),
-				state.forces.of(i, FORCES_TORQUE));
-			slot.push[PUSH_BODY] = static_cast<T>(i);
+			T texels[4][4];
+			for (int32_t k = 0; k < 4; k++) {
+				texels[0][k] = state.linear.of(i, k);
+				texels[1][k] = state.rotational.of(i, k);
+				texels[2][k] = state.geometry.of(i, k);
+				texels[3][k] = state.forces.of(i, k);
+			}
+			const Newcomer<T> body{texels[0], texels[1], texels[2], texels[3]};
+			body.fill(slots[i], i, state.world(WORLD_GRAVITY_X), state.world(WORLD_GRAVITY_Y));
 			need[i] = 0;
 			places[i] = i;
+		}
+	});
+}
+
+/* Bodies that come, behind the others: their slots are in no list yet. */
+template <typename T> static void add(const Job<T> &job)
+{
+	const Texels<T> uniforms = job.texels(0);
+	const Records<T> added(job.records(1));
+	Slot<T> *slots = slots_of(job, 2);
+	int32_t *need = job.list(3), *places = job.list(4), *extra = job.list(10), *owners = job.list(11), *parents = job.list(12);
+	Box<T> *boxes = reinterpret_cast<Box<T> *>(job.records(5));
+	Span *spans = reinterpret_cast<Span *>(job.list(9));
+	const int32_t *status = job.list(6), first = job.domain[3];
+	const ReachKeeper<T> keeper(slots, job.records(5), job.list(6), job.list(7), job.list(8), job.domain[2], uniforms);
+	for (int32_t k = 0; k < job.domain[0]; k++) {
+		const T *const texels = &added.of(ADDED_WIDTH * k, 0);
+		const Newcomer<T> body{texels + 4 * ADDED_LINEAR, texels + 4 * ADDED_ROTATIONAL, texels + 4 * ADDED_GEOMETRY, texels + 4 * ADDED_FORCES};
+		const int32_t s = first + k;
+		body.fill(slots[s], s, uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_X), uniforms.fact(UNIFORMS_WORLD, WORLD_GRAVITY_Y));
+		need[s] = 0;
+		places[s] = parents[s] = s;
+		owners[s] = extra[s] = -1;
+		spans[s] = {0, 0, 0, FOUND_NONE};
+		boxes[s] = Box<T>::nowhere();
+		if (!status[STATUS_STALE])
+			keeper.pushed(s);
+	}
+}
+
+/* Bodies that go, and new indices of the others. */
+template <typename T> static void remove(const Job<T> &job)
+{
+	const Records<T> removed(job.records(0));
+	Slot<T> *slots = slots_of(job, 1);
+	int32_t *places = job.list(2);
+	Leaver<T> leaver(job);
+	std::vector<int32_t> bodies(static_cast<size_t>(job.domain[2]));
+	int32_t count = 0;
+	for (size_t k = 0; k < bodies.size(); k++) {
+		const int32_t record = static_cast<int32_t>(k);
+		bodies[k] = static_cast<int32_t>(removed.of(record, REMOVED_BODY));
+		count = static_cast<int32_t>(removed.of(record, REMOVED_LAST));
+		leaver.leave(places[bodies[k]], count);
+	}
+	job.pool.run(count, chunk, [&](int32_t begin, int32_t end) {
+		for (int32_t s = begin; s < end; s++) {
+			const int32_t before = slots[s].body();
+			const auto below = std::lower_bound(bodies.begin(), bodies.end(), before) - bodies.begin();
+			const int32_t body = before - static_cast<int32_t>(below);
+			slots[s].push[PUSH_BODY] = static_cast<T>(body);
+			places[body] = s;
 		}
 	});
 }
@@ -147,8 +215,9 @@ template <typename T> static void unload(const Job<T> &job)
 
 extern const Stage slots_records;
 const Stage slots_records{"slots", "records",
-	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_PUSH, push_all<float>, push_all<double>},
-		{STAGE_PICK, pick<float>, pick<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}},
+	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_ADD, add<float>, add<double>},
+		{STAGE_REMOVE, remove<float>, remove<double>}, {STAGE_PUSH, push_all<float>, push_all<double>}, {STAGE_PICK, pick<float>, pick<double>},
+		{STAGE_UNLOAD, unload<float>, unload<double>}},
 	nullptr, nullptr};
 
 }
