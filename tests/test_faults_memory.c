@@ -58,6 +58,13 @@ static void bodies_are_steered(void **unused)
 		walk_steering(device, FAULTS_MEMORY, there_is_no_memory);
 }
 
+static void bodies_come_and_go(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+		walk_roster(device, FAULTS_MEMORY, there_is_no_memory);
+}
+
 static void lists_that_grow(void **unused)
 {
 	(void)unused;
@@ -245,7 +252,8 @@ static void a_snapshot_is_made_or_not(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run), cmocka_unit_test(lists_that_grow),
-		cmocka_unit_test(bodies_are_steered), cmocka_unit_test(threads_that_run_out), cmocka_unit_test(bodies_are_added_all_or_none),
-		cmocka_unit_test(bodies_are_removed_all_or_none), cmocka_unit_test(hits_are_kept_or_it_is_told), cmocka_unit_test(a_snapshot_is_made_or_not)};
+		cmocka_unit_test(bodies_are_steered), cmocka_unit_test(bodies_come_and_go), cmocka_unit_test(threads_that_run_out),
+		cmocka_unit_test(bodies_are_added_all_or_none), cmocka_unit_test(bodies_are_removed_all_or_none),
+		cmocka_unit_test(hits_are_kept_or_it_is_told), cmocka_unit_test(a_snapshot_is_made_or_not)};
 	return cmocka_run_group_tests_name("faults_memory", tests, walk_make_folder, walk_remove_folder);
 }

@@ -97,6 +97,13 @@ static void bodies_are_steered(void **unused)
 		walk_steering(device, FAULTS_OPENCL, opencl_failed);
 }
 
+static void bodies_come_and_go(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device)
+		walk_roster(device, FAULTS_OPENCL, opencl_failed);
+}
+
 static void lists_that_grow(void **unused)
 {
 	(void)unused;
@@ -207,6 +214,6 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(machines_without_opencl), cmocka_unit_test(failures_are_listed),
 		cmocka_unit_test(the_fastest_is_the_default), cmocka_unit_test(worlds_that_open), cmocka_unit_test(worlds_that_run),
-		cmocka_unit_test(lists_that_grow), cmocka_unit_test(bodies_are_steered)};
+		cmocka_unit_test(lists_that_grow), cmocka_unit_test(bodies_are_steered), cmocka_unit_test(bodies_come_and_go)};
 	return cmocka_run_group_tests_name("faults_opencl", tests, count_drivers, walk_remove_folder);
 }

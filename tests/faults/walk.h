@@ -23,6 +23,9 @@ bool walk_growing(const scenery_device *device, faults_kind kind, walk_judge *ju
 /* Bodies of a world that goes on are changed and read, and it takes a step, likewise. False where there is no such device. */
 bool walk_steering(const scenery_device *device, faults_kind kind, walk_judge *judge);
 
+/* Bodies of such a world go and others come, between its steps, likewise. False where there is no such device. */
+bool walk_roster(const scenery_device *device, faults_kind kind, walk_judge *judge);
+
 /* The code that the n-th call gives. */
 int walk_code(uint64_t nth);
 
