@@ -37,7 +37,8 @@ __kernel void slots_remove(RECORD_IN(changes), RECORD_OUT(slots), LIST_OUT(place
 			lists_let_go(slots, reach, status, wakes, movers, spans, neighbours, extra, s, last, domain.w);
 	}
 	barrier(CLK_GLOBAL_MEM_FENCE);
-	for (int s = lane; gone > 0 && s < (int)CHANNEL(changes[gone - 1], REMOVED_LAST); s += lanes) {
+	int left = gone > 0 ? (int)CHANNEL(changes[gone - 1], REMOVED_LAST) : 0, each = (left + lanes - 1) / lanes;
+	for (int s = each * lane; s < min(each * (lane + 1), left); s++) {
 		int i = slot_body(slots, s);
 		i -= removed_below(changes, gone, i);
 		((__global float *)(slots + SLOT_WIDTH * s + SLOT_PUSH))[PUSH_BODY] = (float)i;
