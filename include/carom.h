@@ -290,7 +290,7 @@ CAROM_API void carom_world_destroy(carom_world *world);
 CAROM_API carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error);
 
 /** Removes the bodies of these indices, all or none; those behind them get lower indices, in the same order. The world goes on with the bits of one that is made of the others as
- * they are now, with their contacts; the hits of the last call are forgotten. By the steps events and contacts few (a 64th of the bodies and 64, and no more than a quarter) leave a world that goes on. CAROM_INVALID_ARGUMENT names what is no body, or is there twice (as `indices[k]`). */
+ * they are now, with their contacts; the hits of the last call are forgotten. By the steps events and contacts few (a 64th of the bodies and 64, and no more than a quarter) leave a world that goes on; many in one call cost little more than one. CAROM_INVALID_ARGUMENT names what is no body, or is there twice (as `indices[k]`). */
 CAROM_API carom_status carom_world_remove(carom_world *world, const uint32_t *indices, size_t count, carom_error *error);
 
 /** How many there are. */
