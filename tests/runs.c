@@ -59,6 +59,26 @@ carom_world *runs_scene(carom_scene *scene, const scenery_device *device)
 	return world;
 }
 
+carom_world *runs_crowd(const scenery_device *device, const char *step, bool filtered)
+{
+	carom_world_def def = runs_room(45.0f, 15.0f);
+	carom_body_def bodies[RUNS_CROWD];
+	scenery_random random = {77};
+	scenery_bodies(&random, SCENERY_MIXED, RUNS_CROWD, 1.3f, 5.0f, bodies);
+	scenery_drive(&random, RUNS_CROWD, 2.0f, bodies);
+	for (int i = 0; i < RUNS_CROWD; i++) {
+		bodies[i].position.x -= 20.0f;
+		if (filtered && i % 2)
+			scenery_filter(&random, &bodies[i]);
+	}
+	def.gravity = (carom_vec2){0.0f, -9.81f};
+	def.restitution = 0.5f;
+	def.friction = 0.3f;
+	def.profile = true;
+	def.pipeline.step = step;
+	return runs_world(&def, device, bodies, RUNS_CROWD);
+}
+
 queue *runs_queue(const carom_world_def *def, const carom_body_def *bodies, size_t count)
 {
 	carom_world_def numbers = *def;

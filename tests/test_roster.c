@@ -8,7 +8,7 @@
 #include "runs.h"
 #include "world.h"
 
-enum { CROWD = 300, STEPS = 40, IDLE = 80 };
+enum { STEPS = 40, IDLE = 80 };
 
 /* How often all bodies were loaded. */
 static uint64_t loads(carom_world *world)
@@ -38,22 +38,7 @@ static void take_away(carom_world *world, const uint32_t *indices, size_t count)
 /* Filtered where the step is events. */
 static carom_world *crowd(const scenery_device *device, const char *step)
 {
-	carom_world_def def = runs_room(45.0f, 15.0f);
-	carom_body_def bodies[CROWD];
-	scenery_random random = {77};
-	scenery_bodies(&random, SCENERY_MIXED, CROWD, 1.3f, 5.0f, bodies);
-	scenery_drive(&random, CROWD, 2.0f, bodies);
-	for (int i = 0; i < CROWD; i++) {
-		bodies[i].position.x -= 20.0f;
-		if (i % 2 && strcmp(step, "events") == 0)
-			scenery_filter(&random, &bodies[i]);
-	}
-	def.gravity = (carom_vec2){0.0f, -9.81f};
-	def.restitution = 0.5f;
-	def.friction = 0.3f;
-	def.profile = true;
-	def.pipeline.step = step;
-	return runs_world(&def, device, bodies, CROWD);
+	return runs_crowd(device, step, strcmp(step, "events") == 0);
 }
 
 /* On its own spot, where nothing else is, of those that have not been used: of any shape and any kind. */

@@ -8,7 +8,7 @@
 #include "runs.h"
 #include "world.h"
 
-enum { CROWD = 300, STEPS = 40, PAIRS = 32, IDLE = 1024 };
+enum { STEPS = 40, PAIRS = 32, IDLE = 1024 };
 
 static void set_state(carom_world *world, uint32_t index, const carom_body_state *state)
 {
@@ -33,7 +33,7 @@ static carom_body_info body_of(const carom_world *world, uint32_t index)
 /* Another velocity, and of every third body another place: on its own spot, where nothing else is, of those that have not been used. */
 static void steer_one(carom_world *world, scenery_random *random, int *spot)
 {
-	const uint32_t index = (uint32_t)scenery_uniform(random, 0.0f, (float)CROWD);
+	const uint32_t index = (uint32_t)scenery_uniform(random, 0.0f, (float)RUNS_CROWD);
 	const carom_body_info info = body_of(world, index);
 	carom_body_state state = runs_state(world, index);
 	const float vx = scenery_uniform(random, -20.0f, 20.0f), vy = scenery_uniform(random, -20.0f, 20.0f), w = scenery_uniform(random, -9.0f, 9.0f);
@@ -53,7 +53,7 @@ static void steer_one(carom_world *world, scenery_random *random, int *spot)
 /* All that can be are pushed; or all get another velocity, so that more go far than lists can keep up with. */
 static void steer_all(carom_world *world, scenery_random *random, bool states)
 {
-	for (uint32_t i = 0; i < CROWD; i++) {
+	for (uint32_t i = 0; i < RUNS_CROWD; i++) {
 		const carom_body_info info = body_of(world, i);
 		const float x = scenery_uniform(random, -50.0f, 50.0f), y = scenery_uniform(random, -50.0f, 50.0f);
 		if (info.is_static || info.is_kinematic)
@@ -68,22 +68,6 @@ static void steer_all(carom_world *world, scenery_random *random, bool states)
 	}
 }
 
-static carom_world *crowd(const scenery_device *device, const char *step)
-{
-	carom_world_def def = runs_room(45.0f, 15.0f);
-	carom_body_def bodies[CROWD];
-	scenery_random random = {77};
-	scenery_bodies(&random, SCENERY_MIXED, CROWD, 1.3f, 5.0f, bodies);
-	scenery_drive(&random, CROWD, 2.0f, bodies);
-	for (int i = 0; i < CROWD; i++)
-		bodies[i].position.x -= 20.0f;
-	def.gravity = (carom_vec2){0.0f, -9.81f};
-	def.restitution = 0.5f;
-	def.friction = 0.3f;
-	def.pipeline.step = step;
-	return runs_world(&def, device, bodies, CROWD);
-}
-
 /* Gravity now and then; the time step, which gets shorter, and longer than lists were made for; and filters: bodies pass through others, or no longer. */
 static void change_world(carom_world *world, scenery_random *random, int step)
 {
@@ -94,7 +78,7 @@ static void change_world(carom_world *world, scenery_random *random, int step)
 	if (step % 5 > 2)
 		scenery_check(carom_world_set_time_step(world, lengths[step / 5 % 6], &error), &error);
 	if (step % 3 == 1) {
-		const uint32_t body = (uint32_t)scenery_uniform(random, 0.0f, (float)CROWD);
+		const uint32_t body = (uint32_t)scenery_uniform(random, 0.0f, (float)RUNS_CROWD);
 		const uint32_t categories = step % 2 ? 2 : CAROM_CATEGORIES, mask = step % 6 == 4 ? CAROM_MASK - 2 : CAROM_MASK;
 		scenery_check(carom_world_set_filter(world, body, categories, mask, &error), &error);
 	}
@@ -109,7 +93,7 @@ static void it_is_as_loaded_anew(void **unused)
 		uint64_t first = 0;
 		SCENERY_EACH_DEVICE(device) {
 			for (int anew = 0; anew < 2; anew++) {
-				carom_world *world = crowd(device, steps[i]);
+				carom_world *world = runs_crowd(device, steps[i], false);
 				scenery_random random = {5};
 				int spot = 0;
 				for (int step = 0; world && step < STEPS; step++) {
@@ -348,16 +332,16 @@ static void who_reads_all_reads_them_once(void **unused)
 {
 	(void)unused;
 	SCENERY_EACH_DEVICE(device) {
-		carom_world *world = crowd(device, "events");
-		carom_body_state found[CROWD], all[CROWD];
+		carom_world *world = runs_crowd(device, "events", false);
+		carom_body_state found[RUNS_CROWD], all[RUNS_CROWD];
 		carom_error error;
 		for (int round = 0; world && round < 2; round++) {
 			runs_step(world, 2);
-			for (uint32_t i = 0; i < CROWD; i++) {
+			for (uint32_t i = 0; i < RUNS_CROWD; i++) {
 				found[i] = runs_state(world, i);
 				assert_int_equal((world->newest & PLACE_HOST) != 0, i >= 4);
 			}
-			scenery_check(carom_world_get_states(world, 0, CROWD, all, &error), &error);
+			scenery_check(carom_world_get_states(world, 0, RUNS_CROWD, all, &error), &error);
 			assert_memory_equal(found, all, sizeof all);
 		}
 		carom_world_destroy(world);
