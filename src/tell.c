@@ -118,6 +118,7 @@ static carom_status tell_changes(carom_world *world, carom_error *error)
 	fill_changes(world, texels);
 	TRY(send(world, CHANGES_WIDTH * count, texels, error));
 	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
+	world->events.told = true;
 	world->newest &= ~(unsigned)PLACE_TEXTURES;
 	return CAROM_OK;
 }
@@ -148,6 +149,7 @@ static carom_status tell_added(carom_world *world, carom_error *error)
 	TRY(send(world, ADDED_WIDTH * count, texels, error));
 	TRY(carom_run(world, STAGE_ADD, (int32_t)count, 1, carom_events_movers(world), (int32_t)first, error));
 	world->events.known += count;
+	world->events.told = true;
 	world->newest &= ~(unsigned)PLACE_TEXTURES;
 	return CAROM_OK;
 }
@@ -185,5 +187,6 @@ carom_status carom_removed_send(carom_world *world, const uint32_t *indices, uin
 	TRY(send(world, count, texels, error));
 	TRY(carom_run(world, STAGE_REMOVE, 1, 1, (int32_t)count, carom_events_movers(world), error));
 	world->events.known = slots;
+	world->events.told = true;
 	return CAROM_OK;
 }

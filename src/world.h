@@ -74,6 +74,7 @@ typedef struct carom_events {
 	bool within;              /* the last one ended within a step: of clusters that are under way, or whose forces were being found */
 	uint32_t change_room;     /* records of Changes */
 	uint32_t known;           /* bodies that have slots; those behind them are to be told of */
+	bool told;                /* since the last batch, of bodies that are elsewhere */
 	size_t outlines;          /* bytes of world->vertices that Outlines has */
 	uint32_t picks;           /* calls since the last batch that read bodies from their slots alone */
 	uint32_t idle;            /* batches in a row that ended no step, */

@@ -177,6 +177,49 @@ static void what_was_borne_falls_on_what_has_come(void **unused)
 	}
 }
 
+/* Boxes that rest on the ground: one of them goes, one comes in its place, and now and then one is moved there: what
+ * rests on what is known in the next step, as in a world that is loaded anew. */
+static void what_rests_is_known_at_once(void **unused)
+{
+	enum { BOXES = 48, ROUNDS = 12 };
+	uint64_t first = 0;
+	size_t counts[ROUNDS] = {0};
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		for (int anew = 0; anew < 2; anew++) {
+			carom_world_def def = runs_resting("contacts", 100.0f, 50.0f);
+			carom_body_def boxes[BOXES];
+			for (int k = 0; k < BOXES; k++)
+				boxes[k] = scenery_box(-70.0f + 3.0f * (float)k, 0.5f, 0.0f, 0.0f, 1.0f, 1.0f);
+			carom_world *world = runs_world(&def, device, boxes, BOXES);
+			for (uint32_t round = 0; world && round < ROUNDS; round++) {
+				const uint32_t gone = 7 * round % BOXES;
+				carom_body_state moved = runs_state(world, gone);
+				size_t count;
+				carom_error error;
+				runs_step(world, 3);
+				take_away(world, &gone, 1);
+				if (round % 3 == 2) {
+					scenery_check(carom_world_set_states(world, 5, 1, &moved, &error), &error);
+					moved.position.y = 1.5f;
+				}
+				carom_body_def def_of_new = scenery_box(moved.position.x, moved.position.y, 0.0f, 0.0f, 1.0f, 1.0f);
+				add(world, &def_of_new);
+				if (anew)
+					runs_load_anew(world);
+				runs_step(world, 1);
+				scenery_check(carom_world_contact_count(world, &count, &error), &error);
+				counts[round] = counts[round] ? counts[round] : count;
+				assert_int_equal(count, counts[round]);
+				assert_in_range(count, BOXES - ROUNDS, BOXES);
+			}
+			if (world)
+				runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 enum { AROUND = 8, WAYS = 8 };
 #define STEP (1.0f / 64)
 
@@ -342,7 +385,7 @@ static void the_gone_are_forgotten(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(they_come_and_go_as_if_loaded_anew), cmocka_unit_test(what_was_borne_falls_on_what_has_come),
-		cmocka_unit_test(a_slot_means_nothing_to_who_knew_the_one_before), cmocka_unit_test(at_the_edge_of_what_there_is_room_for),
-		cmocka_unit_test(one_that_is_too_fast), cmocka_unit_test(the_gone_are_forgotten)};
+		cmocka_unit_test(what_rests_is_known_at_once), cmocka_unit_test(a_slot_means_nothing_to_who_knew_the_one_before),
+		cmocka_unit_test(at_the_edge_of_what_there_is_room_for), cmocka_unit_test(one_that_is_too_fast), cmocka_unit_test(the_gone_are_forgotten)};
 	return cmocka_run_group_tests_name("roster", tests, NULL, NULL);
 }

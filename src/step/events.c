@@ -90,6 +90,12 @@ carom_status carom_events_find_neighbours(carom_world *world, carom_error *error
 	return CAROM_OK;
 }
 
+carom_status carom_events_mend(carom_world *world, carom_error *error)
+{
+	return carom_run(world, STAGE_MEND, (int32_t)world->body_count / MEND_SHARE + 4, 1, (int32_t)world->events.columns, (int32_t)world->events.rows,
+		error);
+}
+
 /* Clusters that are in conflict after one round are done again in the next. */
 static carom_status run_rounds(carom_world *world, int32_t count, carom_error *error)
 {
@@ -109,7 +115,7 @@ carom_status carom_events_resolve(carom_world *world, carom_error *error)
 	const int32_t count = (int32_t)world->body_count;
 	carom_status status;
 	world->events.since++;
-	TRY(carom_run(world, STAGE_MEND, count / MEND_SHARE + 4, 1, (int32_t)world->events.columns, (int32_t)world->events.rows, error));
+	TRY(carom_events_mend(world, error));
 	TRY(run_rounds(world, count, error));
 	TRY(carom_run(world, STAGE_SETTLE, 1, 1, world->events.round, count, error));
 	carom_swap(world, ROLE_CLOCK);
@@ -280,7 +286,7 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 		TRY(adapt(world, status, error));
 	if (status[STATUS_STALE])
 		carom_events_drop_lists(world);
-	world->events.in_batch = false;
+	world->events.in_batch = world->events.told = false;
 	world->events.within = status[STATUS_PASS] > 0 || status[STATUS_UNDER_WAY];
 	if (!status[STATUS_UNDER_WAY])
 		status[STATUS_KEPT] = status[STATUS_KEPT_BEFORE] = (int32_t)(world->events.hits_taken = 0);

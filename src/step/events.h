@@ -18,6 +18,8 @@ void carom_events_drop_lists(carom_world *world);
 bool carom_events_lists_are_due(const carom_world *world);
 carom_status carom_events_find_neighbours(carom_world *world, carom_error *error);
 carom_status carom_events_resolve(carom_world *world, carom_error *error);
+/* New neighbours of bodies that may leave the boxes that lists were made for, as resolving begins with. */
+carom_status carom_events_mend(carom_world *world, carom_error *error);
 
 /* A texture of so many ints or records, folded into rows. */
 carom_status carom_events_create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error);
