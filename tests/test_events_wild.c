@@ -1,5 +1,6 @@
 /* Whatever comes of a wild world, it is the same on every device, with any number of threads, when a run stops and goes on, and whoever looks at whom. */
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -84,7 +85,39 @@ static void steer(carom_world *world, uint32_t index)
 		scenery_check(carom_world_set_force(world, index, (carom_vec2){3.0f * info.mass, info.mass}, 0.0f, &error), &error);
 }
 
-/* Bodies are steered before each third step, what holds for all changes now and then; `anew`: and then all are loaded anew. */
+/* A body goes, and one like it comes in its place, as the last one. */
+static void replace(carom_world *world, uint32_t index)
+{
+	const carom_body_state state = runs_state(world, index);
+	carom_body_def def = carom_default_body_def();
+	carom_vec2 vertices[CAROM_MAX_VERTICES];
+	carom_body_info info;
+	carom_error error;
+	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
+	if (info.vertices)
+		memcpy(vertices, info.vertices, info.vertex_count * sizeof *vertices);
+	def.shape = info.vertices ? CAROM_POLYGON : CAROM_CIRCLE;
+	def.radius = info.radius;
+	def.vertices = vertices;
+	def.vertex_count = info.vertex_count;
+	def.position = state.position;
+	def.angle = state.angle;
+	def.velocity = state.velocity;
+	def.angular_velocity = state.angular_velocity;
+	def.is_static = info.is_static;
+	def.is_kinematic = info.is_kinematic;
+	def.mass = info.is_static || info.is_kinematic ? 0.0f : info.mass;
+	def.restitution = info.restitution;
+	def.friction = info.friction;
+	def.force = info.force;
+	def.torque = info.torque;
+	def.categories = info.categories;
+	def.mask = info.mask;
+	scenery_check(carom_world_remove(world, &index, 1, &error), &error);
+	scenery_check(carom_world_add(world, &def, 1, NULL, &error), &error);
+}
+
+/* Bodies are steered before each third step, go and come before others, what holds for all changes now and then; `anew`: and then all are loaded anew. */
 static outcome run_steered(carom_world *world, uint32_t steps, bool anew)
 {
 	static const float lengths[] = {1.1f, 0.6f, 1.6f, 1.0f};
@@ -95,6 +128,8 @@ static outcome run_steered(carom_world *world, uint32_t steps, bool anew)
 	for (uint32_t i = 0; i < steps; i++) {
 		if (i % 3 == 0)
 			steer(world, 7 * i % count);
+		if (i % 4 == 1)
+			replace(world, 11 * i % count);
 		if (i % 12 == 9)
 			scenery_check(carom_world_set_gravity(world, (carom_vec2){(float)(i % 5) - 2.0f, -1.0f}, &error), &error);
 		if (i % 8 == 5)
