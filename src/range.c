@@ -124,7 +124,7 @@ bool carom_range_holds(carom_world *world)
 {
 	static const float still[4] = {0.0f};
 	const carom_change *changes = world->changes.items;
-	const size_t count = world->changes.used / sizeof *changes;
+	const size_t count = carom_change_count(world);
 	const carom_range before = grown(&world->range, world->time);
 	carom_range all = before;
 	if (world->unsent & UNSENT_GRAVITY) {

@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "layout.h"
 #include "status.h"
 #include "step/events.h"
 #include "world.h"
@@ -198,10 +197,7 @@ static carom_status leave(carom_world *world, const uint32_t *numbers, size_t co
 	if (status)
 		return status;
 	let_go(world, numbers, count);
-	world->newest &= ~(unsigned)PLACE_TEXTURES;
-	world->bodies_current = false;
-	if (world->rubs || world->filter_room > FILTERS_FIRST)
-		world->unsent |= UNSENT_INDICES;
+	carom_roster_changed(world, world->body_count);
 	return CAROM_OK;
 }
 

@@ -10,11 +10,6 @@
 
 #define MOST_PICKS 4 /* calls that pick bodies after a batch: who asks more often asks for all, one after the other */
 
-static size_t count_of(const carom_world *world)
-{
-	return world->changes.used / sizeof(carom_change);
-}
-
 /* The device is told as it goes on; where it can't, it is loaded anew. */
 static void tell_later(carom_world *world, carom_unsent what)
 {
@@ -40,9 +35,9 @@ static carom_change *change_of(carom_world *world, uint32_t index)
 	carom_body *body = &carom_world_bodies(world)[index];
 	carom_change *changes = world->changes.items;
 	if (!body->change) {
-		changes[count_of(world)] = (carom_change){.body = index};
+		changes[carom_change_count(world)] = (carom_change){.body = index};
 		world->changes.used += sizeof *changes;
-		body->change = (uint32_t)count_of(world);
+		body->change = (uint32_t)carom_change_count(world);
 	}
 	return &changes[body->change - 1];
 }

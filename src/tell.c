@@ -41,16 +41,35 @@ carom_status carom_records_create(carom_world *world, uint32_t count, float **re
 	return *records ? CAROM_OK : carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %u records of bodies", count);
 }
 
-/* Hands them over, and lets go of the host's. */
+/* Hands them over, of bodies that will be elsewhere, and lets go of the host's. */
 static carom_status send(carom_world *world, uint32_t count, float *records, carom_error *error)
 {
 	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, carom_row_count(count), records,
 		error);
+	world->events.told = true;
 	free(records);
 	return status;
 }
 
 /* ---- What holds for all ---- */
+
+/* Is there one that is not filtered as the first of all bodies is? If all are, those that come pass through others only where some did before. */
+static bool are_filtered(const carom_world *world, size_t first)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	bool is_other = world->filter_room > FILTERS_FIRST;
+	for (size_t i = first; i < world->body_count && !is_other; i++)
+		is_other = bodies[i].categories != bodies->categories || bodies[i].mask != bodies->mask;
+	return is_other;
+}
+
+void carom_roster_changed(carom_world *world, size_t first)
+{
+	if (world->rubs || are_filtered(world, first))
+		world->unsent |= UNSENT_INDICES;
+	world->bodies_current = false;
+	world->newest &= ~(unsigned)PLACE_TEXTURES;
+}
 
 static carom_status tell_indices(carom_world *world, carom_error *error)
 {
@@ -80,8 +99,8 @@ static carom_status tell_def(carom_world *world, carom_error *error)
 		return CAROM_OK;
 	if (world->def.time_step > LIST_STEPS * world->events.list_step)
 		carom_events_drop_lists(world);
-	TRY(carom_textures_send(world, error)); /* what pushes each body is told by its index */
-	TRY(carom_uniforms_send(world, error));
+	TRY(world->bodies_current ? carom_uniforms_send(world, error)
+							  : carom_textures_send(world, error)); /* what pushes each body is told by its index */
 	TRY(carom_run(world, STAGE_PUSH, (int32_t)world->events.known, 1, carom_events_movers(world), 0, error));
 	world->unsent &= ~(unsigned)UNSENT_DEF;
 	return CAROM_OK;
@@ -89,15 +108,10 @@ static carom_status tell_def(carom_world *world, carom_error *error)
 
 /* ---- Bodies that are changed ---- */
 
-static size_t change_count(const carom_world *world)
-{
-	return world->changes.used / sizeof(carom_change);
-}
-
 static void fill_changes(const carom_world *world, float *texels)
 {
 	const carom_change *changes = world->changes.items;
-	for (size_t k = 0; k < change_count(world); k++, texels += 4 * CHANGES_WIDTH) {
+	for (size_t k = 0; k < carom_change_count(world); k++, texels += 4 * CHANGES_WIDTH) {
 		float *turn = texels + 4 * CHANGES_TURN;
 		memcpy(texels + 4 * CHANGES_PLACE, changes[k].linear, sizeof changes[k].linear);
 		turn[CHANGE_ANGLE] = changes[k].rotational[ROTATIONAL_ANGLE];
@@ -110,7 +124,7 @@ static void fill_changes(const carom_world *world, float *texels)
 
 static carom_status tell_changes(carom_world *world, carom_error *error)
 {
-	const uint32_t count = (uint32_t)change_count(world);
+	const uint32_t count = (uint32_t)carom_change_count(world);
 	float *texels;
 	if (count == 0)
 		return CAROM_OK;
@@ -118,7 +132,6 @@ static carom_status tell_changes(carom_world *world, carom_error *error)
 	fill_changes(world, texels);
 	TRY(send(world, CHANGES_WIDTH * count, texels, error));
 	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
-	world->events.told = true;
 	world->newest &= ~(unsigned)PLACE_TEXTURES;
 	return CAROM_OK;
 }
@@ -149,8 +162,6 @@ static carom_status tell_added(carom_world *world, carom_error *error)
 	TRY(send(world, ADDED_WIDTH * count, texels, error));
 	TRY(carom_run(world, STAGE_ADD, (int32_t)count, 1, carom_events_movers(world), (int32_t)first, error));
 	world->events.known += count;
-	world->events.told = true;
-	world->newest &= ~(unsigned)PLACE_TEXTURES;
 	return CAROM_OK;
 }
 
@@ -163,11 +174,11 @@ carom_status carom_changes_send(carom_world *world, carom_error *error)
 		TRY(tell_def(world, error));
 		TRY(tell_changes(world, error));
 		TRY(tell_added(world, error));
-	} else if (change_count(world) > 0 || world->unsent) { /* the host has all of it, and the device is to be loaded anew */
+	} else if (carom_change_count(world) > 0 || world->unsent) { /* the host has all of it, and the device is to be loaded anew */
 		carom_load_anew(world);
 		world->unsent = 0;
 	}
-	for (size_t k = 0; k < change_count(world); k++)
+	for (size_t k = 0; k < carom_change_count(world); k++)
 		carom_world_bodies(world)[changes[k].body].change = 0;
 	world->changes.used = 0;
 	return CAROM_OK;
@@ -187,6 +198,5 @@ carom_status carom_removed_send(carom_world *world, const uint32_t *indices, uin
 	TRY(send(world, count, texels, error));
 	TRY(carom_run(world, STAGE_REMOVE, 1, 1, (int32_t)count, carom_events_movers(world), error));
 	world->events.known = slots;
-	world->events.told = true;
 	return CAROM_OK;
 }

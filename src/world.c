@@ -151,13 +151,20 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	return CAROM_OK;
 }
 
-void carom_look_for_friction(carom_world *world, size_t first)
+/* Has one from that index on friction? */
+static bool are_rough(const carom_world *world, size_t first)
 {
 	const carom_body *bodies = carom_world_bodies(world);
+	bool rough = false;
+	for (size_t i = first; i < world->body_count && !rough; i++)
+		rough = bodies[i].friction > 0.0f;
+	return rough;
+}
+
+void carom_look_for_friction(carom_world *world, size_t first)
+{
 	const bool rubbed = world->rubs;
-	world->rubs = rubbed && first > 0;
-	for (size_t i = first; i < world->body_count && !world->rubs; i++)
-		world->rubs = bodies[i].friction > 0.0f;
+	world->rubs = (rubbed && first > 0) || are_rough(world, first);
 	world->prepared = world->prepared && world->rubs == rubbed;
 }
 
@@ -187,30 +194,8 @@ static void go_back_to(carom_world *world, const ends *before)
 /* Do the device's textures, as they are, take the bodies from that index on? */
 static bool may_join(const carom_world *world, size_t first)
 {
-	const carom_body *bodies = carom_world_bodies(world);
-	bool rub = world->rubs;
-	for (size_t i = first; i < world->body_count && !rub; i++)
-		rub = bodies[i].friction > 0.0f;
-	return world->body_count > first && carom_goes_on(world) && rub == world->rubs && carom_are_few(world->body_count - world->events.known, first)
-		&& carom_textures_fit(world, world->body_count, world->circle_count);
-}
-
-/* Is there one that is not filtered as the first of all bodies is? If all are, those that come pass through others only where some did before. */
-static bool are_filtered(const carom_world *world, size_t first)
-{
-	const carom_body *bodies = carom_world_bodies(world);
-	bool is_other = world->filter_room > FILTERS_FIRST;
-	for (size_t i = first; i < world->body_count && !is_other; i++)
-		is_other = bodies[i].categories != bodies->categories || bodies[i].mask != bodies->mask;
-	return is_other;
-}
-
-static void join(carom_world *world, size_t first)
-{
-	if (world->rubs || are_filtered(world, first))
-		world->unsent |= UNSENT_INDICES;
-	world->bodies_current = false;
-	world->newest &= ~(unsigned)PLACE_TEXTURES;
+	return world->body_count > first && carom_goes_on(world) && (world->rubs || !are_rough(world, first))
+		&& carom_are_few(world->body_count - world->events.known, first) && carom_textures_fit(world, world->body_count, world->circle_count);
 }
 
 /* The host has all of the state, and the device is loaded with it and with those that have come. */
@@ -244,7 +229,7 @@ carom_status carom_world_add(carom_world *world, const carom_body_def *defs, siz
 	for (size_t i = 0; !status && i < count; i++)
 		status = add_one(world, &defs[i], i, error);
 	if (!status && may_join(world, before.body_count))
-		join(world, before.body_count);
+		carom_roster_changed(world, before.body_count);
 	else if (!status && count > 0)
 		status = begin_anew(world, &before, error);
 	if (status)

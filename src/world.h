@@ -165,6 +165,12 @@ struct carom_world {
 	void *progress_context;
 };
 
+/* Bodies that the device goes on with and is to be told of. */
+static inline size_t carom_change_count(const carom_world *world)
+{
+	return world->changes.used / sizeof(carom_change);
+}
+
 /* bodies.c */
 carom_status carom_body_make(const carom_body_def *def, const carom_world_def *world, size_t index, carom_body *body, carom_vec2 *vertices,
 	carom_error *error);
@@ -198,6 +204,8 @@ bool carom_goes_on(const carom_world *world);
 bool carom_are_few(size_t count, size_t of);
 /* Tells it of bodies that are changed or have come, */
 carom_status carom_changes_send(carom_world *world, carom_error *error);
+/* that others have come, from index `first` on, or gone, */
+void carom_roster_changed(carom_world *world, size_t first);
 /* and of some that go, in order, which the host still has. */
 carom_status carom_removed_send(carom_world *world, const uint32_t *indices, uint32_t count, carom_error *error);
 /* Room in Changes for so many records, and as many numbers for the host, to be given to free. */

@@ -51,12 +51,12 @@ static carom_status unload(carom_world *world, carom_error *error)
 	return carom_events_unload(world, error);
 }
 
+/* What bears a body where it has been put is looked for before it could hit that. */
 static carom_status begin(carom_world *world, carom_error *error)
 {
 	TRY(carom_contacts_send(world, error));
 	TRY(carom_events_begin(world, error));
-	return world->events.told ? carom_events_mend(world, error)
-							  : CAROM_OK; /* what bears a body where it has been put is looked for before it could hit */
+	return world->events.told ? carom_events_mend(world, error) : CAROM_OK;
 }
 
 /* What a list of so many items takes, in items: its last row is whole. */
