@@ -7,15 +7,13 @@ int number_of_own(LIST_OUT(members), LIST_IN(owners), int s, int leader)
 	return id >= 0 && PEEK(members, MEMBER(id, MEMBER_OWNER)) == leader ? id : -1;
 }
 
-/* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1. It comes second in the list, so that the head stays. */
+/* The cluster owns the body in slot s from now on, if nobody else does: its number, or -1, also if there are no more. It comes behind a member in the list. */
 int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active), RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int s,
-	int leader, int head)
+	int leader, int before)
 {
 	int id = atomic_inc(&status[STATUS_ACTIVE]);
-	if (id >= status[STATUS_NUMBERS]) {
-		atomic_or(&status[STATUS_LEFT], 1); /* so many were lost: the step begins again */
+	if (id >= status[STATUS_NUMBERS])
 		return -1;
-	}
 	active[id] = s;
 	atomic_xchg(&members[MEMBER(id, MEMBER_OWNER)], leader);
 	work_begin(slots, members, work, s, id);
@@ -26,9 +24,16 @@ int claim(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_OUT(active
 		return -1;
 	}
 	atomic_xchg(&parents[s], active[leader]);
-	members[MEMBER(id, MEMBER_LINK)] = members[MEMBER(head, MEMBER_LINK)];
-	members[MEMBER(head, MEMBER_LINK)] = id;
+	members[MEMBER(id, MEMBER_LINK)] = members[MEMBER(before, MEMBER_LINK)];
+	members[MEMBER(before, MEMBER_LINK)] = id;
 	return id;
+}
+
+/* Whose cluster the body in a slot is in; `nobodys` if it is in none. */
+int cluster_of(LIST_OUT(members), LIST_OUT(owners), int s, int nobodys)
+{
+	int id = int_load(owners, s);
+	return id < 0 ? nobodys : int_load(members, MEMBER(id, MEMBER_OWNER));
 }
 
 /* All the clusters around this one are one with it in the next round. */
@@ -37,11 +42,47 @@ void spread(LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int leader, int head,
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
 		int s = active[m], end = spans[SPAN(s, SPAN_END)];
 		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = next_neighbour(extra, s, end, k)) {
-			int id = int_load(owners, neighbour_of(neighbours, extra, k)), owner = id < 0 ? leader : int_load(members, MEMBER(id, MEMBER_OWNER));
+			int owner = cluster_of(members, owners, neighbour_of(neighbours, extra, k), leader);
 			if (owner != leader)
 				conflict(status, members, active, parents, leader, owner, round);
 		}
 	}
+}
+
+/* Are two bodies, the second a dynamic one, so near as the step begins that a busy cluster that has one takes the other? */
+bool is_near_for_busy(RECORD_IN(slots), int s, int other)
+{
+	float4 a = SLOT_LOAD(slots, s, SLOT_PLACE), b = SLOT_LOAD(slots, other, SLOT_PLACE);
+	float r = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS), other_r = CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
+	float2 between = (float2)(CHANNEL(b, LINEAR_X) - CHANNEL(a, LINEAR_X), CHANNEL(b, LINEAR_Y) - CHANNEL(a, LINEAR_Y));
+	float reach = (r + other_r) + BUSY_GAP * smaller(r, other_r);
+	return slot_is_dynamic(slots, other) && inner(between, between) < reach * reach;
+}
+
+/* What is near to a cluster, if it is busy, becomes its own before it is run, as long as there are numbers enough for what is hit. False: other clusters have some of it,
+ * and are one with this in the next round. */
+bool is_complete(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int leader, int head, int round)
+{
+	int most = status[STATUS_NUMBERS] - min(status[STATUS_NUMBERS] / 4, NUMBERS_SPARE / 2), busy = head;
+	bool alone = true;
+	while (busy >= 0 && !members[MEMBER(busy, MEMBER_BUSY)])
+		busy = members[MEMBER(busy, MEMBER_LINK)];
+	for (int m = busy >= 0 ? head : -1; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
+		int s = active[m], end = spans[SPAN(s, SPAN_END)];
+		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = next_neighbour(extra, s, end, k)) {
+			int other = neighbour_of(neighbours, extra, k);
+			if (!is_near_for_busy(slots, s, other))
+				continue;
+			if (PEEK(owners, other) < 0 && PEEK(status, STATUS_ACTIVE) < most)
+				claim(slots, status, members, active, work, owners, parents, other, leader, m);
+			int owner = cluster_of(members, owners, other, leader);
+			if (owner != leader) {
+				conflict(status, members, active, parents, leader, owner, round);
+				alone = false;
+			}
+		}
+	}
+	return alone;
 }
 
 /* The number of the body in a slot as a member of the cluster, which it becomes if it is nobody's; -1 if it can't, and then the cluster is given up. */
@@ -60,13 +101,17 @@ int join(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OU
 		}
 		other = int_load(owners, s);
 	}
-	if (other < 0)
-		return -1; /* there are no more numbers */
+	if (other < 0) {
+		atomic_or(&status[STATUS_LEFT], 1); /* so many numbers were lost: the step begins again */
+		return -1;
+	}
 	int owner = int_load(members, MEMBER(other, MEMBER_OWNER));
 	if (owner == leader)
 		return other;
 	conflict(status, members, active, parents, leader, owner, round);
-	if (round - status[STATUS_BEGUN] >= SPREAD_ROUND || members[MEMBER(id, MEMBER_EVENTS)] >= SPREAD_EVENTS)
+	if (members[MEMBER(id, MEMBER_EVENTS)] >= BUSY_EVENTS)
+		members[MEMBER(leader, MEMBER_BUSY)] = 1;
+	if (round - status[STATUS_BEGUN] >= SPREAD_ROUND)
 		spread(LISTS, owners, parents, leader, head, round);
 	return -1;
 }

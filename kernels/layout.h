@@ -206,13 +206,18 @@
 /* So many numbers more than bodies, since a cluster loses one where another claims the body first. */
 #define NUMBERS_SPARE 4096
 
-/* From this round of a step on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other.
- * And at once where the body that is to hit had so many events: in a heap most is lost else, each time that a cluster begins anew. */
+/* From this round of a step on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other. */
 #define SPREAD_ROUND 2
-#define SPREAD_EVENTS 16
 
-/* Members: fourteen ints a number */
-#define MEMBER_WIDTH 14
+/* A cluster that meets another when the body that is to hit had so many events, or all its bodies together so many, is a busy one: as in a heap, all that is near is
+ * going to be in it, and each time that it begins anew much is lost. So before it is run again it takes bodies on that are nearer to its own than this part of the smaller
+ * one's radius, and those near them, and is united with clusters that have such. */
+#define BUSY_EVENTS 8
+#define BUSY_ANSWERS 64
+#define BUSY_GAP 0.5f
+
+/* Members: fifteen ints a number */
+#define MEMBER_WIDTH 15
 #define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
 #define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
@@ -227,6 +232,7 @@
 #define MEMBER_BEFORE 11  /* and the one before, or for the first the one above */
 #define MEMBER_RULED 12   /* of its hits: those that were answered otherwise than by their restitution */
 #define MEMBER_KEPT 13    /* the first of its hits in Hits, -1 for none */
+#define MEMBER_BUSY 14    /* 1: it led a busy cluster in this step */
 
 /* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 

@@ -63,8 +63,9 @@ struct Member {
 	int32_t ruled; /* of the hits */
 	int32_t kept;  /* the first of them in Hits, -1 for none */
 	int32_t unused;
+	int32_t busy; /* 1: it led a busy cluster in this step */
 
-	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0}; }
+	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0}; }
 };
 
 static_assert(sizeof(Member) == MEMBER_WIDTH * sizeof(int32_t) && offsetof(Member, hits) == MEMBER_HITS * sizeof(int32_t)
