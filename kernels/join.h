@@ -49,29 +49,29 @@ void spread(LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int leader, int head,
 	}
 }
 
-/* Are two bodies, the second a dynamic one, so near as the step begins that a busy cluster that has one takes the other? */
-bool is_near_for_busy(RECORD_IN(slots), int s, int other)
+/* Are two bodies, the second a dynamic one, so near as the step begins that a cluster in a pile that has one takes the other? */
+bool is_near(RECORD_IN(slots), int s, int other)
 {
 	float4 a = SLOT_LOAD(slots, s, SLOT_PLACE), b = SLOT_LOAD(slots, other, SLOT_PLACE);
 	float r = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS), other_r = CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
 	float2 between = (float2)(CHANNEL(b, LINEAR_X) - CHANNEL(a, LINEAR_X), CHANNEL(b, LINEAR_Y) - CHANNEL(a, LINEAR_Y));
-	float reach = (r + other_r) + BUSY_GAP * smaller(r, other_r);
+	float reach = (r + other_r) + PILE_GAP * smaller(r, other_r);
 	return slot_is_dynamic(slots, other) && inner(between, between) < reach * reach;
 }
 
-/* What is near to a cluster, if it is busy, becomes its own before it is run, as long as there are numbers enough for what is hit. False: other clusters have some of it,
+/* What is near to a cluster, if it lies in a pile, becomes its own before it is run, as long as there are numbers enough for what is hit. False: other clusters have some of it,
  * and are one with this in the next round. */
 bool is_complete(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), int leader, int head, int round)
 {
-	int most = status[STATUS_NUMBERS] - min(status[STATUS_NUMBERS] / 4, NUMBERS_SPARE / 2), busy = head;
+	int most = status[STATUS_NUMBERS] - min(status[STATUS_NUMBERS] / 4, NUMBERS_SPARE / 2), piled = head;
 	bool alone = true;
-	while (busy >= 0 && !members[MEMBER(busy, MEMBER_BUSY)])
-		busy = members[MEMBER(busy, MEMBER_LINK)];
-	for (int m = busy >= 0 ? head : -1; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
+	while (piled >= 0 && !members[MEMBER(piled, MEMBER_PILE)])
+		piled = members[MEMBER(piled, MEMBER_LINK)];
+	for (int m = piled >= 0 ? head : -1; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
 		int s = active[m], end = spans[SPAN(s, SPAN_END)];
 		for (int k = first_neighbour(spans, extra, s, end); k != -1; k = next_neighbour(extra, s, end, k)) {
 			int other = neighbour_of(neighbours, extra, k);
-			if (!is_near_for_busy(slots, s, other))
+			if (!is_near(slots, s, other))
 				continue;
 			if (PEEK(owners, other) < 0 && PEEK(status, STATUS_ACTIVE) < most)
 				claim(slots, status, members, active, work, owners, parents, other, leader, m);
@@ -109,8 +109,8 @@ int join(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OU
 	if (owner == leader)
 		return other;
 	conflict(status, members, active, parents, leader, owner, round);
-	if (members[MEMBER(id, MEMBER_EVENTS)] >= BUSY_EVENTS)
-		members[MEMBER(leader, MEMBER_BUSY)] = 1;
+	if (members[MEMBER(id, MEMBER_EVENTS)] >= PILE_EVENTS)
+		members[MEMBER(leader, MEMBER_PILE)] = 1;
 	if (round - status[STATUS_BEGUN] >= SPREAD_ROUND)
 		spread(LISTS, owners, parents, leader, head, round);
 	return -1;

@@ -209,12 +209,10 @@
 /* From this round of a step on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other. */
 #define SPREAD_ROUND 2
 
-/* A cluster that meets another when the body that is to hit had so many events, or all its bodies together so many, is a busy one: as in a heap, all that is near is
- * going to be in it, and each time that it begins anew much is lost. So before it is run again it takes bodies on that are nearer to its own than this part of the smaller
- * one's radius, and those near them, and is united with clusters that have such. */
-#define BUSY_EVENTS 8
-#define BUSY_ANSWERS 64
-#define BUSY_GAP 0.5f
+/* A cluster that meets another when the body that is to hit had so many events lies in a pile: all that is near is going to be in it, and each time that it begins anew much is
+ * lost. So before it is run again it takes bodies on that are nearer to its own than this part of the smaller one's radius, and those near them, and is united with clusters that have such. */
+#define PILE_EVENTS 8
+#define PILE_GAP 0.5f
 
 /* Members: fifteen ints a number */
 #define MEMBER_WIDTH 15
@@ -232,7 +230,7 @@
 #define MEMBER_BEFORE 11  /* and the one before, or for the first the one above */
 #define MEMBER_RULED 12   /* of its hits: those that were answered otherwise than by their restitution */
 #define MEMBER_KEPT 13    /* the first of its hits in Hits, -1 for none */
-#define MEMBER_BUSY 14    /* 1: it led a busy cluster in this step */
+#define MEMBER_PILE 14    /* 1: it led a cluster that lies in a pile, in this step */
 
 /* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 

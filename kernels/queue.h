@@ -214,7 +214,6 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 	SHARED int *looks = all->looks[GROUP_LANE / lanes];
 	SHARED finding *findings = &all->findings[GROUP_LANE - lane];
 	int leader = -1, head = -1, first = -1; /* of the first lane's cluster, */
-	int answers = 0;                        /* how many of its events are answered, */
 	int party = -1;                         /* and of its last event, if that was a shock, the first that has not looked again */
 	for (;;) {
 		float2 found_with = (float2)(0.0f, -1.0f);
@@ -227,7 +226,6 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 				break;
 			leader = all->leaders[k];
 			head = int_load(members, MEMBER(leader, MEMBER_HEAD)); /* -1: another cluster got into the way just now */
-			answers = 0;
 			if (!is_complete(slots, LISTS, work, owners, parents, leader, head, round))
 				continue;
 			for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
@@ -240,12 +238,9 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 			int2 who = (int2)(LOOKS_NO_MORE, LOOKS_NOT);
 			if (party >= 0)
 				who = parties_take(members, &party);
-			else if (first >= 0) {
-				if (++answers == BUSY_ANSWERS)
-					members[MEMBER(leader, MEMBER_BUSY)] = 1;
+			else if (first >= 0)
 				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, hits, shocks,
 					rules, leader, head, round, length, &first, &party);
-			}
 			if (who.x == LOOKS_LATER)
 				first = -1;
 			looks[0] = who.x;

@@ -29,7 +29,7 @@ public:
 	{
 		if (head < 0)
 			return {};
-		if (is_busy() && !take_near())
+		if (is_in_pile() && !take_near())
 			return count();
 		for (int32_t m = head; m >= 0; m = members[m].link) {
 			__builtin_prefetch(&boxes[clusters.active[m]]); /* to be asked when it was hit */
@@ -64,7 +64,6 @@ private:
 			}
 		}
 		const T u = next[NEXT_TIME];
-		members[leader].busy |= ++answers >= BUSY_ANSWERS;
 		const bool is_shock = answer(id, other_id);
 		with_partner.reset();
 		if (is_shock)
@@ -101,7 +100,7 @@ private:
 		if (owner == leader)
 			return id;
 		clusters.conflict(leader, owner, round);
-		members[leader].busy |= members[by].events >= BUSY_EVENTS;
+		members[leader].pile |= members[by].events >= PILE_EVENTS;
 		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND)
 			spread();
 		return -1;
@@ -126,12 +125,12 @@ private:
 		}
 	}
 
-	bool is_busy() const
+	bool is_in_pile() const
 	{
-		bool busy = false;
-		for (int32_t m = head; m >= 0 && !busy; m = members[m].link)
-			busy = members[m].busy;
-		return busy;
+		int32_t m = head;
+		while (m >= 0 && !members[m].pile)
+			m = members[m].link;
+		return m >= 0;
 	}
 
 	/* Takes on what is near, as long as there are numbers enough for what is hit; false if other clusters have some of it, which are one with this in the next round. */
@@ -160,7 +159,7 @@ private:
 	static bool is_near(const Slot<T> &slot, const Slot<T> &other)
 	{
 		const T x = other.place[LINEAR_X] - slot.place[LINEAR_X], y = other.place[LINEAR_Y] - slot.place[LINEAR_Y];
-		const T reach = (slot.radius() + other.radius()) + T(BUSY_GAP) * smaller(slot.radius(), other.radius());
+		const T reach = (slot.radius() + other.radius()) + T(PILE_GAP) * smaller(slot.radius(), other.radius());
 		return other.is_dynamic() && x * x + y * y < reach * reach;
 	}
 

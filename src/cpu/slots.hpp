@@ -63,7 +63,7 @@ struct Member {
 	int32_t ruled; /* of the hits */
 	int32_t kept;  /* the first of them in Hits, -1 for none */
 	int32_t unused;
-	int32_t busy; /* 1: it led a busy cluster in this step */
+	int32_t pile; /* 1: it led a cluster that lies in a pile, in this step */
 
 	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0}; }
 };
