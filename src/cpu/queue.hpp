@@ -6,6 +6,7 @@
 #include "cpu/heap.hpp"
 #include "cpu/hits.hpp"
 #include "cpu/impact.hpp"
+#include "cpu/membership.hpp"
 #include "cpu/shock.hpp"
 #include "cpu/sieve.hpp"
 
@@ -20,22 +21,22 @@ public:
 	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, const int32_t *touching_counts,
 		const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), boxes(reach),
-		  need(needs), heap(all.members, work_of, room), leader(number), round(in_round),
-		  head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE)), touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr)
+		  need(needs), heap(all.members, work_of, room), membership(all, work_of, number, in_round),
+		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr)
 	{
 	}
 
 	Tally run()
 	{
-		if (head < 0)
+		if (membership.is_none())
 			return {};
-		if (is_in_pile() && !take_near())
+		if (membership.is_in_pile() && !membership.take_near())
 			return count();
-		for (int32_t m = head; m >= 0; m = members[m].link) {
+		membership.each([this](int32_t m) {
 			__builtin_prefetch(&boxes[clusters.active[m]]); /* to be asked when it was hit */
 			recall(m);
 			heap.add(m);
-		}
+		});
 		while (answer_first()) {
 		}
 		return count();
@@ -80,115 +81,14 @@ private:
 		heap.update(id);
 	}
 
-	/* The number of a body that `by` is to hit, claimed if it is nobody's; -1 if it is another cluster's. */
+	/* The number of a body that `by` is to hit, as a member, which it becomes if it is nobody's; -1 if it is another cluster's. */
 	int32_t member(int32_t s, int32_t by)
 	{
-		int32_t id = number_of(s);
-		if (id < 0) {
-			id = claim(s, head);
-			if (id >= 0) {
-				heap.add(id);
-				return id;
-			}
-			id = number_of(s);
-		}
-		if (id < 0) {
-			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED); /* so many numbers were lost: the step begins again */
-			return -1;
-		}
-		const int32_t owner = owner_of(id);
-		if (owner == leader)
-			return id;
-		clusters.conflict(leader, owner, round);
-		members[leader].pile |= members[by].events >= PILE_EVENTS;
-		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND)
-			spread();
-		return -1;
-	}
-
-	/* The number of whoever's body in a slot, -1 if it has none. */
-	int32_t number_of(int32_t s) const { return __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE); }
-
-	/* Who leads the cluster that a number belongs to; this one's if it is none. */
-	int32_t owner_of(int32_t id) const { return id < 0 ? leader : __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE); }
-
-	/* All the clusters around this one are one with it in the next round. */
-	void spread() const
-	{
-		for (int32_t m = head; m >= 0; m = members[m].link) {
-			const int32_t s = clusters.active[m];
-			clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-				const int32_t owner = owner_of(number_of(other));
-				if (owner != leader)
-					clusters.conflict(leader, owner, round);
-			});
-		}
-	}
-
-	bool is_in_pile() const
-	{
-		int32_t m = head;
-		while (m >= 0 && !members[m].pile)
-			m = members[m].link;
-		return m >= 0;
-	}
-
-	/* Takes on what is near, as long as there are numbers enough for what is hit; false if other clusters have some of it, which are one with this in the next round. */
-	bool take_near()
-	{
-		const int32_t numbers = clusters.status[STATUS_NUMBERS], most = numbers - std::min(numbers / 4, NUMBERS_SPARE / 2);
-		bool alone = true;
-		for (int32_t m = head; m >= 0; m = members[m].link) {
-			const int32_t s = clusters.active[m];
-			clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-				if (!is_near(slots[s], slots[other]))
-					return;
-				if (number_of(other) < 0 && __atomic_load_n(&clusters.status[STATUS_ACTIVE], __ATOMIC_RELAXED) < most)
-					claim(other, m);
-				const int32_t owner = owner_of(number_of(other));
-				if (owner == leader)
-					return;
-				clusters.conflict(leader, owner, round);
-				alone = false;
-			});
-		}
-		return alone;
-	}
-
-	/* As the step begins. */
-	static bool is_near(const Slot<T> &slot, const Slot<T> &other)
-	{
-		const T x = other.place[LINEAR_X] - slot.place[LINEAR_X], y = other.place[LINEAR_Y] - slot.place[LINEAR_Y];
-		const T reach = (slot.radius() + other.radius()) + T(PILE_GAP) * smaller(slot.radius(), other.radius());
-		return other.is_dynamic() && x * x + y * y < reach * reach;
-	}
-
-	/* The number of a body that was nobody's, and comes behind a member in the list; -1 if somebody else has claimed it just now, or there are no more. */
-	int32_t claim(int32_t s, int32_t before)
-	{
-		const int32_t id = fetch_add(&clusters.status[STATUS_ACTIVE], 1);
-		if (id >= clusters.status[STATUS_NUMBERS])
-			return -1;
-		clusters.active[id] = s;
-		begin_anew(members[id], work[id], slots[s]);
-		members[id].owner = leader;
-		if (!clusters.take(s, id)) {
-			clusters.active[id] = -1;
-			members[id].reset();
-			return -1;
-		}
-		__atomic_store_n(&clusters.parents[s], clusters.active[leader], __ATOMIC_RELEASE);
-		members[id].link = members[before].link;
-		members[before].link = id;
-		return id;
+		return membership.join(s, by, [this](int32_t added) { heap.add(added); });
 	}
 
 	/* The number of a body of the cluster, else -1: of all others the way counts as the step began. */
-	int32_t own_number(int32_t s) const
-	{
-		const int32_t id = number_of(s);
-		return id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader ? id : -1;
-	}
+	int32_t own_number(int32_t s) const { return membership.own_number(s); }
 
 	/* The member's first event, while no event has changed anything. */
 	void recall(int32_t id)
@@ -415,11 +315,11 @@ private:
 	Tally count()
 	{
 		Tally tally{};
-		for (int32_t m = head; m >= 0; m = members[m].link) {
+		membership.each([&](int32_t m) {
 			tally += {members[m].hits, members[m].ruled, work[m].held > 0};
 			if (!finished)
 				members[m].hits = members[m].ruled = members[m].events = 0;
-		}
+		});
 		return finished ? tally : Tally{};
 	}
 
@@ -433,9 +333,8 @@ private:
 	const Box<T> *const boxes;
 	int32_t *const need;
 	Heap<T> heap;
-	const int32_t leader, round, head;
+	Membership<T> membership;
 	const int32_t *const touching; /* where forces bear what rests: the step contacts */
-	int32_t answers = 0;           /* so far */
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };

@@ -1,0 +1,154 @@
+/* How bodies become members of a cluster that is run, and clusters one: CONTRACT.md, "events". */
+#ifndef CAROM_CPU_MEMBERSHIP_HPP
+#define CAROM_CPU_MEMBERSHIP_HPP
+
+#include "cpu/clusters.hpp"
+
+#include <algorithm>
+
+namespace carom::cpu {
+
+/* Of one cluster, by its leader's number. */
+template <typename T> class Membership
+{
+public:
+	Membership(const Clusters<T> &all, Work<T> *work_of, int32_t number, int32_t in_round)
+		: clusters(all), slots(all.slots), members(all.members), work(work_of), leader(number), round(in_round),
+		  head(__atomic_load_n(&all.members[number].head, __ATOMIC_ACQUIRE))
+	{
+	}
+
+	/* Another cluster got into the way before this one was run. */
+	bool is_none() const { return head < 0; }
+
+	/* Calls `visit(number)` for each member. */
+	template <typename Visit> void each(const Visit &visit) const
+	{
+		for (int32_t m = head; m >= 0; m = members[m].link)
+			visit(m);
+	}
+
+	/* The number of a member's body, else -1. */
+	int32_t own_number(int32_t s) const
+	{
+		const int32_t id = number_of(s);
+		return id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader ? id : -1;
+	}
+
+	/* The number of a body that `by` is to hit, claimed if it is nobody's, and then `added(number)` is called; -1 if it is another cluster's. */
+	template <typename Added> int32_t join(int32_t s, int32_t by, const Added &added)
+	{
+		int32_t id = number_of(s);
+		if (id < 0) {
+			id = claim(s, head);
+			if (id >= 0) {
+				added(id);
+				return id;
+			}
+			id = number_of(s);
+		}
+		if (id < 0) {
+			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED); /* so many numbers were lost: the step begins again */
+			return -1;
+		}
+		const int32_t owner = owner_of(id);
+		if (owner == leader)
+			return id;
+		clusters.conflict(leader, owner, round);
+		members[leader].pile |= members[by].events >= PILE_EVENTS;
+		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND)
+			spread();
+		return -1;
+	}
+
+	bool is_in_pile() const
+	{
+		int32_t m = head;
+		while (m >= 0 && !members[m].pile)
+			m = members[m].link;
+		return m >= 0;
+	}
+
+	/* Takes on what is near, as long as there are numbers enough for what is hit; false if other clusters have some of it, which are one with this in the next round. */
+	bool take_near()
+	{
+		const int32_t numbers = clusters.status[STATUS_NUMBERS], most = numbers - std::min(numbers / 4, NUMBERS_SPARE / 2);
+		bool alone = true;
+		each_neighbour([&](int32_t m, int32_t other) {
+			if (!is_near(slots[clusters.active[m]], slots[other]))
+				return;
+			if (number_of(other) < 0 && __atomic_load_n(&clusters.status[STATUS_ACTIVE], __ATOMIC_RELAXED) < most)
+				claim(other, m);
+			alone &= !meet(owner_of(number_of(other)));
+		});
+		return alone;
+	}
+
+private:
+	/* The number of whoever's body in a slot, -1 if it has none. */
+	int32_t number_of(int32_t s) const { return __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE); }
+
+	/* Who leads the cluster that a number belongs to; this one's if it is none. */
+	int32_t owner_of(int32_t id) const { return id < 0 ? leader : __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE); }
+
+	/* If that is another cluster, the two are one in the next round. */
+	bool meet(int32_t owner) const
+	{
+		if (owner != leader)
+			clusters.conflict(leader, owner, round);
+		return owner != leader;
+	}
+
+	/* Calls `visit(member, slot)` for each neighbour of each member, and of those that `visit` adds. */
+	template <typename Visit> void each_neighbour(const Visit &visit) const
+	{
+		each([&](int32_t m) {
+			const int32_t s = clusters.active[m];
+			clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) { visit(m, other); });
+		});
+	}
+
+	/* All the clusters around this one are one with it in the next round. */
+	void spread() const
+	{
+		each_neighbour([this](int32_t, int32_t other) { meet(owner_of(number_of(other))); });
+	}
+
+	/* As the step begins. */
+	static bool is_near(const Slot<T> &slot, const Slot<T> &other)
+	{
+		const T x = other.place[LINEAR_X] - slot.place[LINEAR_X], y = other.place[LINEAR_Y] - slot.place[LINEAR_Y];
+		const T reach = (slot.radius() + other.radius()) + T(PILE_GAP) * smaller(slot.radius(), other.radius());
+		return other.is_dynamic() && x * x + y * y < reach * reach;
+	}
+
+	/* The number of a body that was nobody's, and comes behind a member in the list; -1 if somebody else has claimed it just now, or there are no more. */
+	int32_t claim(int32_t s, int32_t before)
+	{
+		const int32_t id = fetch_add(&clusters.status[STATUS_ACTIVE], 1);
+		if (id >= clusters.status[STATUS_NUMBERS])
+			return -1;
+		clusters.active[id] = s;
+		begin_anew(members[id], work[id], slots[s]);
+		members[id].owner = leader;
+		if (!clusters.take(s, id)) {
+			clusters.active[id] = -1;
+			members[id].reset();
+			return -1;
+		}
+		__atomic_store_n(&clusters.parents[s], clusters.active[leader], __ATOMIC_RELEASE);
+		members[id].link = members[before].link;
+		members[before].link = id;
+		return id;
+	}
+
+	const Clusters<T> &clusters;
+	const Slot<T> *const slots;
+	Member *const members;
+	Work<T> *const work;
+	const int32_t leader, round, head;
+};
+
+}
+
+#endif
