@@ -51,10 +51,8 @@ public:
 			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED); /* so many numbers were lost: the step begins again */
 			return -1;
 		}
-		const int32_t owner = owner_of(id);
-		if (owner == leader)
+		if (!meet(owner_of(id)))
 			return id;
-		clusters.conflict(leader, owner, round);
 		members[leader].pile |= members[by].events >= PILE_EVENTS;
 		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND)
 			spread();
