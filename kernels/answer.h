@@ -3,30 +3,35 @@
 /* Work of a body that no event has changed yet. */
 void work_begin(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), int s, int id)
 {
-	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE);
 	work_store(work, id, trajectory_start(slots, s));
 	work[WORK_WIDTH * id + WORK_NEXT] = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
-	work[WORK_WIDTH * id + WORK_BOX] = (float4)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y), CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y));
+	work[WORK_WIDTH * id + WORK_BOX] = BOX_EMPTY;
 	members[MEMBER(id, MEMBER_EVENTS)] = members[MEMBER(id, MEMBER_RAPID)] = members[MEMBER(id, MEMBER_STUCK)] = 0;
 	members[MEMBER(id, MEMBER_HITS)] = members[MEMBER(id, MEMBER_RULED)] = 0;
 	members[MEMBER(id, MEMBER_KEPT)] = -1;
 }
 
-/* The box of the way grows by that to where the body would be at the step's end, and by what it looked at beside it; false if it leaves its reach. */
-bool way_grow(RECORD_IN(slots), RECORD_IN(reach), RECORD_OUT(work), LIST_OUT(need), int s, int id, trajectory k, float margin, float length)
+/* Where its middle gets in such a part of the step, and what it looks at beside that: the least x and y, and the most. */
+float4 way_box(body b, float rest, float margin)
+{
+	float pad = ((0.125f * rest) * rest) * span(b.a) + (span(b.x) + b.radius) * (4.0f * SLOP) + margin;
+	float2 end = place(b.x, b.v, b.a, rest);
+	return (float4)(smaller(b.x.x, end.x) - pad, smaller(b.x.y, end.y) - pad, larger(b.x.x, end.x) + pad, larger(b.x.y, end.y) + pad);
+}
+
+/* The box of the way in the slice grows by what is left of it; false if the body leaves its reach in what is left of the step. */
+bool way_grow(RECORD_IN(slots), RECORD_IN(reach), LIST_IN(status), RECORD_OUT(work), LIST_OUT(need), int s, int id, trajectory k, float margin,
+	float length)
 {
 	body b = body_of(slots, s, k, length);
-	float rest = 1.0f - k.time, pad = ((0.125f * rest) * rest) * span(b.a) + (span(b.x) + b.radius) * (4.0f * SLOP) + margin;
-	float4 start = SLOT_LOAD(slots, s, SLOT_PLACE);
-	float2 end = place(b.x, b.v, b.a, rest), at = (float2)(CHANNEL(start, LINEAR_X), CHANNEL(start, LINEAR_Y));
-	float2 low = (float2)(smaller(b.x.x, end.x) - pad, smaller(b.x.y, end.y) - pad);
-	float2 high = (float2)(larger(b.x.x, end.x) + pad, larger(b.x.y, end.y) + pad);
-	float4 box = work[WORK_WIDTH * id + WORK_BOX], most = reach[s];
-	box = (float4)(smaller(box.x, low.x), smaller(box.y, low.y), larger(box.z, high.x), larger(box.w, high.y));
-	work[WORK_WIDTH * id + WORK_BOX] = box;
-	if (low.x - b.radius >= most.x && low.y - b.radius >= most.y && high.x + b.radius <= most.z && high.y + b.radius <= most.w)
+	float until = slice_end(status, status[STATUS_SLICE]);
+	float4 start = SLOT_LOAD(slots, s, SLOT_PLACE), most = reach[s], box = work[WORK_WIDTH * id + WORK_BOX];
+	float4 all = way_box(b, 1.0f - k.time, margin), slice = until < 1.0f ? way_box(b, until - k.time, margin) : all;
+	float2 at = (float2)(CHANNEL(start, LINEAR_X), CHANNEL(start, LINEAR_Y));
+	work[WORK_WIDTH * id + WORK_BOX] = (float4)(smaller(box.x, slice.x), smaller(box.y, slice.y), larger(box.z, slice.z), larger(box.w, slice.w));
+	if (all.x - b.radius >= most.x && all.y - b.radius >= most.y && all.z + b.radius <= most.z && all.w + b.radius <= most.w)
 		return true;
-	need[s] = as_int(larger(larger(at.x - low.x, high.x - at.x), larger(at.y - low.y, high.y - at.y)));
+	need[s] = as_int(larger(larger(at.x - all.x, all.z - at.x), larger(at.y - all.y, all.w - at.y)));
 	return false;
 }
 
@@ -178,13 +183,13 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 		k = pushed(slots, members, s, id, k, j, first ? 1.0f : -1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_A) : CHANNEL(j, IMPULSE_TORQUE_B), rapid,
 			borne, hit);
 		work_store(work, id, k);
-		stays = way_grow(slots, reach, work, need, s, id, k, 0.0f, length) && stays;
+		stays = way_grow(slots, reach, status, work, need, s, id, k, 0.0f, length) && stays;
 	}
 	if (!wall && can_change(slots, other, other_was)) {
 		o = pushed(slots, members, other, other_id, o, j, first ? -1.0f : 1.0f, first ? CHANNEL(j, IMPULSE_TORQUE_B) : CHANNEL(j, IMPULSE_TORQUE_A),
 			other_rapid, borne, hit);
 		work_store(work, other_id, o);
-		stays = way_grow(slots, reach, work, need, other, other_id, o, 0.0f, length) && stays;
+		stays = way_grow(slots, reach, status, work, need, other, other_id, o, 0.0f, length) && stays;
 	}
 	if (!stays)
 		atomic_or(&status[STATUS_LEFT], 1);

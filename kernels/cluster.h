@@ -114,6 +114,20 @@ bool lists_are_good(LIST_OUT(status))
 	return !status[STATUS_STALE] && !status[STATUS_SMALL];
 }
 
+#define BOX_EMPTY ((float4)(INFINITY, INFINITY, -INFINITY, -INFINITY))
+
+/* When a slice of the step ends. */
+INLINE float slice_end(LIST_IN(status), int slice)
+{
+	return (float)(slice + 1) / (float)status[STATUS_SLICES];
+}
+
+/* Has the step no slice after this one? */
+bool is_last_slice(LIST_IN(status))
+{
+	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES] || !status[STATUS_ACTIVE];
+}
+
 /* Does a pass of contacts go on in the next handing over? */
 bool iterations_are_wanted(LIST_IN(status))
 {

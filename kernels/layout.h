@@ -201,12 +201,17 @@
 #define NEXT_ROW 1           /* bodies: the larger index, the less; or the body and -1 - wall */
 #define NEXT_COLUMN 2
 #define NEXT_PARTNER 3 /* its slot, or -1 - wall; a half farther from 0 if the event is only a pause of the search */
-#define WORK_BOX 3     /* record: AABB's channels, of all the way in this step */
+#define WORK_BOX 3     /* record: AABB's channels, of the way since its first event in the slice, to the slice's end */
+
+/* A step has STATUS_SLICES slices of the same length, one after the other. When all that hits before the end of one is answered, clusters fall apart, and what was found stays:
+ * clusters that get into each other's way later begin anew from there. Where there are more slices than one Work and Members have as many again behind the numbers: the state as
+ * the slice began, of the numbers that were given then, STATUS_SAVED of them. */
+#define SLICES_MOST 16
 
 /* So many numbers more than bodies, since a cluster loses one where another claims the body first. */
 #define NUMBERS_SPARE 4096
 
-/* From this round of a step on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other. */
+/* From this round of a slice on a cluster that meets another is united with all around it: in a dense crowd most would meet, one after the other. */
 #define SPREAD_ROUND 2
 
 /* A cluster that meets another when the body that is to hit had so many events lies in a pile: all that is near is going to be in it, and each time that it begins anew much is
@@ -409,7 +414,7 @@
 #define STATUS_COMMIT 3    /* 1: the step is done */
 #define STATUS_LEFT 4      /* 1: a body would leave its reach: the step begins again, with other lists */
 #define STATUS_ROUND 5     /* the last round that has clusters to do; rounds are numbered on and on */
-#define STATUS_BEGUN 6     /* the step's first round */
+#define STATUS_BEGUN 6     /* the slice's first round */
 #define STATUS_SEEDS 7     /* numbers given when the round began */
 #define STATUS_NUMBERS 8   /* there are for bodies that events change */
 #define STATUS_ROOM 9      /* ints there are in Neighbours */
@@ -456,9 +461,15 @@
 #define STATUS_RULED 42        /* of the step's hits */
 #define STATUS_KEPT 44 /* hits wanted in Hits since the host asked; above the room the step begins again, and none begins until the host made room */
 #define STATUS_KEPT_BEFORE 45 /* of these, when the last step was done: those behind are of one that is under way, or began again */
+#define STATUS_LOST 46        /* since the host asked: events of bodies in clusters that were given up, or done again */
 /* What nobody changes but the host. */
 #define STATUS_KEPT_ROOM 48 /* hits there are room for in Hits; 0: none are kept */
 #define STATUS_HEADS 49     /* ints of Extra before the first node: one for each slot that there may be */
+#define STATUS_SLICES 50    /* of a step */
+/* Of these: */
+#define STATUS_SLICE 51    /* the one that clusters are run in, 0 for the first */
+#define STATUS_SAVED 52    /* numbers that had been given when it began, if it is a later one; 0 in the first */
+#define STATUS_ANSWERED 53 /* hits of the steps done since the host asked */
 
 /* Rules of events, for what would be hits without end. Rapid hits, less than RAPID of a step after the body's event before,
  * are elastic once the body had RAPID_MOST of them in the step (the TC model, late), unless what pushes the bodies together has made them faster than in a step.

@@ -19,15 +19,17 @@ INLINE ints numbers_of(LIST_IN(owners), ints others)
 	return (ints)(EACH(NUMBER_OF));
 }
 
-/* Of those that are members of the cluster, -1 of the others. */
-INLINE ints members_of(LIST_OUT(members), LIST_IN(owners), ints others, int leader)
+/* Of those that are members of the cluster; of the others the indices of their states as the slice began, -1 where that is the step's beginning, too. */
+INLINE ints numbers_seen(LIST_IN(status), LIST_OUT(members), LIST_IN(owners), ints others, int leader)
 {
 #define OWNER_OF(one) PEEK(members, MEMBER((known)one, MEMBER_OWNER))
 	ints none = (ints)(-1), ids = numbers_of(owners, others), known = ids < (ints)(0) ? (ints)(0) : ids, theirs = (ints)(EACH(OWNER_OF));
-	return ((ids >= (ints)(0)) & (theirs == (ints)(leader))) ? ids : none; /* nobody else writes or takes away those that are */
+	/* nobody else writes or takes away those that are members */
+	ints saved = ((ids >= (ints)(0)) & (ids < (ints)(status[STATUS_SAVED]))) ? ids + (ints)(status[STATUS_NUMBERS]) : none;
+	return ((ids >= (ints)(0)) & (theirs == (ints)(leader))) ? ids : saved;
 }
 
-/* Of a member as it is now, of all others as the step began. */
+/* Of a state that is seen by this index. */
 INLINE disc disc_seen(RECORD_IN(slots), RECORD_OUT(work), int other, int id, float length)
 {
 	__global const float4 *from = id < 0 ? slots + SLOT_WIDTH * other : work + WORK_WIDTH * id;
@@ -62,7 +64,7 @@ finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_O
 	for (int i = bunch_first(spans, extra, s, end, lane); i != -1; i = bunch_next(extra, s, end, i, lane, lanes)) {
 		bunch others = bunch_at(neighbours, extra, end, i);
 		discs discs_now = discs_at_start(slots, s, others.slots, length); /* nearly always; it need not wait for who they are */
-		ints ids = members_of(members, owners, others.slots, leader);
+		ints ids = numbers_seen(status, members, owners, others.slots, leader);
 		if (IS_ANY(ids >= (ints)(0)))
 			discs_now = discs_seen(slots, work, s, others.slots, ids, length);
 		floats meetings = others.live ? first_meetings(disc_k, &discs_now, ahead) : (floats)(again);
@@ -73,7 +75,7 @@ finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_O
 			 n++, others.slots = TURNED(others.slots), others.live = TURNED(others.live), ids = TURNED(ids), meetings = TURNED(meetings)) {
 			int other = FIRST(others.slots), other_id = FIRST(ids),
 				events = FIRST(others.live) && other_id >= 0 ? members[MEMBER(other_id, MEMBER_EVENTS)] : 0;
-			if (events > 0)
+			if (events > 0 && other_id < status[STATUS_NUMBERS])
 				wake_before(status, wakes, other, FIRST(meetings));
 			float until = smaller(CHANNEL(first, NEXT_TIME), 1.0f);
 			if (!FIRST(others.live) || FIRST(meetings) > until)
@@ -100,9 +102,11 @@ finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_O
 	return all;
 }
 
-/* The same while no event has changed anything: it was found before, or is to be looked for before all. */
-void recall(RECORD_IN(slots), LIST_IN(spans), LIST_OUT(members), LIST_IN(active), LIST_IN(found), RECORD_OUT(work), int id)
+/* The same as the slice begins: it was found before, or is to be looked for before all. */
+void recall(RECORD_IN(slots), LIST_IN(spans), LIST_IN(status), LIST_OUT(members), LIST_IN(active), LIST_IN(found), RECORD_OUT(work), int id)
 {
+	if (saved_index(status, id) >= 0)
+		return; /* it is kept */
 	int s = active[id], k = spans[SPAN(s, SPAN_FOUND)];
 	float4 first = (float4)(NO_HIT, 0.0f, 0.0f, 0.0f);
 	for (; k >= 0; k = found[FOUND_WIDTH * k + FOUND_LINK]) {
@@ -117,16 +121,18 @@ void recall(RECORD_IN(slots), LIST_IN(spans), LIST_OUT(members), LIST_IN(active)
 	members[MEMBER(id, MEMBER_SEEN)] = 0;
 }
 
-/* Adds up what a finished cluster did; of one that is given up nothing counts. */
-void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int head, bool finished)
+/* Adds up what a finished cluster did; of one that is given up all is lost. */
+void cluster_count(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), int head, bool finished)
 {
-	int hits = 0, ruled = 0, held = 0;
+	int hits = 0, ruled = 0, held = 0, lost = 0;
 	for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
 		hits += members[MEMBER(m, MEMBER_HITS)];
 		ruled += members[MEMBER(m, MEMBER_RULED)];
-		held += CHANNEL(work[WORK_WIDTH * m + WORK_TURN], WORK_HELD) > 0.0f ? 1 : 0;
+		held += slice_holds(status, work, m) ? 1 : 0;
 		if (!finished)
-			members[MEMBER(m, MEMBER_HITS)] = members[MEMBER(m, MEMBER_RULED)] = members[MEMBER(m, MEMBER_EVENTS)] = 0;
+			lost += go_back(slots, status, members, active, work, m);
+		else if (!is_last_slice(status) && slice_events(status, members, m) >= PILE_EVENTS)
+			members[MEMBER(members[MEMBER(m, MEMBER_OWNER)], MEMBER_PILE)] = 1; /* it stays together */
 	}
 	if (finished && hits > 0)
 		atomic_add(&status[STATUS_HITS], hits);
@@ -134,6 +140,8 @@ void cluster_count(LIST_OUT(status), LIST_OUT(members), RECORD_OUT(work), int he
 		atomic_add(&status[STATUS_RULED], ruled);
 	if (finished && held > 0)
 		atomic_add(&status[STATUS_HELD], held);
+	if (lost > 0)
+		atomic_add(&status[STATUS_LOST], lost);
 }
 
 /* How many members the cluster has that this number leads in the round, none if it leads none; 3 for more, too. */
@@ -166,10 +174,10 @@ void leaders_gather(LIST_OUT(members), int begin, int end, int round, SHARED cre
 	MEET();
 }
 
-/* Has a cluster, by its heap, another event in the step? */
-bool goes_on(RECORD_OUT(work), int first)
+/* Has a cluster, by its heap, another event until then? */
+bool goes_on(RECORD_OUT(work), int first, float until)
 {
-	return first >= 0 && CHANNEL(work[WORK_WIDTH * first + WORK_NEXT], NEXT_TIME) <= 1.0f;
+	return first >= 0 && CHANNEL(work[WORK_WIDTH * first + WORK_NEXT], NEXT_TIME) <= until;
 }
 
 /* Answers the first event of a cluster. Who is to look then: both parties, whom it changed, or the one whose event was not known, or two of a shock's, and others from *party
@@ -210,6 +218,7 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 	SHARED crew *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
+	float until = slice_end(status, status[STATUS_SLICE]);
 	int lane = GROUP_LANE % lanes, teams = GROUP_LANES / lanes, each = max(lanes / 2, 1); /* lanes for one that looks */
 	SHARED int *looks = all->looks[GROUP_LANE / lanes];
 	SHARED finding *findings = &all->findings[GROUP_LANE - lane];
@@ -217,10 +226,10 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 	int party = -1;                         /* and of its last event, if that was a shock, the first that has not looked again */
 	for (;;) {
 		float2 found_with = (float2)(0.0f, -1.0f);
-		while (lane == 0 && party < 0 && !goes_on(work, first)) {
+		while (lane == 0 && party < 0 && !goes_on(work, first, until)) {
 			int k = TAKE(all->next);
 			if (head >= 0)
-				cluster_count(status, members, work, head, first >= 0);
+				cluster_count(slots, status, members, active, work, head, first >= 0);
 			head = first = -1;
 			if (k >= all->count)
 				break;
@@ -230,7 +239,7 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 				continue;
 			for (int m = head; m >= 0; m = members[MEMBER(m, MEMBER_LINK)]) {
 				FETCH(reach + active[m]); /* to be asked when it was hit */
-				recall(slots, spans, members, active, found, work, m);
+				recall(slots, spans, status, members, active, found, work, m);
 				first = heap_insert(members, work, first, m);
 			}
 		}
@@ -286,18 +295,60 @@ INLINE void fetch_active(RECORD_IN(slots), LISTS_IN, LIST_IN(owners), int id, in
 		fetch_neighbours(slots, spans, neighbours, owners, wakes, next, spans[SPAN(next, end)]);
 }
 
-/* Do two changed bodies of different clusters get in each other's way? */
-bool ways_meet(VERTICES_IN, RECORD_IN(slots), LIST_OUT(members), __global const float4 *work, float4 rules, int s, int id, int other, int other_id,
+/* What comes of two bodies that different clusters changed in the slice. */
+#define MEETING_NONE 0
+#define MEETING_LATER 1 /* they hit after it */
+#define MEETING_NOW 2   /* they get in each other's way */
+
+int meeting(VERTICES_IN, RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), float4 rules, int s, int id, int other, int other_id,
 	float length)
 {
 	float4 a = work[WORK_WIDTH * id + WORK_BOX], b = work[WORK_WIDTH * other_id + WORK_BOX];
 	float reach = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) + CHANNEL(SLOT_LOAD(slots, other, SLOT_TURN), TURN_RADIUS);
-	if (a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y)
-		return false;
-	if (members[MEMBER(id, MEMBER_EVENTS)] > 1 || members[MEMBER(other_id, MEMBER_EVENTS)] > 1)
-		return true;
+	float until = slice_end(status, status[STATUS_SLICE]);
+	bool meet = !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y), pause;
+	if (!meet && !(until < 1.0f))
+		return MEETING_NONE;
+	if (meet && (slice_events(status, members, id) > 1 || slice_events(status, members, other_id) > 1))
+		return MEETING_NOW;
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
-	bool pause;
-	return !stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length))
-		&& pair_time(VERTICES, slots, rules, s, k, other, o, length, 1.0f, &pause) <= 1.0f;
+	if (stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length)))
+		return MEETING_NONE;
+	float t = pair_time(VERTICES, slots, rules, s, k, other, o, length, 1.0f, &pause);
+	return t <= until ? MEETING_NOW : t <= 1.0f ? MEETING_LATER : MEETING_NONE;
+}
+
+/* Looks whether a number that a cluster has changed in this round meets what others changed. */
+void number_check(VERTICES_IN, RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), LIST_OUT(parents), float4 rules, int id, int round,
+	float length)
+{
+	int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
+	if (s < 0 || owner < 0 || slice_events(status, members, id) == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != round)
+		return;
+	/* Of a pair that was changed in the slice one at least was done in this round, and finds the other; in the first round both were, and one look is enough. What was changed
+	 * in an earlier slice finds nobody any more. */
+	int end = spans[SPAN(s, status[STATUS_BEGUN] == round && !status[STATUS_SAVED] ? SPAN_HALF : SPAN_END)];
+	for (int k = bunch_first(spans, extra, s, end, 0); k != -1; k = bunch_next(extra, s, end, k, 0, 1)) {
+		bunch others = bunch_at(neighbours, extra, end, k);
+		ints ids = others.live ? numbers_of(owners, others.slots) : (ints)(-1);
+		if (!IS_ANY(ids >= (ints)(0)))
+			continue;
+		for (int n = 0; n < BUNCH; n++, others.slots = TURNED(others.slots), ids = TURNED(ids)) {
+			int other = FIRST(others.slots), other_id = FIRST(ids);
+			if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
+				continue;
+			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
+			if (theirs == owner || (theirs >= 0 && PEEK(members, MEMBER(theirs, MEMBER_ROUND)) > round))
+				continue;
+			int what = slice_events(status, members, other_id) > 0
+				? meeting(VERTICES, slots, status, members, work, rules, s, id, other, other_id, length)
+				: MEETING_NONE;
+			if (what == MEETING_NOW)
+				conflict(status, members, active, parents, owner, theirs, round);
+			if (what == MEETING_LATER)
+				CHANNEL(work[WORK_WIDTH * id + WORK_NEXT], NEXT_TIME) = NEXT_UNKNOWN;
+			atomic_xchg(&wakes[WAKE(s, WAKE_NEXT)], status[STATUS_AGE] + 1); /* neither knew of the other's change */
+			atomic_xchg(&wakes[WAKE(other, WAKE_NEXT)], status[STATUS_AGE] + 1);
+		}
+	}
 }

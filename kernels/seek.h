@@ -106,7 +106,7 @@ void seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_O
 		seeds_add(LISTS, owners, all, s, other, t, pause, round);
 	if (other_changes)
 		seeds_add(LISTS, owners, all, other, s, t, pause, round);
-	if (changes && other_changes)
+	if (changes && other_changes && t <= slice_end(status, 0))
 		unite(parents, s, other);
 }
 

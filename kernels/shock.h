@@ -40,9 +40,9 @@ int2 parties_take(LIST_OUT(members), int *party)
 	return who;
 }
 
-trajectory shock_way(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), int s, const shock *all)
+trajectory shock_way(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), int s, const shock *all)
 {
-	int id = number_of_own(members, owners, s, all->leader);
+	int id = number_seen(status, members, owners, s, all->leader);
 	return moved(slots, s, id >= 0 ? work_load(work, id) : trajectory_start(slots, s), all->time, all->length);
 }
 
@@ -89,8 +89,8 @@ bool is_party(LIST_OUT(members), LIST_IN(owners), int s, const shock *all)
 }
 
 /* A party's points, from those of its contacts with others. */
-void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int id, const rests *found,
-	const shock *all)
+void points_write(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int id,
+	const rests *found, const shock *all)
 {
 	int point = 0;
 	for (int k = 0; k < found->count; k++) {
@@ -102,7 +102,7 @@ void points_write(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), LIST_IN
 			rest_point at = r->points[i];
 			__global float4 *to = shocks + SHOCK(id, point);
 			float coming = r->partner >= 0 && slot_is_dynamic(slots, r->partner)
-				? way_speed(shock_way(slots, members, work, owners, r->partner, all), r->n, at.other_arm)
+				? way_speed(shock_way(slots, status, members, work, owners, r->partner, all), r->n, at.other_arm)
 				: 0.0f;
 			to[SHOCK_NORMAL] = (float4)(r->n.x, r->n.y, at.arm, at.other_arm);
 			to[SHOCK_GRIP] = (float4)(at.grip_arm, at.grip_other_arm, r->friction, part);
@@ -126,7 +126,7 @@ void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slot
 		rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, contacts);
 		for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
 			int other = neighbour_of(neighbours, extra, i);
-			body partner = body_of(slots, other, shock_way(slots, members, work, owners, other, all), all->length);
+			body partner = body_of(slots, other, shock_way(slots, status, members, work, owners, other, all), all->length);
 			if (look > 0 || !is_party(members, owners, other, all))
 				rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, contacts);
 			else if (near_force(own, partner, near) > 0.0f)
@@ -148,7 +148,7 @@ void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots
 	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
 	work_store(work, id, k);
 	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, s, body_of(slots, s, k, all->length), all, &contacts);
-	points_write(slots, members, work, owners, shocks, id, &contacts, all);
+	points_write(slots, status, members, work, owners, shocks, id, &contacts, all);
 	for (int party = all->first; party >= 0; party = party_next(members, party))
 		for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
 			__global float4 *push = shocks + SHOCK(party, point) + SHOCK_PUSH;
@@ -306,7 +306,7 @@ void shock_end(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(me
 		k = held_at_last(slots, members, s, id, k, STUCK_BORNE);
 		work_store(work, id, k);
 		float margin = rest_force(all->weight, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS));
-		if (!way_grow(slots, reach, work, need, s, id, k, margin, all->length))
+		if (!way_grow(slots, reach, status, work, need, s, id, k, margin, all->length))
 			atomic_or(&status[STATUS_LEFT], 1);
 	}
 }

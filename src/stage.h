@@ -108,7 +108,9 @@ typedef enum carom_stage {
 	STAGE_GATHER,  /* (slots) */
 	STAGE_MEND,    /* (groups, 1, cells a row, rows) */
 	STAGE_SEEK,    /* (slots, or one for SEEK_EACH of them, 1, round, slots) */
-	STAGE_MUSTER,  /* (share, 1, round) */
+	STAGE_RELEASE, /* (share, 1, round) */
+	STAGE_PAIR,    /* the same */
+	STAGE_MUSTER,  /* the same */
 	STAGE_RESOLVE, /* (groups, 1, round, lanes of a team) */
 	STAGE_CHECK,   /* (share, 1, round) */
 	STAGE_SETTLE,  /* (1, 1, round, slots) */

@@ -63,8 +63,10 @@ typedef struct carom_events {
 	uint32_t hits_taken;      /* of those in Hits, which has some of a step that is under way */
 	uint32_t columns, rows;   /* of cells */
 	uint32_t steps_a_list;    /* steps handed over between two makings of the lists */
-	uint32_t rounds;          /* handed over a step, */
-	uint32_t iterations;      /* and of the step contacts iterations */
+	uint32_t rounds;          /* handed over a step */
+	uint32_t slices;          /* of a step, */
+	bool saves;               /* and Work and Members have room for the state in which one begins */
+	uint32_t iterations;      /* handed over a pass of the step contacts */
 	uint32_t since;           /* steps handed over since the last making, */
 	float list_step;          /* s: the time step that the world had then */
 	bool sleeps;              /* most bodies do not look for hits in each step */

@@ -5,11 +5,11 @@
 
 #include "layout.h"
 #include "runs.h"
+#include "world.h"
 
-/* `count` bodies on a lattice: nearly two fifths of the area are filled by discs, less by triangles, which could not be placed closer blindly. */
-static void fill(scenery_random *random, scenery_shapes shapes, int side, float radius, float speed, carom_body_def *bodies)
+/* Bodies on a lattice, `pitch` from middle to middle. */
+static void fill_at(scenery_random *random, scenery_shapes shapes, int side, float radius, float pitch, float speed, carom_body_def *bodies)
 {
-	const float pitch = shapes == SCENERY_CIRCLES ? 2.8f * radius : 2.1f * radius; /* pi / 2.8^2 = 0.40, 1.3 / 2.1^2 = 0.29 */
 	for (int i = 0; i < side * side; i++) {
 		const float vy = scenery_uniform(random, -speed, speed), vx = scenery_uniform(random, -speed, speed);
 		const float middle = 0.5f * (float)(side - 1);
@@ -22,6 +22,13 @@ static void fill(scenery_random *random, scenery_shapes shapes, int side, float 
 		}
 		bodies[i] = def;
 	}
+}
+
+/* Nearly two fifths of the area are filled by discs, less by triangles, which could not be placed closer blindly. */
+static void fill(scenery_random *random, scenery_shapes shapes, int side, float radius, float speed, carom_body_def *bodies)
+{
+	const float pitch = shapes == SCENERY_CIRCLES ? 2.8f * radius : 2.1f * radius; /* pi / 2.8^2 = 0.40, 1.3 / 2.1^2 = 0.29 */
+	fill_at(random, shapes, side, radius, pitch, speed, bodies);
 }
 
 /* What 200 steps may cost, with a margin of three over what was seen: 1.6e-6 of the energy, 1.3e-8 of the momentum there is (the sum of all |m v|). */
@@ -113,6 +120,75 @@ static void twenty_thousand_circles(void **unused)
 	free(bodies);
 }
 
+/* ---- Slices of a step */
+
+/* Whatever falls, and lies in the end, in a room: the same hits, with their order and impulses, whether clusters fall apart within a step or not. */
+static void slices_change_no_bit(void **unused)
+{
+	(void)unused;
+	static const char *const steps[] = {"events", "contacts"};
+	static const uint32_t slices[] = {1, 2, 5, SLICES_MOST};
+	enum { SIDE = 12, COUNT = SIDE * SIDE };
+	carom_body_def bodies[COUNT];
+	scenery_random random = {6};
+	fill_at(&random, SCENERY_MIXED, SIDE, 0.4f, 0.85f, 3.0f, bodies);
+	for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+		carom_world_def def = runs_room(16.0f, 16.0f);
+		uint64_t first = 0;
+		carom_hit *hits = NULL;
+		size_t hit_count = 0;
+		def.gravity.y = -10.0f;
+		def.restitution = 0.5f;
+		def.keep_hits = true;
+		assert_int_equal(carom_pipeline_set(&def.pipeline, "step", steps[i], NULL), CAROM_OK);
+		SCENERY_EACH_DEVICE(device) {
+			for (size_t k = 0; k < sizeof slices / sizeof *slices; k++) {
+				carom_world *world = runs_world(&def, device, bodies, COUNT);
+				if (!world)
+					continue;
+				runs_step(world, 1);
+				world->events.slices = slices[k];
+				size_t count;
+				const carom_report report = runs_step(world, 20);
+				carom_hit *now = runs_hits(world, &count);
+				assert_true(world->events.saves || slices[k] == 1);
+				assert_true(report.hits > 500 && report.hits == count);
+				runs_same_hits(&hits, &hit_count, now, count);
+				runs_same_hash(&first, runs_hash(world), device);
+				carom_world_destroy(world);
+			}
+		}
+		free(hits);
+	}
+}
+
+/* Where most of a step's work would be lost it gets slices by itself, and none where it is not crowded. */
+static void crowded_steps_get_slices(void **unused)
+{
+	(void)unused;
+	enum { SIDE = 40, COUNT = SIDE * SIDE };
+	static const float pitches[] = {0.82f, 2.0f}; /* 0.75 and 0.13 of the area */
+	carom_body_def *bodies = calloc(COUNT, sizeof *bodies);
+	assert_non_null(bodies);
+	for (size_t i = 0; i < sizeof pitches / sizeof *pitches; i++) {
+		const carom_world_def def = runs_room((float)SIDE * pitches[i] + 0.1f, (float)SIDE * pitches[i] + 0.1f);
+		scenery_random random = {7};
+		uint64_t first = 0;
+		fill_at(&random, SCENERY_CIRCLES, SIDE, 0.4f, pitches[i], 5.0f, bodies);
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			const carom_report report = runs_step(world, 16);
+			print_message("%llu hits, %u slices\n", (unsigned long long)report.hits, world->events.slices);
+			assert_true(world->events.saves == (i == 0));
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+	free(bodies);
+}
+
 /* ---- Worlds that are changed */
 
 static void little_or_nothing_in_a_room(void **unused)
@@ -162,7 +238,7 @@ static void changed_worlds_are_as_new_ones(void **unused)
 		if (!world)
 			continue;
 		carom_body_def now[COUNT + MORE];
-		runs_step(world, 30);
+		runs_step(world, 20);
 		for (uint32_t i = 0; i < COUNT + MORE; i++) {
 			now[i] = bodies[i];
 			now[i].position.x *= 0.97f; /* elsewhere: what is near whom has changed */
@@ -267,7 +343,8 @@ static void a_throng_is_a_limit(void **unused)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(crowds_keep_energy_and_momentum), cmocka_unit_test(twenty_thousand_circles),
-		cmocka_unit_test(little_or_nothing_in_a_room), cmocka_unit_test(changed_worlds_are_as_new_ones),
-		cmocka_unit_test(accumulate_adds_no_energy_to_events), cmocka_unit_test(narrow_faces_keep_energy), cmocka_unit_test(a_throng_is_a_limit)};
+		cmocka_unit_test(little_or_nothing_in_a_room), cmocka_unit_test(changed_worlds_are_as_new_ones), cmocka_unit_test(slices_change_no_bit),
+		cmocka_unit_test(crowded_steps_get_slices), cmocka_unit_test(accumulate_adds_no_energy_to_events), cmocka_unit_test(narrow_faces_keep_energy),
+		cmocka_unit_test(a_throng_is_a_limit)};
 	return cmocka_run_group_tests_name("events_crowds", tests, NULL, NULL);
 }

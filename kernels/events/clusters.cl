@@ -14,7 +14,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 	if (local_id == 0)
 		awake_count = pair_count = 0;
 	if (begins && get_global_id(0) == 0)
-		status[STATUS_BEGUN] = domain.z;
+		status[STATUS_BEGUN] = domain.z, status[STATUS_SLICE] = status[STATUS_SAVED] = 0;
 	barrier(CLK_LOCAL_MEM_FENCE);
 	for (int s = begin + local_id; s < end; s += lanes)
 		if (is_awake(slots, LISTS, s))
@@ -36,8 +36,38 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 		seeds_keep(LISTS, owners, &all, first[0] + wanted[local_id] % SEEDS_NUMBER, first[1] + wanted[local_id] / SEEDS_NUMBER, domain.z);
 }
 
-__kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners),
-	LIST_IN(parents), int4 domain)
+/* If the slice before is done, and the step has another: that begins. */
+__kernel void events_release(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners),
+	LIST_OUT(parents), int4 domain)
+{
+	int count = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
+	if (status[STATUS_ROUND] != domain.z - 1 || is_last_slice(status))
+		return;
+	if (get_global_id(0) == 0) {
+		status[STATUS_BEGUN] = domain.z;
+		status[STATUS_SAVED] = count;
+	}
+	for (int id = get_global_id(0); id < count; id += get_global_size(0))
+		if (active[id] >= 0)
+			number_release(status, members, active, work, owners, parents, id, slice_end(status, status[STATUS_SLICE] + 1), domain.z);
+}
+
+__kernel void events_pair(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners),
+	LIST_OUT(parents), int4 domain)
+{
+	if (status[STATUS_BEGUN] != domain.z || !status[STATUS_SAVED])
+		return;
+	if (get_global_id(0) == 0) {
+		status[STATUS_ROUND] = domain.z;
+		status[STATUS_SLICE]++;
+	}
+	for (int id = get_global_id(0); id < status[STATUS_SAVED]; id += get_global_size(0))
+		if (active[id] >= 0)
+			number_pair(members, active, work, owners, parents, id);
+}
+
+__kernel void events_muster(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners),
+	LIST_OUT(parents), int4 domain)
 {
 	if (status[STATUS_ROUND] != domain.z)
 		return;
@@ -45,21 +75,10 @@ __kernel void events_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members
 	if (get_global_id(0) == 0)
 		status[STATUS_SEEDS] = count;
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
-		if (active[id] < 0 || members[MEMBER(members[MEMBER(id, MEMBER_OWNER)], MEMBER_ROUND)] != domain.z)
+		int owner = members[MEMBER(id, MEMBER_OWNER)];
+		if (active[id] < 0 || owner < 0 || members[MEMBER(owner, MEMBER_ROUND)] != domain.z)
 			continue;
-		int root_slot = active[id];
-		while (parents[root_slot] != root_slot) /* nobody changes that now */
-			root_slot = parents[root_slot];
-		int root = owners[root_slot];
-		if (members[MEMBER(id, MEMBER_HITS)] > 0)
-			atomic_sub(&status[STATUS_HITS], members[MEMBER(id, MEMBER_HITS)]);
-		if (members[MEMBER(id, MEMBER_RULED)] > 0)
-			atomic_sub(&status[STATUS_RULED], members[MEMBER(id, MEMBER_RULED)]);
-		if (members[MEMBER(id, MEMBER_EVENTS)] > 0 && CHANNEL(work[WORK_WIDTH * id + WORK_TURN], WORK_HELD) > 0.0f)
-			atomic_dec(&status[STATUS_HELD]);
-		work_begin(slots, members, work, active[id], id);
-		members[MEMBER(id, MEMBER_OWNER)] = root;
-		members[MEMBER(id, MEMBER_LINK)] = atomic_xchg(&members[MEMBER(root, MEMBER_HEAD)], id);
+		number_muster(slots, status, members, active, work, owners, parents, id);
 	}
 }
 
@@ -80,7 +99,7 @@ __kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECOR
 }
 
 /* Clusters must not meet: bodies of two of them that were changed are looked at as they are now. */
-__kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_IN(work), LIST_IN(owners),
+__kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners),
 	LIST_OUT(parents), int4 domain)
 {
 	if (PEEK(status, STATUS_ROUND) < domain.z)
@@ -90,28 +109,6 @@ __kernel void events_check(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	for (int id = get_global_id(0); id < count; id += get_global_size(0)) {
 		fetch_active(slots, LISTS, owners, id, count, domain.z, SPAN_HALF);
-		int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
-		/* of a pair one at least was done in this round, and finds the other; in the first round both were, and one look is enough */
-		if (s < 0 || members[MEMBER(id, MEMBER_EVENTS)] == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != domain.z)
-			continue;
-		int end = spans[SPAN(s, status[STATUS_BEGUN] == domain.z ? SPAN_HALF : SPAN_END)];
-		for (int k = bunch_first(spans, extra, s, end, 0); k != -1; k = bunch_next(extra, s, end, k, 0, 1)) {
-			bunch others = bunch_at(neighbours, extra, end, k);
-			ints ids = others.live ? numbers_of(owners, others.slots) : (ints)(-1);
-			if (!IS_ANY(ids >= (ints)(0)))
-				continue;
-			for (int n = 0; n < BUNCH; n++, others.slots = TURNED(others.slots), ids = TURNED(ids)) {
-				int other = FIRST(others.slots), other_id = FIRST(ids);
-				if (other_id < 0 || members[MEMBER(other_id, MEMBER_EVENTS)] == 0)
-					continue;
-				int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
-				if (theirs == owner || PEEK(members, MEMBER(theirs, MEMBER_ROUND)) > domain.z)
-					continue;
-				if (ways_meet(VERTICES, slots, members, work, rules, s, id, other, other_id, length))
-					conflict(status, members, active, parents, owner, theirs, domain.z);
-				atomic_xchg(&wakes[WAKE(s, WAKE_NEXT)], status[STATUS_AGE] + 1); /* neither knew of the other's change */
-				atomic_xchg(&wakes[WAKE(other, WAKE_NEXT)], status[STATUS_AGE] + 1);
-			}
-		}
+		number_check(VERTICES, slots, LISTS, work, owners, parents, rules, id, domain.z, length);
 	}
 }

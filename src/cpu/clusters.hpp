@@ -11,20 +11,34 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 {
 	work.keep(Trajectory<T>(slot));
 	work.next[NEXT_TIME] = NO_HIT;
-	work.box[0] = work.box[2] = slot.place[LINEAR_X];
-	work.box[1] = work.box[3] = slot.place[LINEAR_Y];
-	member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
+	work.empty_box();
+	member.seen = member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
 	member.kept = -1;
 }
 
-/* What clusters did. */
+/* When a slice of a step ends. */
+template <typename T> T slice_end(const int32_t *status, int32_t slice)
+{
+	return T(slice + 1) / T(status[STATUS_SLICES]);
+}
+
+/* What clusters did, and what of it was lost. */
 struct Tally {
-	int32_t hits, ruled, held;
+	int32_t hits, ruled, held, lost;
 
 	Tally &operator+=(const Tally &other)
 	{
-		hits += other.hits, ruled += other.ruled, held += other.held;
+		hits += other.hits, ruled += other.ruled, held += other.held, lost += other.lost;
 		return *this;
+	}
+
+	void add_to(int32_t *status) const
+	{
+		const auto add = [](int32_t &sum, int32_t more) {
+			if (more != 0)
+				fetch_add(&sum, more);
+		};
+		add(status[STATUS_HITS], hits), add(status[STATUS_RULED], ruled), add(status[STATUS_HELD], held), add(status[STATUS_LOST], lost);
 	}
 };
 
@@ -92,6 +106,32 @@ public:
 
 	/* In the next step, whoever else says so, too. */
 	void rouse(int32_t s) const { __atomic_store_n(&wakes[s].next, status[STATUS_AGE] + 1, __ATOMIC_RELAXED); }
+
+	/* The end of the step's slice. */
+	T until() const { return slice_end<T>(status, status[STATUS_SLICE]); }
+
+	/* The state of a number as the slice began; none if it was given since. */
+	bool is_saved(int32_t id) const { return id >= 0 && id < status[STATUS_SAVED]; }
+	const Work<T> &saved_work(const Work<T> *work, int32_t id) const { return work[status[STATUS_NUMBERS] + id]; }
+	const Member &saved_member(int32_t id) const { return members[status[STATUS_NUMBERS] + id]; }
+
+	/* A number's events in the slice. */
+	int32_t events_of(int32_t id) const { return members[id].events - (is_saved(id) ? saved_member(id).events : 0); }
+
+	/* The number goes back to the state in which the slice began. */
+	void go_back(int32_t id, Work<T> *work) const
+	{
+		if (!is_saved(id))
+			return begin_anew(members[id], work[id], slots[active[id]]);
+		const Member &saved = saved_member(id);
+		Member &member = members[id];
+		member.stuck = saved.stuck, member.events = saved.events, member.rapid = saved.rapid, member.seen = saved.seen, member.fast = saved.fast;
+		member.kept = saved.kept, member.hits = member.ruled = 0;
+		work[id] = saved_work(work, id);
+	}
+
+	/* Is it held by an event of this slice? */
+	bool was_held(int32_t id, const Work<T> *work) const { return work[id].held > 0 && !(is_saved(id) && saved_work(work, id).held > 0); }
 
 	bool ready() const { return this->length > 0 && lists_are_good(status) && !forces_are_wanted(status); }
 

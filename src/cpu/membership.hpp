@@ -35,35 +35,62 @@ public:
 		return id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader ? id : -1;
 	}
 
+	/* A body's state, as far as this cluster knows of it: of its own members now, of all others as the slice began. Null: as the step began. */
+	const Work<T> *seen(int32_t s) const
+	{
+		const int32_t id = number_of(s);
+		if (id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader)
+			return &work[id];
+		return clusters.is_saved(id) ? &clusters.saved_work(work, id) : nullptr;
+	}
+
+	Trajectory<T> way_seen(int32_t s) const
+	{
+		const Work<T> *const at = seen(s);
+		return at ? at->trajectory(slots[s]) : Trajectory<T>(slots[s]);
+	}
+
+	/* Its events, likewise. */
+	int32_t events_seen(int32_t s) const
+	{
+		const int32_t id = number_of(s);
+		if (id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader)
+			return members[id].events;
+		return clusters.is_saved(id) ? clusters.saved_member(id).events : 0;
+	}
+
 	/* The number of a body that `by` is to hit, claimed if it is nobody's, and then `added(number)` is called; -1 if it is another cluster's. */
 	template <typename Added> int32_t join(int32_t s, int32_t by, const Added &added)
 	{
-		int32_t id = number_of(s);
-		if (id < 0) {
-			id = claim(s, head);
-			if (id >= 0) {
-				added(id);
-				return id;
-			}
-			id = number_of(s);
+		if (claim(s, head)) {
+			const int32_t id = number_of(s);
+			added(id);
+			return id;
 		}
+		const int32_t id = number_of(s);
 		if (id < 0) {
 			__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED); /* so many numbers were lost: the step begins again */
 			return -1;
 		}
 		if (!meet(owner_of(id)))
 			return id;
-		members[leader].pile |= members[by].events >= PILE_EVENTS;
+		members[leader].pile |= clusters.events_of(by) >= PILE_EVENTS;
 		if (round - clusters.status[STATUS_BEGUN] >= SPREAD_ROUND)
 			spread();
 		return -1;
 	}
 
+	/* It lies in a pile. */
+	void stays_together() const { members[leader].pile = 1; }
+
+	/* If one of its members led one that is, so is this. */
 	bool is_in_pile() const
 	{
 		int32_t m = head;
 		while (m >= 0 && !members[m].pile)
 			m = members[m].link;
+		if (m >= 0)
+			stays_together();
 		return m >= 0;
 	}
 
@@ -75,7 +102,7 @@ public:
 		each_neighbour([&](int32_t m, int32_t other) {
 			if (!is_near(slots[clusters.active[m]], slots[other]))
 				return;
-			if (number_of(other) < 0 && __atomic_load_n(&clusters.status[STATUS_ACTIVE], __ATOMIC_RELAXED) < most)
+			if (number_of(other) >= 0 || __atomic_load_n(&clusters.status[STATUS_ACTIVE], __ATOMIC_RELAXED) < most)
 				claim(other, m);
 			alone &= !meet(owner_of(number_of(other)));
 		});
@@ -86,15 +113,16 @@ private:
 	/* The number of whoever's body in a slot, -1 if it has none. */
 	int32_t number_of(int32_t s) const { return __atomic_load_n(&clusters.owners[s], __ATOMIC_ACQUIRE); }
 
-	/* Who leads the cluster that a number belongs to; this one's if it is none. */
-	int32_t owner_of(int32_t id) const { return id < 0 ? leader : __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE); }
+	/* Who leads the cluster that a number belongs to, -1 if it is nobody's. */
+	int32_t owner_of(int32_t id) const { return id < 0 ? -1 : __atomic_load_n(&members[id].owner, __ATOMIC_ACQUIRE); }
 
 	/* If that is another cluster, the two are one in the next round. */
 	bool meet(int32_t owner) const
 	{
-		if (owner != leader)
+		const bool meets = owner >= 0 && owner != leader;
+		if (meets)
 			clusters.conflict(leader, owner, round);
-		return owner != leader;
+		return meets;
 	}
 
 	/* Calls `visit(member, slot)` for each neighbour of each member, and of those that `visit` adds. */
@@ -120,24 +148,39 @@ private:
 		return other.is_dynamic() && x * x + y * y < reach * reach;
 	}
 
-	/* The number of a body that was nobody's, and comes behind a member in the list; -1 if somebody else has claimed it just now, or there are no more. */
-	int32_t claim(int32_t s, int32_t before)
+	/* A body that was nobody's comes behind a member in the list; false if it is somebody's, or there are no more numbers. */
+	bool claim(int32_t s, int32_t before)
 	{
-		const int32_t id = fetch_add(&clusters.status[STATUS_ACTIVE], 1);
-		if (id >= clusters.status[STATUS_NUMBERS])
-			return -1;
-		clusters.active[id] = s;
-		begin_anew(members[id], work[id], slots[s]);
-		members[id].owner = leader;
-		if (!clusters.take(s, id)) {
-			clusters.active[id] = -1;
-			members[id].reset();
-			return -1;
-		}
+		int32_t id = number_of(s);
+		if (id < 0 ? !number(s, &id) : !take_over(id))
+			return false;
 		__atomic_store_n(&clusters.parents[s], clusters.active[leader], __ATOMIC_RELEASE);
 		members[id].link = members[before].link;
 		members[before].link = id;
-		return id;
+		return true;
+	}
+
+	/* One that has no number gets one, and is the cluster's. */
+	bool number(int32_t s, int32_t *number)
+	{
+		const int32_t id = *number = fetch_add(&clusters.status[STATUS_ACTIVE], 1);
+		if (id >= clusters.status[STATUS_NUMBERS])
+			return false;
+		clusters.active[id] = s;
+		begin_anew(members[id], work[id], slots[s]);
+		members[id].owner = leader;
+		if (clusters.take(s, id))
+			return true;
+		clusters.active[id] = -1;
+		members[id].reset();
+		return false;
+	}
+
+	/* One that has a number from a slice before, if it is nobody's in this one. */
+	bool take_over(int32_t id)
+	{
+		int32_t nobody = -1;
+		return owner_of(id) < 0 && __atomic_compare_exchange_n(&members[id].owner, &nobody, leader, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE);
 	}
 
 	const Clusters<T> &clusters;

@@ -22,7 +22,7 @@ public:
 		const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), boxes(reach),
 		  need(needs), heap(all.members, work_of, room), membership(all, work_of, number, in_round),
-		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr)
+		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr), until(all.until())
 	{
 	}
 
@@ -51,7 +51,7 @@ private:
 		const int32_t id = heap.first();
 		const T *next = work[id].next;
 		const int32_t other = static_cast<int32_t>(next[NEXT_PARTNER]);
-		finished = !(next[NEXT_TIME] <= 1);
+		finished = !(next[NEXT_TIME] <= until);
 		if (finished)
 			return false;
 		int32_t other_id = -1;
@@ -90,9 +90,14 @@ private:
 	/* The number of a body of the cluster, else -1: of all others the way counts as the step began. */
 	int32_t own_number(int32_t s) const { return membership.own_number(s); }
 
-	/* The member's first event, while no event has changed anything. */
+	/* The member's first event, as the slice begins. */
 	void recall(int32_t id)
 	{
+		if (clusters.is_saved(id)) {
+			if (work[id].next[NEXT_TIME] == NEXT_UNKNOWN)
+				look(id);
+			return;
+		}
 		int32_t k = clusters.spans[clusters.active[id]].found;
 		forget(id);
 		for (; k >= 0; k = clusters.found[k].link) {
@@ -126,9 +131,8 @@ private:
 		Sieve<T> sieve(clusters.ahead);
 		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach, partner); };
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-			const int32_t other_id = own_number(other);
-			if (other_id >= 0)
-				sieve.add(s, other, between(disc, disc_of(other, work[other_id]), clusters.ahead));
+			if (const Work<T> *const at = membership.seen(other))
+				sieve.add(s, other, between(disc, disc_of(other, *at), clusters.ahead));
 			else
 				sieve.add(s, other, Between<T>(disc, Disc<T>(slots[other], clusters.length).later(disc.time), clusters.ahead));
 			if (sieve.is_full())
@@ -143,12 +147,12 @@ private:
 	 * one for which the pair is, if that is changed in this step, too. */
 	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach, int32_t partner)
 	{
-		const int32_t s = clusters.active[id], other_id = own_number(other), seen = other_id >= 0 ? members[other_id].events : 0;
-		const Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
+		const int32_t s = clusters.active[id], other_id = own_number(other), seen = membership.events_seen(other);
+		const Trajectory<T> other_way = membership.way_seen(other);
 		const Disc<T> other_disc(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length);
 		const Outlook<T> outlook(approach, slots[s], disc_of(s, work[id]), slots[other], other_disc);
 		clusters.wake_before(s, outlook.earliest);
-		if (seen > 0)
+		if (other_id >= 0 && seen > 0)
 			clusters.wake_before(other, outlook.earliest);
 		const T first = work[id].next[NEXT_TIME];
 		const bool is_partner = other_id >= 0 && other_id == partner;
@@ -203,7 +207,7 @@ private:
 			if (!pause)
 				hit = impacts.at_wall(s, way, -1 - other, past);
 		} else {
-			Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(slots[other]) : Trajectory<T>(slots[other]);
+			Trajectory<T> other_way = membership.way_seen(other);
 			const bool other_changes = other_id >= 0 && !(other_way.held > 0);
 			other_rapid = !pause && is_rapid(other_id, other_way, u);
 			past.rapid |= other_rapid && had_enough(other_id);
@@ -242,9 +246,8 @@ private:
 	{
 		Shock<T> shock(clusters, rubs, work);
 		const bool is_row = other_id < 0 || slots[clusters.active[id]].body() > slots[clusters.active[other_id]].body();
-		const auto own = [&](int32_t s) { return own_number(s); };
 		const auto join = [&](int32_t s) { return join_shock(s, id, u); };
-		if (!shock.spread(is_row ? id : other_id, is_row ? other_id : id, u, own, join))
+		if (!shock.spread(is_row ? id : other_id, is_row ? other_id : id, u, membership, join))
 			return false;
 		shock.each_hit([&](int32_t m, Partner partner, const Vec<T> &impulse, const Vec<T> &point, const Vec<T> &normal) {
 			const int32_t index = slots[clusters.active[m]].body(), other = partner.key(slots);
@@ -290,37 +293,48 @@ private:
 		widen(s, id, way);
 	}
 
-	/* Adds the way that is left to the box of all of it. If that leaves the reach the step begins again, but goes on as long as it tells what others
-	 * need, too. */
+	/* Adds the way that is left of the slice to the box of all of it. If what is left of the step leaves the reach the step begins again, but goes on as long
+	 * as it tells what others need, too. */
 	void widen(int32_t s, int32_t id, const Trajectory<T> &way, T margin = 0)
 	{
 		const Body<T> body = clusters.body(slots[s], way);
-		const T rest = 1 - way.time, size = std::abs(body.x.x()) + std::abs(body.x.y()) + body.radius;
-		const T pad = T(0.125) * rest * rest * (std::abs(body.a.x()) + std::abs(body.a.y())) + size * T(4 * SLOP) + margin;
-		const Vec<T> end = body.place_at(rest);
-		const Box<T> left{std::min(body.x.x(), end.x()) - pad, std::min(body.x.y(), end.y()) - pad, std::max(body.x.x(), end.x()) + pad,
-			std::max(body.x.y(), end.y()) + pad};
+		const Box<T> in_step = left(body, 1 - way.time, margin), in_slice = until < 1 ? left(body, until - way.time, margin) : in_step;
 		T *box = work[id].box;
-		box[0] = std::min(box[0], left.min_x), box[1] = std::min(box[1], left.min_y);
-		box[2] = std::max(box[2], left.max_x), box[3] = std::max(box[3], left.max_y);
+		box[0] = std::min(box[0], in_slice.min_x), box[1] = std::min(box[1], in_slice.min_y);
+		box[2] = std::max(box[2], in_slice.max_x), box[3] = std::max(box[3], in_slice.max_y);
 		const Box<T> &most = boxes[s];
-		if (left.min_x - body.radius >= most.min_x && left.min_y - body.radius >= most.min_y && left.max_x + body.radius <= most.max_x
-			&& left.max_y + body.radius <= most.max_y)
+		if (in_step.min_x - body.radius >= most.min_x && in_step.min_y - body.radius >= most.min_y && in_step.max_x + body.radius <= most.max_x
+			&& in_step.max_y + body.radius <= most.max_y)
 			return;
-		need[s] = as_bits(static_cast<float>(left.half(slots[s].place)));
+		need[s] = as_bits(static_cast<float>(in_step.half(slots[s].place)));
 		__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
 	}
 
-	/* What a finished cluster did; one that is given up did nothing. */
+	/* Where its middle gets in such a part of the step. */
+	static Box<T> left(const Body<T> &body, T rest, T margin)
+	{
+		const T size = std::abs(body.x.x()) + std::abs(body.x.y()) + body.radius;
+		const T pad = T(0.125) * rest * rest * (std::abs(body.a.x()) + std::abs(body.a.y())) + size * T(4 * SLOP) + margin;
+		const Vec<T> end = body.place_at(rest);
+		return {std::min(body.x.x(), end.x()) - pad, std::min(body.x.y(), end.y()) - pad, std::max(body.x.x(), end.x()) + pad,
+			std::max(body.x.y(), end.y()) + pad};
+	}
+
+	/* What a finished cluster did; of one that is given up all is lost. */
 	Tally count()
 	{
 		Tally tally{};
 		membership.each([&](int32_t m) {
-			tally += {members[m].hits, members[m].ruled, work[m].held > 0};
-			if (!finished)
-				members[m].hits = members[m].ruled = members[m].events = 0;
+			if (finished) {
+				tally += {members[m].hits, members[m].ruled, clusters.was_held(m, work), 0};
+				if (!is_last_slice(clusters.status) && clusters.events_of(m) >= PILE_EVENTS)
+					membership.stays_together();
+				return;
+			}
+			tally.lost += clusters.events_of(m);
+			clusters.go_back(m, work);
 		});
-		return finished ? tally : Tally{};
+		return tally;
 	}
 
 	const Clusters<T> &clusters;
@@ -335,6 +349,7 @@ private:
 	Heap<T> heap;
 	Membership<T> membership;
 	const int32_t *const touching; /* where forces bear what rests: the step contacts */
+	const T until;                 /* the slice's end */
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };

@@ -32,6 +32,12 @@ inline bool lists_are_good(const int32_t *status)
 	return !status[STATUS_STALE] && !status[STATUS_SMALL];
 }
 
+/* Has the step no slice after this one? */
+inline bool is_last_slice(const int32_t *status)
+{
+	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES] || status[STATUS_ACTIVE] == 0;
+}
+
 /* Does a pass of contacts go on in the next handing over? */
 inline bool iterations_are_wanted(const int32_t *status)
 {

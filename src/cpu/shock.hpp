@@ -2,6 +2,7 @@
 #ifndef CAROM_CPU_SHOCK_HPP
 #define CAROM_CPU_SHOCK_HPP
 
+#include "cpu/membership.hpp"
 #include "cpu/resting.hpp"
 
 #include <limits>
@@ -17,9 +18,9 @@ public:
 	{
 	}
 
-	/* From those two, of which the second may be none, -1, at time u. `own(slot)` is the number of a body of the cluster, else -1, `join(slot)` of one that
+	/* From those two, of which the second may be none, -1, at time u. `own` are the cluster's members, and `join(slot)` is the number of one that
 	 * becomes one; false if it can't. Who was moved to that time has to look again. */
-	template <typename Own, typename Join> bool spread(int32_t first, int32_t second, T u, const Own &own, const Join &join)
+	template <typename Join> bool spread(int32_t first, int32_t second, T u, const Membership<T> &own, const Join &join)
 	{
 		time = u;
 		for (int32_t id : {first, second})
@@ -126,7 +127,7 @@ private:
 	bool is_party(int32_t id) const { return id >= 0 && members[id].seen < 0; }
 
 	/* Moves a body to the time, and finds where it may be pushed, or push. */
-	template <typename Own> void open(int32_t id, const Own &own)
+	void open(int32_t id, const Membership<T> &own)
 	{
 		const int32_t s = clusters.active[id], k = count++;
 		const Slot<T> &slot = clusters.slots[s];
@@ -139,12 +140,11 @@ private:
 			parties[k] = {id, 0, ++changes, false, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, slot.mass[MASS_INVERSE],
 				slot.mass[MASS_INVERSE_INERTIA]};
 		const auto way_of = [&](int32_t other) {
-			const int32_t other_id = own(other);
-			Trajectory<T> other_way = other_id >= 0 ? work[other_id].trajectory(clusters.slots[other]) : Trajectory<T>(clusters.slots[other]);
+			Trajectory<T> other_way = own.way_seen(other);
 			clusters.move(clusters.slots[other], other_way, time);
 			return other_way;
 		};
-		const auto has_points = [&](int32_t other) { return is_party(own(other)); };
+		const auto has_points = [&](int32_t other) { return is_party(own.own_number(other)); };
 		finder.each(s, way, nearness, way_of, has_points, [&](const Resting<T> &rest) {
 			const bool moves = rest.partner.moves();
 			const T part = ((T(SHOCK_PARTING) * rest.force) * (1 - time)) / clusters.length;

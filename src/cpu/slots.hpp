@@ -6,6 +6,8 @@
 #include "cpu/impulse.hpp"
 #include "cpu/toi.hpp"
 
+#include <limits>
+
 namespace carom::cpu {
 
 /* The records of a slot, as they lie in memory. */
@@ -42,6 +44,12 @@ template <typename T> struct Work {
 	{
 		std::memcpy(place, way.place, sizeof place);
 		angle = way.angle, velocity = way.velocity, time = way.time, held = way.held;
+	}
+
+	void empty_box()
+	{
+		box[0] = box[1] = std::numeric_limits<T>::infinity();
+		box[2] = box[3] = -box[0];
 	}
 
 	Trajectory<T> trajectory(const Slot<T> &slot) const

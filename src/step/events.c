@@ -11,16 +11,10 @@
 #include "layout.h"
 #include "status.h"
 
-#define FIRST_NEIGHBOURS 16 /* a slot; more are made when they are needed */
-#define FIRST_HITS 4096     /* or one a body, if that is more; likewise */
-#define MANY_HITS (1 << 20) /* then there are more only where one step alone has more */
-#define MOST_ROUNDS 64
+#define FIRST_NEIGHBOURS 16   /* a slot; more are made when they are needed */
+#define FIRST_HITS 4096       /* or one a body, if that is more; likewise */
+#define MANY_HITS (1 << 20)   /* then there are more only where one step alone has more */
 #define LAST_NUMBER (1 << 30) /* of a round, or of an iteration of the step contacts */
-#define MOST_IDLE 256         /* batches that end no step: something is wrong */
-#define PATIENCE 4            /* of them, with lists that were too short: from then on each making has the slowest bodies get twice as far */
-#define MOST_DOUBLINGS 20
-#define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
-#define GOOD_LISTS 4       /* made in a row that were good to the end: the next may be used a step longer */
 #define MOST_MOVERS 4096
 #define MEND_SHARE 1024  /* slots for one group of those that look for new neighbours */
 #define SHARE 16         /* slots for one work-item of those that share what is active, on a CPU, */
@@ -103,6 +97,10 @@ static carom_status run_rounds(carom_world *world, int32_t count, carom_error *e
 	TRY(carom_run(world, STAGE_SEEK, world->events.sleeps ? (count + SEEK_EACH - 1) / SEEK_EACH : count, 1, world->events.round + 1, count, error));
 	for (uint32_t i = 0; i < world->events.rounds; i++) {
 		const int32_t round = ++world->events.round;
+		if (world->events.slices > 1) {
+			TRY(carom_run(world, STAGE_RELEASE, share, 1, round, 0, error));
+			TRY(carom_run(world, STAGE_PAIR, share, 1, round, 0, error));
+		}
 		TRY(carom_run(world, STAGE_MUSTER, share, 1, round, 0, error));
 		TRY(resolve(world, round, error));
 		TRY(carom_run(world, STAGE_CHECK, share, 1, round, 0, error));
@@ -146,6 +144,14 @@ carom_status carom_events_create_list(carom_world *world, carom_role role, bool 
 	return carom_textures_create(world, role, pair, carom_row_width((uint32_t)items), carom_row_count((uint32_t)items), zero, error);
 }
 
+/* What is known of each number, so many times. */
+static carom_status create_numbers(carom_world *world, uint64_t times, carom_error *error)
+{
+	const uint64_t numbers = times * carom_events_numbers(world->capacity);
+	TRY(carom_events_create_list(world, ROLE_WORK, false, WORK_WIDTH * numbers, error));
+	return carom_events_create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * numbers, error);
+}
+
 static carom_status send_status(carom_world *world, const int32_t *status, carom_error *error)
 {
 	return world->device->kind->upload(world->device, world->textures[ROLE_STATUS].front, 1, status, error);
@@ -160,14 +166,34 @@ carom_status carom_events_unload(carom_world *world, carom_error *error)
 	return CAROM_OK;
 }
 
+/* The next batch loads the slots anew. */
+static carom_status leave_slots(carom_world *world, carom_error *error)
+{
+	if (!(world->newest & PLACE_SLOTS))
+		return CAROM_OK;
+	TRY(world->step->unload(world, error));
+	TRY(carom_textures_send(world, error));
+	world->newest &= ~(unsigned)PLACE_SLOTS;
+	return CAROM_OK;
+}
+
+/* Steps of several slices need room for the state in which one begins. */
+static carom_status make_room_to_save(carom_world *world, carom_error *error)
+{
+	TRY(leave_slots(world, error));
+	world->prepared = false;
+	TRY(create_numbers(world, 2, error));
+	world->prepared = world->events.saves = true;
+	return CAROM_OK;
+}
+
 carom_status carom_events_begin(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH] = {[STATUS_STALE] = 1};
-	if (world->newest & PLACE_SLOTS && (world->events.round > LAST_NUMBER || world->events.iteration > LAST_NUMBER)) { /* numbers begin anew */
-		TRY(world->step->unload(world, error));
-		TRY(carom_textures_send(world, error));
-		world->newest &= ~(unsigned)PLACE_SLOTS;
-	}
+	if (world->events.round > LAST_NUMBER || world->events.iteration > LAST_NUMBER) /* numbers begin anew */
+		TRY(leave_slots(world, error));
+	if (world->events.slices > 1 && !world->events.saves)
+		TRY(make_room_to_save(world, error));
 	if (world->events.in_batch)
 		carom_events_drop_lists(world);
 	world->events.in_batch = true;
@@ -177,6 +203,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
 	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
 	status[STATUS_HEADS] = (int32_t)world->capacity;
+	status[STATUS_SLICES] = (int32_t)world->events.slices;
 	world->events.hits_taken = 0;
 	status[STATUS_KEPT_ROOM] = (int32_t)world->events.hit_room;
 	status[STATUS_NUMBERS] = status[STATUS_ACTIVE] = (int32_t)carom_events_numbers(world->capacity); /* all are to be reset */
@@ -236,46 +263,6 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 	return CAROM_OK;
 }
 
-/* Where each body that is hit gets farther than its list, and there is no end of it, all are to know more of the others. */
-static void adapt_reach(carom_world *world, const int32_t *status)
-{
-	carom_events *events = &world->events;
-	if (status[STATUS_STEPS] > 0) {
-		if (events->doublings > 0)
-			carom_events_drop_lists(world); /* those lists are too long for other steps */
-		events->stale = events->doublings = 0;
-	} else if (status[STATUS_STALE]) {
-		const bool more = ++events->stale > PATIENCE && events->doublings < MOST_DOUBLINGS;
-		events->doublings += more && (uint64_t)status[STATUS_NEIGHBOURS] < MANY_NEIGHBOURS * (uint64_t)world->body_count;
-	}
-}
-
-/* How many steps are handed over to one making of the lists, and with how many rounds, follows from how it went. */
-static carom_status adapt(carom_world *world, const int32_t *status, carom_error *error)
-{
-	carom_events *events = &world->events;
-	const int32_t steps = status[STATUS_STEPS], builds = status[STATUS_BUILDS];
-	events->idle = steps > 0 ? 0 : events->idle + 1;
-	events->sleeps = status[STATUS_AHEAD] > 0;
-	adapt_reach(world, status);
-	if (events->idle > MOST_IDLE)
-		return carom_fail(error, CAROM_DEVICE, "'%s' ends no step of events any more", world->device->info.name);
-	if (status[STATUS_AGAIN] > steps / 8 && events->rounds < MOST_ROUNDS)
-		events->rounds++;
-	if (status[STATUS_WAITS] > steps / 8 && events->iterations < CONTACT_ITERATIONS)
-		events->iterations *= 2;
-	events->good += (uint32_t)builds;
-	if (status[STATUS_IDLE] > 0) {
-		/* being idle cost little, but the lists had died before their time */
-		events->steps_a_list -= events->steps_a_list > 1;
-		events->good = 0;
-	} else if (events->good > GOOD_LISTS) {
-		events->steps_a_list++;
-		events->good = 0;
-	}
-	return CAROM_OK;
-}
-
 carom_status carom_events_finish(carom_world *world, carom_error *error)
 {
 	int32_t status[STATUS_WIDTH];
@@ -283,11 +270,13 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 	if (status[STATUS_SMALL] || status[STATUS_KEPT] > status[STATUS_KEPT_ROOM])
 		TRY(grow(world, status, error));
 	else
-		TRY(adapt(world, status, error));
+		TRY(carom_events_adapt(world, status, error));
 	if (status[STATUS_STALE])
 		carom_events_drop_lists(world);
 	world->events.in_batch = world->events.told = false;
 	world->events.within = status[STATUS_PASS] > 0 || status[STATUS_UNDER_WAY];
+	if (!world->events.within)
+		carom_events_adapt_slices(&world->events, status);
 	if (!status[STATUS_UNDER_WAY])
 		status[STATUS_KEPT] = status[STATUS_KEPT_BEFORE] = (int32_t)(world->events.hits_taken = 0);
 	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;
@@ -343,14 +332,14 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 		.node_room = (uint32_t)n / 2 + 1,
 		.hit_room = (uint32_t)first_hits(&world->def, n),
 		.steps_a_list = 6,
-		.rounds = 2};
+		.rounds = EVENTS_ROUNDS,
+		.slices = 1};
 	choose_cells(events, world->capacity);
 	TRY(carom_events_create_list(world, ROLE_OUTLINES, false, world->polygon_capacity ? 2 * (uint64_t)world->polygon_capacity : 1, error));
 	TRY(carom_events_create_list(world, ROLE_SLOTS, true, SLOT_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_NEED, true, n, error));
 	TRY(carom_events_create_list(world, ROLE_REACH, false, n, error));
-	TRY(carom_events_create_list(world, ROLE_WORK, false, WORK_WIDTH * carom_events_numbers(n), error));
-	TRY(carom_events_create_list(world, ROLE_MEMBERS, false, MEMBER_WIDTH * carom_events_numbers(n), error));
+	TRY(create_numbers(world, 1, error));
 	TRY(carom_events_create_list(world, ROLE_PLACES, false, n, error));
 	TRY(carom_events_create_list(world, ROLE_CHANGES, false, 1, error)); /* until there are some */
 	TRY(carom_events_create_list(world, ROLE_OWNERS, false, n, error));

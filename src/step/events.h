@@ -21,6 +21,12 @@ carom_status carom_events_resolve(carom_world *world, carom_error *error);
 /* New neighbours of bodies that may leave the boxes that lists were made for, as resolving begins with. */
 carom_status carom_events_mend(carom_world *world, carom_error *error);
 
+#define EVENTS_ROUNDS 2 /* handed over a step, at least */
+
+/* After a batch, from its status: how the next is driven; and where no step is under way, how many slices its steps have. */
+carom_status carom_events_adapt(carom_world *world, const int32_t *status, carom_error *error);
+void carom_events_adapt_slices(carom_events *events, int32_t *status);
+
 /* A texture of so many ints or records, folded into rows. */
 carom_status carom_events_create_list(carom_world *world, carom_role role, bool pair, uint64_t items, carom_error *error);
 int32_t carom_events_share(const carom_world *world);  /* work-items that share what is active */

@@ -16,7 +16,8 @@ public:
 	};
 
 	Seek(const Job<T> &job, std::vector<Seed> &room)
-		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), sieve(clusters.ahead), seeds(room)
+		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), until(slice_end<T>(clusters.status, 0)), sieve(clusters.ahead),
+		  seeds(room)
 	{
 		seeds.clear();
 	}
@@ -89,7 +90,7 @@ private:
 			seeds.push_back({s, other, hit});
 		if (other_slot.is_dynamic())
 			seeds.push_back({other, s, hit});
-		if (slot.is_dynamic() && other_slot.is_dynamic())
+		if (slot.is_dynamic() && other_slot.is_dynamic() && hit.time <= until)
 			clusters.unite(s, other);
 	}
 
@@ -139,6 +140,7 @@ private:
 
 	const Clusters<T> clusters;
 	const int32_t round, age;
+	const T until; /* the end of the first slice */
 	Sieve<T> sieve;
 	std::vector<Seed> &seeds;
 };
@@ -149,42 +151,101 @@ template <typename T> static void seek(const Job<T> &job)
 	if (!clusters.ready() || clusters.status[STATUS_UNDER_WAY])
 		return;
 	clusters.status[STATUS_BEGUN] = job.domain[2];
+	clusters.status[STATUS_SLICE] = clusters.status[STATUS_SAVED] = 0;
 	job.pool.run(job.domain[3], 512, [&](int32_t begin, int32_t end) {
 		static thread_local std::vector<typename Seek<T>::Seed> room;
 		Seek<T>(job, room).run(begin, end);
 	});
 }
 
+/* Has its partner been hit by another cluster since the number saw its next event? */
+template <typename T> static bool is_over(const Clusters<T> &clusters, const Work<T> *work, int32_t id)
+{
+	const int32_t other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]), other_id = other < 0 ? -1 : clusters.owners[other];
+	return other_id >= 0 && clusters.members[other_id].events != clusters.members[id].seen;
+}
+
+/* What was hit in a slice that is done, if the step has another: it falls apart, unless it lies in a pile. Its numbers are nobody's, but for those that hit something
+ * in the next one, and all is kept as it is. */
+template <typename T> static void release(const Job<T> &job)
+{
+	const Clusters<T> clusters(job, 13);
+	int32_t *const status = clusters.status;
+	Member *const members = clusters.members;
+	Work<T> *const work = reinterpret_cast<Work<T> *>(job.records(12));
+	const int32_t round = job.domain[2], numbers = status[STATUS_NUMBERS], count = std::min(status[STATUS_ACTIVE], numbers);
+	if (status[STATUS_ROUND] != round - 1 || is_last_slice(status))
+		return;
+	status[STATUS_ROUND] = status[STATUS_BEGUN] = round;
+	status[STATUS_SAVED] = count;
+	status[STATUS_SLICE]++;
+	const T until = clusters.until();
+	job.pool.run(count, 512, [&](int32_t begin, int32_t end) {
+		for (int32_t id = begin; id < end; id++) {
+			const int32_t s = clusters.active[id];
+			if (s < 0)
+				continue;
+			Member &member = members[id];
+			T *const next = work[id].next;
+			if (next[NEXT_TIME] <= until && is_over(clusters, work, id))
+				next[NEXT_TIME] = NEXT_UNKNOWN;
+			if (member.owner < 0 || !members[member.owner].pile)
+				member.owner = next[NEXT_TIME] <= until ? id : -1;
+			member.round = member.owner == id ? round : 0;
+			member.hits = member.ruled = 0;
+			member.head = -1;
+			work[id].empty_box();
+			clusters.parents[s] = clusters.active[member.owner < 0 ? id : member.owner];
+			members[numbers + id] = member;
+			work[numbers + id] = work[id];
+		}
+	});
+}
+
+/* As a slice begins that is not the first, bodies that hit each other in it are in one cluster. */
+template <typename T> static void pair(const Job<T> &job)
+{
+	const Clusters<T> clusters(job, 13);
+	const Work<T> *const work = reinterpret_cast<const Work<T> *>(job.records(12));
+	if (clusters.status[STATUS_BEGUN] != job.domain[2] || clusters.status[STATUS_SLICE] == 0)
+		return;
+	job.pool.run(clusters.status[STATUS_SAVED], 512, [&](int32_t begin, int32_t end) {
+		for (int32_t id = begin; id < end; id++) {
+			const T *const next = work[id].next;
+			if (clusters.active[id] < 0 || clusters.members[id].owner < 0 || next[NEXT_TIME] == NEXT_UNKNOWN)
+				continue;
+			const int32_t other = static_cast<int32_t>(next[NEXT_PARTNER]), other_id = other < 0 ? -1 : clusters.owners[other];
+			if (other_id >= 0 && clusters.members[other_id].owner >= 0)
+				clusters.unite(clusters.active[id], other);
+		}
+	});
+}
+
 /* Clusters that are to be done in this round begin anew, those that are in conflict as one. */
 template <typename T> static void muster(const Job<T> &job)
 {
-	const Slot<T> *slots = reinterpret_cast<const Slot<T> *>(job.records(0));
-	int32_t *status = job.list(1);
-	Member *members = reinterpret_cast<Member *>(job.list(2));
-	const int32_t *active = job.list(3), *owners = job.list(5), *parents = job.list(6), round = job.domain[2];
-	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(4));
+	const Clusters<T> clusters(job, 13);
+	int32_t *const status = clusters.status;
+	Member *const members = clusters.members;
+	Work<T> *const work = reinterpret_cast<Work<T> *>(job.records(12));
+	const int32_t round = job.domain[2];
 	if (status[STATUS_ROUND] != round)
 		return;
 	status[STATUS_SEEDS] = std::min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	job.pool.run(status[STATUS_SEEDS], 512, [&](int32_t begin, int32_t end) {
+		Tally lost{};
 		for (int32_t id = begin; id < end; id++) {
 			Member &member = members[id];
-			if (active[id] < 0 || members[member.owner].round != round)
+			if (clusters.active[id] < 0 || member.owner < 0 || members[member.owner].round != round)
 				continue;
-			int32_t root_slot = active[id];
-			while (parents[root_slot] != root_slot)
-				root_slot = parents[root_slot];
-			const int32_t root = owners[root_slot];
-			if (member.hits > 0)
-				fetch_add(&status[STATUS_HITS], -member.hits);
-			if (member.ruled > 0)
-				fetch_add(&status[STATUS_RULED], -member.ruled);
-			if (member.events > 0 && work[id].held > 0)
-				fetch_add(&status[STATUS_HELD], -1);
-			begin_anew(member, work[id], slots[active[id]]);
+			const int32_t root = clusters.owners[clusters.root_of(clusters.active[id])], events = clusters.events_of(id);
+			if (events > 0)
+				lost += {-member.hits, -member.ruled, -clusters.was_held(id, work), events};
+			clusters.go_back(id, work);
 			member.owner = root;
 			member.link = __atomic_exchange_n(&members[root].head, id, __ATOMIC_RELAXED);
 		}
+		lost.add_to(status);
 	});
 }
 
@@ -228,45 +289,57 @@ template <typename T> static void resolve(const Job<T> &job)
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
 				tally += Queue<T>(clusters, rubs, work, boxes, job.list(14), job.list(18), hits, id, round, room).run();
 		}
-		if (tally.hits > 0)
-			fetch_add(&clusters.status[STATUS_HITS], tally.hits);
-		if (tally.ruled > 0)
-			fetch_add(&clusters.status[STATUS_RULED], tally.ruled);
-		if (tally.held > 0)
-			fetch_add(&clusters.status[STATUS_HELD], tally.held);
+		tally.add_to(clusters.status);
 	});
 }
 
-/* Do two bodies that different clusters changed get in each other's way? */
-template <typename T> static bool ways_meet(const Clusters<T> &clusters, const Work<T> *work, int32_t s, int32_t id, int32_t other, int32_t other_id)
+/* What two bodies that different clusters changed in a slice come to. */
+enum class Meeting { none, later, conflict };
+
+template <typename T>
+static Meeting meeting(const Clusters<T> &clusters, const Work<T> *work, int32_t s, int32_t id, int32_t other, int32_t other_id, T until)
 {
 	const Work<T> &a = work[id], &b = work[other_id];
 	const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
 	const T reach = slot.radius() + other_slot.radius();
-	if (a.box[0] - reach > b.box[2] || a.box[2] + reach < b.box[0] || a.box[1] - reach > b.box[3] || a.box[3] + reach < b.box[1])
-		return false;
-	if (clusters.members[id].events > 1 || clusters.members[other_id].events > 1)
-		return true;
+	const bool are_apart = a.box[0] - reach > b.box[2] || a.box[2] + reach < b.box[0] || a.box[1] - reach > b.box[3] || a.box[3] + reach < b.box[1];
+	if (are_apart && !(until < 1))
+		return Meeting::none;
+	if (!are_apart && (clusters.events_of(id) > 1 || clusters.events_of(other_id) > 1))
+		return Meeting::conflict;
 	const Disc<T> disc(slot, a.place, a.time, a.held > 0, clusters.length), other_disc(other_slot, b.place, b.time, b.held > 0, clusters.length);
-	return Approach<T>(between(disc, other_disc, T(0)), T(0)).may_touch()
-		&& clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time <= 1;
+	if (!Approach<T>(between(disc, other_disc, T(0)), T(0)).may_touch())
+		return Meeting::none;
+	const T time = clusters.pair_time(s, a.trajectory(slot), other, b.trajectory(other_slot)).time;
+	if (!(time <= 1))
+		return Meeting::none;
+	return time <= until ? Meeting::conflict : Meeting::later;
 }
 
-template <typename T> static void check_one(const Clusters<T> &clusters, const Work<T> *work, int32_t id, int32_t round)
+template <typename T> static void check_one(const Clusters<T> &clusters, Work<T> *work, int32_t id, int32_t round)
 {
 	const Member *members = clusters.members;
 	const int32_t s = clusters.active[id], owner = members[id].owner;
-	auto done_again = [&](int32_t leader) { return __atomic_load_n(&members[leader].round, __ATOMIC_RELAXED) > round; };
-	/* Of a pair one at least was done in this round, and finds the other; in the first round both were, and one look is enough. */
-	if (s < 0 || members[id].events == 0 || __atomic_load_n(&members[owner].round, __ATOMIC_RELAXED) != round)
+	const T until = clusters.until();
+	const auto round_of = [&](int32_t leader) { return __atomic_load_n(&members[leader].round, __ATOMIC_RELAXED); };
+	if (s < 0 || owner < 0 || clusters.events_of(id) == 0 || round_of(owner) != round)
 		return;
 	const Span &span = clusters.spans[s];
-	clusters.each_neighbour(s, round == clusters.status[STATUS_BEGUN] ? span.half : span.end, [&](int32_t other, bool) {
+	/* Of a pair that was changed in the slice one at least was done in this round, and finds the other; in the slice's first round both were, and one look is enough. In a
+	 * later slice a body that was changed before is to be told, too. */
+	const bool is_half = round == clusters.status[STATUS_BEGUN] && clusters.status[STATUS_SAVED] == 0;
+	clusters.each_neighbour(s, is_half ? span.half : span.end, [&](int32_t other, bool) {
 		const int32_t other_id = clusters.owners[other];
-		if (other_id < 0 || members[other_id].events == 0 || members[other_id].owner == owner || done_again(members[other_id].owner))
+		if (other_id < 0 || members[other_id].events == 0 || members[other_id].owner == owner)
 			return;
-		if (ways_meet(clusters, work, s, id, other, other_id))
-			clusters.conflict(owner, members[other_id].owner, round);
+		const int32_t theirs = members[other_id].owner;
+		if (theirs >= 0 && round_of(theirs) > round)
+			return;
+		const Meeting what = clusters.events_of(other_id) > 0 ? meeting(clusters, work, s, id, other, other_id, until) : Meeting::none;
+		if (what == Meeting::conflict)
+			clusters.conflict(owner, theirs, round);
+		else if (what == Meeting::later)
+			work[id].next[NEXT_TIME] = NEXT_UNKNOWN;
 		clusters.rouse(s), clusters.rouse(other); /* neither knew of the other's change */
 	});
 }
@@ -274,7 +347,7 @@ template <typename T> static void check_one(const Clusters<T> &clusters, const W
 template <typename T> static void check(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 13);
-	const Work<T> *work = reinterpret_cast<const Work<T> *>(job.records(12));
+	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(12));
 	const int32_t round = job.domain[2];
 	if (clusters.status[STATUS_ROUND] < round)
 		return;
@@ -291,8 +364,8 @@ template <typename T> static void check(const Job<T> &job)
 
 extern const Stage events_clusters;
 const Stage events_clusters{"events", "clusters",
-	{{STAGE_SEEK, seek<float>, seek<double>}, {STAGE_MUSTER, muster<float>, muster<double>}, {STAGE_RESOLVE, resolve<float>, resolve<double>},
-		{STAGE_CHECK, check<float>, check<double>}},
+	{{STAGE_SEEK, seek<float>, seek<double>}, {STAGE_RELEASE, release<float>, release<double>}, {STAGE_PAIR, pair<float>, pair<double>},
+		{STAGE_MUSTER, muster<float>, muster<double>}, {STAGE_RESOLVE, resolve<float>, resolve<double>}, {STAGE_CHECK, check<float>, check<double>}},
 	nullptr, nullptr};
 
 }

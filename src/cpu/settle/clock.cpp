@@ -10,7 +10,7 @@ template <typename T> static void settle(const Job<T> &job)
 	const T length = step_length(clock, uniforms);
 	const bool begins = length > 0 && lists_are_good(status), waits = begins && forces_are_wanted(status);
 	const bool good = begins && !waits, left = good && status[STATUS_LEFT];
-	const bool again = good && !left && status[STATUS_ROUND] > job.domain[2], done = good && !left && !again;
+	const bool again = good && !left && (status[STATUS_ROUND] > job.domain[2] || !is_last_slice(status)), done = good && !left && !again;
 	for (int32_t texel = 0; texel < CLOCK_WIDTH; texel++) {
 		for (int32_t channel = 0; channel < 4; channel++)
 			now.fact(texel, channel) = clock.fact(texel, channel);
@@ -35,6 +35,7 @@ template <typename T> static void settle(const Job<T> &job)
 	if (done) { /* numbers given, by now, are of bodies in clusters */
 		const bool busy = status[STATUS_ACTIVE] > job.domain[3] / BUSY;
 		status[STATUS_BUSTLE] = status[STATUS_HITS];
+		status[STATUS_ANSWERED] += status[STATUS_HITS];
 		status[STATUS_KEPT_BEFORE] = status[STATUS_KEPT];
 		status[STATUS_AGE] = busy || status[STATUS_AHEAD] == 0 ? 0 : status[STATUS_AGE] + 1;
 		status[STATUS_AHEAD] = busy ? 0 : HORIZON - 1;
