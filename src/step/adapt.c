@@ -27,14 +27,14 @@ static void adapt_reach(carom_world *world, const int32_t *status)
 	}
 }
 
-/* Steps have more slices where more than half of the work was lost, and fewer where it was less than an eighth: with twice as many about half as much is. */
+/* With twice as many slices about half as much of the work is lost: there are more where it was more than half of all, fewer where less than an eighth. */
 void carom_events_adapt_slices(carom_events *events, int32_t *status)
 {
-	const int64_t lost = status[STATUS_LOST], answered = 2 * (int64_t)status[STATUS_ANSWERED];
-	if (lost > answered && lost > LOST_LEAST * (int64_t)events->slices * status[STATUS_STEPS] && events->slices < SLICES_MOST)
-		events->slices *= 2;
-	else if (7 * lost < answered && events->slices > 1)
+	const int64_t lost = status[STATUS_LOST], answered = 2 * (int64_t)status[STATUS_ANSWERED], worth = LOST_LEAST * (int64_t)status[STATUS_STEPS];
+	if (7 * lost < answered && events->slices > 1)
 		events->slices /= 2;
+	for (int64_t bound = answered; bound > 0 && lost > bound && lost > worth * events->slices && events->slices < SLICES_MOST; bound *= 2)
+		events->slices *= 2;
 	status[STATUS_LOST] = status[STATUS_ANSWERED] = 0;
 	status[STATUS_SLICES] = events->saves ? (int32_t)events->slices : 1;
 }
