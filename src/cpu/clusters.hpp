@@ -110,28 +110,35 @@ public:
 	/* The end of the step's slice. */
 	T until() const { return slice_end<T>(status, status[STATUS_SLICE]); }
 
-	/* The state of a number as the slice began; none if it was given since. */
-	bool is_saved(int32_t id) const { return id >= 0 && id < status[STATUS_SAVED]; }
-	const Work<T> &saved_work(const Work<T> *work, int32_t id) const { return work[status[STATUS_NUMBERS] + id]; }
-	const Member &saved_member(int32_t id) const { return members[status[STATUS_NUMBERS] + id]; }
+	/* The index, in Work and Members, of a number's state as the slice began; -1 if it was given since. */
+	int32_t saved_index(int32_t id) const { return id >= 0 && id < status[STATUS_SAVED] ? status[STATUS_NUMBERS] + id : -1; }
 
 	/* A number's events in the slice. */
-	int32_t events_of(int32_t id) const { return members[id].events - (is_saved(id) ? saved_member(id).events : 0); }
+	int32_t events_of(int32_t id) const
+	{
+		const int32_t saved = saved_index(id);
+		return members[id].events - (saved >= 0 ? members[saved].events : 0);
+	}
 
 	/* The number goes back to the state in which the slice began. */
 	void go_back(int32_t id, Work<T> *work) const
 	{
-		if (!is_saved(id))
+		const int32_t at = saved_index(id);
+		if (at < 0)
 			return begin_anew(members[id], work[id], slots[active[id]]);
-		const Member &saved = saved_member(id);
+		const Member &saved = members[at];
 		Member &member = members[id];
 		member.stuck = saved.stuck, member.events = saved.events, member.rapid = saved.rapid, member.seen = saved.seen, member.fast = saved.fast;
 		member.kept = saved.kept, member.hits = member.ruled = 0;
-		work[id] = saved_work(work, id);
+		work[id] = work[at];
 	}
 
 	/* Is it held by an event of this slice? */
-	bool was_held(int32_t id, const Work<T> *work) const { return work[id].held > 0 && !(is_saved(id) && saved_work(work, id).held > 0); }
+	bool was_held(int32_t id, const Work<T> *work) const
+	{
+		const int32_t saved = saved_index(id);
+		return work[id].held > 0 && !(saved >= 0 && work[saved].held > 0);
+	}
 
 	bool ready() const { return this->length > 0 && lists_are_good(status) && !forces_are_wanted(status); }
 

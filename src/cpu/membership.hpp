@@ -35,28 +35,17 @@ public:
 		return id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader ? id : -1;
 	}
 
-	/* A body's state, as far as this cluster knows of it: of its own members now, of all others as the slice began. Null: as the step began. */
-	const Work<T> *seen(int32_t s) const
+	/* The index of a body's state in Work and Members, as far as this cluster knows of it: of its own members now, of all others as the slice began; -1: as the step began. */
+	int32_t seen(int32_t s) const
 	{
-		const int32_t id = number_of(s);
-		if (id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader)
-			return &work[id];
-		return clusters.is_saved(id) ? &clusters.saved_work(work, id) : nullptr;
+		const int32_t own = own_number(s);
+		return own >= 0 ? own : clusters.saved_index(number_of(s));
 	}
 
 	Trajectory<T> way_seen(int32_t s) const
 	{
-		const Work<T> *const at = seen(s);
-		return at ? at->trajectory(slots[s]) : Trajectory<T>(slots[s]);
-	}
-
-	/* Its events, likewise. */
-	int32_t events_seen(int32_t s) const
-	{
-		const int32_t id = number_of(s);
-		if (id >= 0 && __atomic_load_n(&members[id].owner, __ATOMIC_RELAXED) == leader)
-			return members[id].events;
-		return clusters.is_saved(id) ? clusters.saved_member(id).events : 0;
+		const int32_t at = seen(s);
+		return at >= 0 ? work[at].trajectory(slots[s]) : Trajectory<T>(slots[s]);
 	}
 
 	/* The number of a body that `by` is to hit, claimed if it is nobody's, and then `added(number)` is called; -1 if it is another cluster's. */

@@ -87,13 +87,10 @@ private:
 		return membership.join(s, by, [this](int32_t added) { heap.add(added); });
 	}
 
-	/* The number of a body of the cluster, else -1: of all others the way counts as the step began. */
-	int32_t own_number(int32_t s) const { return membership.own_number(s); }
-
 	/* The member's first event, as the slice begins. */
 	void recall(int32_t id)
 	{
-		if (clusters.is_saved(id)) {
+		if (clusters.saved_index(id) >= 0) {
 			if (work[id].next[NEXT_TIME] == NEXT_UNKNOWN)
 				look(id);
 			return;
@@ -131,8 +128,8 @@ private:
 		Sieve<T> sieve(clusters.ahead);
 		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach, partner); };
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-			if (const Work<T> *const at = membership.seen(other))
-				sieve.add(s, other, between(disc, disc_of(other, *at), clusters.ahead));
+			if (const int32_t at = membership.seen(other); at >= 0)
+				sieve.add(s, other, between(disc, disc_of(other, work[at]), clusters.ahead));
 			else
 				sieve.add(s, other, Between<T>(disc, Disc<T>(slots[other], clusters.length).later(disc.time), clusters.ahead));
 			if (sieve.is_full())
@@ -147,7 +144,8 @@ private:
 	 * one for which the pair is, if that is changed in this step, too. */
 	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach, int32_t partner)
 	{
-		const int32_t s = clusters.active[id], other_id = own_number(other), seen = membership.events_seen(other);
+		const int32_t s = clusters.active[id], other_id = membership.own_number(other), at = membership.seen(other),
+					  seen = at >= 0 ? members[at].events : 0;
 		const Trajectory<T> other_way = membership.way_seen(other);
 		const Disc<T> other_disc(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length);
 		const Outlook<T> outlook(approach, slots[s], disc_of(s, work[id]), slots[other], other_disc);
