@@ -3,7 +3,8 @@
  * Bodies live in slots, sorted by place, with lists of the neighbours that they could reach for a while; one that gets
  * farther gets new neighbours alone. A step looks at the pairs of these lists for hits, but not at those of which it is
  * known that they have none yet; bodies that hit form clusters, and each cluster is a queue of events that one
- * work-item, or a few lanes of a GPU, run to the end of the step. Clusters that get into each other's way are united and run again, in rounds.
+ * work-item, or a few lanes of a GPU, run to the end of the step. Clusters that get into each other's way are united and run again, in rounds;
+ * where that would happen often a step has slices, between which clusters fall apart.
  * A step that can't be done as it was handed over (lists too old or too small, more rounds needed) changes nothing, and
  * those behind it in the batch go on with it: nobody waits. */
 #include "step/events.h"

@@ -185,6 +185,7 @@ static void begin_anew(walk *w)
 	if (w->grows) {
 		scenery_check(carom_textures_update(w->world, &error), &error);
 		w->world->events.room = w->world->events.node_room = 1; /* say the lists, which hold more */
+		w->world->events.slices = 2;                            /* and numbers are to have room to be saved */
 	}
 	w->world->batch = 1;
 	w->steps = 0;
