@@ -77,12 +77,13 @@ void number_release(LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_
 	state_copy(members, work, id, status[STATUS_NUMBERS] + id);
 }
 
-/* Two that hit each other in the slice that begins are in one cluster. */
+/* Two that hit each other in the slice that begins are in one cluster, and with a pile those that it hits in the step. */
 void number_pair(LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), LIST_OUT(parents), int id)
 {
-	int other_id = partner_number(owners, work, id);
-	if (members[MEMBER(id, MEMBER_OWNER)] < 0 || CHANNEL(work[WORK_WIDTH * id + WORK_NEXT], NEXT_TIME) == NEXT_UNKNOWN)
+	float time = CHANNEL(work[WORK_WIDTH * id + WORK_NEXT], NEXT_TIME);
+	if (members[MEMBER(id, MEMBER_OWNER)] < 0 || time == NEXT_UNKNOWN || !(time <= 1.0f))
 		return;
+	int other_id = partner_number(owners, work, id);
 	if (other_id >= 0 && members[MEMBER(other_id, MEMBER_OWNER)] >= 0)
 		unite(parents, active[id], active[other_id]);
 }

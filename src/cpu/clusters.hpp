@@ -12,7 +12,7 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 	work.keep(Trajectory<T>(slot));
 	work.next[NEXT_TIME] = NO_HIT;
 	work.empty_box();
-	member.seen = member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
+	member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
 	member.kept = -1;
 }
 

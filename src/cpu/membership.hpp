@@ -42,11 +42,10 @@ public:
 		return own >= 0 ? own : clusters.saved_index(number_of(s));
 	}
 
-	Trajectory<T> way_seen(int32_t s) const
-	{
-		const int32_t at = seen(s);
-		return at >= 0 ? work[at].trajectory(slots[s]) : Trajectory<T>(slots[s]);
-	}
+	/* The way of a body of which that is seen. */
+	Trajectory<T> way_at(int32_t at, int32_t s) const { return at >= 0 ? work[at].trajectory(slots[s]) : Trajectory<T>(slots[s]); }
+
+	Trajectory<T> way_seen(int32_t s) const { return way_at(seen(s), s); }
 
 	/* The number of a body that `by` is to hit, claimed if it is nobody's, and then `added(number)` is called; -1 if it is another cluster's. */
 	template <typename Added> int32_t join(int32_t s, int32_t by, const Added &added)

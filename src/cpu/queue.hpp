@@ -144,16 +144,15 @@ private:
 	 * one for which the pair is, if that is changed in this step, too. */
 	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach, int32_t partner)
 	{
-		const int32_t s = clusters.active[id], other_id = membership.own_number(other), at = membership.seen(other),
-					  seen = at >= 0 ? members[at].events : 0;
-		const Trajectory<T> other_way = membership.way_seen(other);
+		const int32_t s = clusters.active[id], at = membership.seen(other), seen = at >= 0 ? members[at].events : 0;
+		const Trajectory<T> other_way = membership.way_at(at, other);
 		const Disc<T> other_disc(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length);
 		const Outlook<T> outlook(approach, slots[s], disc_of(s, work[id]), slots[other], other_disc);
 		clusters.wake_before(s, outlook.earliest);
-		if (other_id >= 0 && seen > 0)
+		if (seen > 0 && at < clusters.status[STATUS_NUMBERS]) /* a member */
 			clusters.wake_before(other, outlook.earliest);
 		const T first = work[id].next[NEXT_TIME];
-		const bool is_partner = other_id >= 0 && other_id == partner;
+		const bool is_partner = at >= 0 && at == partner;
 		if (!outlook.may_touch || outlook.earliest > first)
 			return;
 		const Found hit = is_partner && with_partner ? *with_partner

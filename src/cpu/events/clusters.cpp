@@ -158,10 +158,17 @@ template <typename T> static void seek(const Job<T> &job)
 	});
 }
 
+/* The number of the body that a number is to hit, -1 if that has none. */
+template <typename T> static int32_t partner_number(const Clusters<T> &clusters, const Work<T> *work, int32_t id)
+{
+	const int32_t other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]);
+	return other < 0 ? -1 : clusters.owners[other];
+}
+
 /* Has its partner been hit by another cluster since the number saw its next event? */
 template <typename T> static bool is_over(const Clusters<T> &clusters, const Work<T> *work, int32_t id)
 {
-	const int32_t other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]), other_id = other < 0 ? -1 : clusters.owners[other];
+	const int32_t other_id = partner_number(clusters, work, id);
 	return other_id >= 0 && clusters.members[other_id].events != clusters.members[id].seen;
 }
 
@@ -202,7 +209,7 @@ template <typename T> static void release(const Job<T> &job)
 	});
 }
 
-/* As a slice begins that is not the first, bodies that hit each other in it are in one cluster. */
+/* As a slice begins that is not the first, bodies that hit each other in it are in one cluster, and with a pile those that it hits in the step. */
 template <typename T> static void pair(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 13);
@@ -211,12 +218,12 @@ template <typename T> static void pair(const Job<T> &job)
 		return;
 	job.pool.run(clusters.status[STATUS_SAVED], 512, [&](int32_t begin, int32_t end) {
 		for (int32_t id = begin; id < end; id++) {
-			const T *const next = work[id].next;
-			if (clusters.active[id] < 0 || clusters.members[id].owner < 0 || next[NEXT_TIME] == NEXT_UNKNOWN)
+			const T time = work[id].next[NEXT_TIME];
+			if (clusters.active[id] < 0 || clusters.members[id].owner < 0 || time == NEXT_UNKNOWN || !(time <= 1))
 				continue;
-			const int32_t other = static_cast<int32_t>(next[NEXT_PARTNER]), other_id = other < 0 ? -1 : clusters.owners[other];
+			const int32_t other_id = partner_number(clusters, work, id);
 			if (other_id >= 0 && clusters.members[other_id].owner >= 0)
-				clusters.unite(clusters.active[id], other);
+				clusters.unite(clusters.active[id], clusters.active[other_id]);
 		}
 	});
 }
@@ -320,10 +327,10 @@ template <typename T> static void check_one(const Clusters<T> &clusters, Work<T>
 {
 	const Member *members = clusters.members;
 	const int32_t s = clusters.active[id], owner = members[id].owner;
-	const T until = clusters.until();
 	const auto round_of = [&](int32_t leader) { return __atomic_load_n(&members[leader].round, __ATOMIC_RELAXED); };
 	if (s < 0 || owner < 0 || clusters.events_of(id) == 0 || round_of(owner) != round)
 		return;
+	const T until = clusters.until();
 	const Span &span = clusters.spans[s];
 	/* Of a pair that was changed in the slice one at least was done in this round, and finds the other; in the slice's first round both were, and one look is enough. In a
 	 * later slice a body that was changed before is to be told, too. */
