@@ -1,9 +1,10 @@
-/* Whatever comes of a wild world, it is the same on every device, with any number of threads, when a run stops and goes on, and whoever looks at whom. */
+/* Whatever comes of a wild world, it is the same on every device, with any number of threads, in however many slices, when a run stops and goes on, and whoever looks at whom. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "layout.h"
 #include "runs.h"
 #include "step/events.h"
 #include "wild.h"
@@ -65,6 +66,17 @@ static outcome run_looking(carom_world *world, uint32_t steps)
 	outcome o = {0};
 	for (uint32_t i = 0; i < steps; i++) {
 		carom_events_drop_lists(world);
+		go_on(world, 1, 1, &o);
+	}
+	return end(world, o);
+}
+
+/* Each step falls into so many slices, as where it is crowded. */
+static outcome run_in_slices(carom_world *world, uint32_t steps, uint32_t slices)
+{
+	outcome o = {0};
+	for (uint32_t i = 0; i < steps; i++) {
+		world->events.slices = slices;
 		go_on(world, 1, 1, &o);
 	}
 	return end(world, o);
@@ -156,6 +168,7 @@ static void check_same(const outcome *first, outcome found, const scenery_device
 static void check_one_outcome(wild_world *wild, uint32_t steps)
 {
 	const scenery_device *cpu = scenery_devices;
+	const uint32_t slices = 2 + wild->count % (SLICES_MOST - 1);
 	wild->def.threads = 1;
 	const outcome first = run(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, 1);
 	print_message("%u bodies, %llu hits\n", (unsigned)wild->count, (unsigned long long)first.hits);
@@ -163,13 +176,16 @@ static void check_one_outcome(wild_world *wild, uint32_t steps)
 	const outcome steered = run_steered(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, true);
 	check_same(&steered, run_steered(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, false), cpu, "steered");
 	wild->def.threads = 2;
+	check_same(&first, run_in_slices(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, slices), cpu, "in slices");
 	check_same(&first, run_in_halves(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps), cpu, "in halves");
 	for (; wild->def.threads <= 3; wild->def.threads++)
 		check_same(&first, run(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, steps), cpu, "step by step");
 	for (const scenery_device *device = scenery_devices + 1; device < scenery_devices + scenery_device_count; device++) {
 		carom_world *world = runs_world(&wild->def, device, wild->bodies, wild->count);
-		if (world)
-			check_same(&first, run(world, steps, 1), device, "in one go");
+		if (!world)
+			continue;
+		check_same(&first, run(world, steps, 1), device, "in one go");
+		check_same(&first, run_in_slices(runs_world(&wild->def, device, wild->bodies, wild->count), steps, slices), device, "in slices");
 	}
 }
 
@@ -184,6 +200,15 @@ static void wild_worlds_have_one_outcome(void **unused)
 		wild_make(seeds[i], &wild);
 		check_one_outcome(&wild, (uint32_t)runs_affordable(120));
 	}
+}
+
+/* Here bodies are held, and a hit upon one of them was counted again with what it was lost with. */
+static void held_bodies_have_one_count(void **unused)
+{
+	(void)unused;
+	static wild_world wild;
+	wild_make_wider(2136, &wild);
+	check_one_outcome(&wild, (uint32_t)runs_affordable(60));
 }
 
 /* For so many seconds, from some seed on: `make wild`. */
@@ -205,7 +230,8 @@ static void other_worlds_have_one_outcome(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest kept[] = {cmocka_unit_test(wild_worlds_have_one_outcome)}, others[] = {cmocka_unit_test(other_worlds_have_one_outcome)};
+	const struct CMUnitTest kept[] = {cmocka_unit_test(wild_worlds_have_one_outcome), cmocka_unit_test(held_bodies_have_one_count)},
+							others[] = {cmocka_unit_test(other_worlds_have_one_outcome)};
 	if (getenv("CAROM_WILD_SECONDS"))
 		return cmocka_run_group_tests_name("events_wild_others", others, NULL, NULL);
 	return cmocka_run_group_tests_name("events_wild", kept, NULL, NULL);

@@ -133,11 +133,11 @@ public:
 		work[id] = work[at];
 	}
 
-	/* Is it held by an event of this slice? */
+	/* Is it held by an event of this slice? (One that was held before has no events, but may have hits.) */
 	bool was_held(int32_t id, const Work<T> *work) const
 	{
 		const int32_t saved = saved_index(id);
-		return work[id].held > 0 && !(saved >= 0 && work[saved].held > 0);
+		return events_of(id) > 0 && work[id].held > 0 && !(saved >= 0 && work[saved].held > 0);
 	}
 
 	bool ready() const { return this->length > 0 && lists_are_good(status) && !forces_are_wanted(status); }

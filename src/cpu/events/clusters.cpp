@@ -245,9 +245,8 @@ template <typename T> static void muster(const Job<T> &job)
 			Member &member = members[id];
 			if (clusters.active[id] < 0 || member.owner < 0 || members[member.owner].round != round)
 				continue;
-			const int32_t root = clusters.owners[clusters.root_of(clusters.active[id])], events = clusters.events_of(id);
-			if (events > 0)
-				lost += {-member.hits, -member.ruled, -clusters.was_held(id, work), events};
+			const int32_t root = clusters.owners[clusters.root_of(clusters.active[id])];
+			lost += {-member.hits, -member.ruled, -clusters.was_held(id, work), clusters.events_of(id)};
 			clusters.go_back(id, work);
 			member.owner = root;
 			member.link = __atomic_exchange_n(&members[root].head, id, __ATOMIC_RELAXED);
