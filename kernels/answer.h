@@ -19,20 +19,28 @@ float4 way_box(body b, float rest, float margin)
 	return (float4)(smaller(b.x.x, end.x) - pad, smaller(b.x.y, end.y) - pad, larger(b.x.x, end.x) + pad, larger(b.x.y, end.y) + pad);
 }
 
-/* The box of the way in the slice grows by what is left of it; false if the body leaves its reach in what is left of the step. */
+/* Where a body's middle gets by that time of the step, as such a box. False if it leaves its reach by then: Need says how far it gets in the step. */
+bool way_until(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(need), int s, trajectory k, float time, float margin, float length, float4 *way)
+{
+	body b = body_of(slots, s, k, length);
+	float4 most = reach[s], at = SLOT_LOAD(slots, s, SLOT_PLACE);
+	*way = way_box(b, time - k.time, margin);
+	if (way->x - b.radius >= most.x && way->y - b.radius >= most.y && way->z + b.radius <= most.z && way->w + b.radius <= most.w)
+		return true;
+	float4 all = way_box(b, 1.0f - k.time, margin);
+	need[s] = as_int(larger(larger(CHANNEL(at, LINEAR_X) - all.x, all.z - CHANNEL(at, LINEAR_X)),
+		larger(CHANNEL(at, LINEAR_Y) - all.y, all.w - CHANNEL(at, LINEAR_Y))));
+	return false;
+}
+
+/* The box of the way in the slice grows by what is left of it; false if the body leaves its reach in it. */
 bool way_grow(RECORD_IN(slots), RECORD_IN(reach), LIST_IN(status), RECORD_OUT(work), LIST_OUT(need), int s, int id, trajectory k, float margin,
 	float length)
 {
-	body b = body_of(slots, s, k, length);
-	float until = slice_end(status, status[STATUS_SLICE]);
-	float4 start = SLOT_LOAD(slots, s, SLOT_PLACE), most = reach[s], box = work[WORK_WIDTH * id + WORK_BOX];
-	float4 all = way_box(b, 1.0f - k.time, margin), slice = until < 1.0f ? way_box(b, until - k.time, margin) : all;
-	float2 at = (float2)(CHANNEL(start, LINEAR_X), CHANNEL(start, LINEAR_Y));
-	work[WORK_WIDTH * id + WORK_BOX] = (float4)(smaller(box.x, slice.x), smaller(box.y, slice.y), larger(box.z, slice.z), larger(box.w, slice.w));
-	if (all.x - b.radius >= most.x && all.y - b.radius >= most.y && all.z + b.radius <= most.z && all.w + b.radius <= most.w)
-		return true;
-	need[s] = as_int(larger(larger(at.x - all.x, all.z - at.x), larger(at.y - all.y, all.w - at.y)));
-	return false;
+	float4 rest, box = work[WORK_WIDTH * id + WORK_BOX];
+	bool stays = way_until(slots, reach, need, s, k, slice_end(status, status[STATUS_SLICE]), margin, length, &rest);
+	work[WORK_WIDTH * id + WORK_BOX] = (float4)(smaller(box.x, rest.x), smaller(box.y, rest.y), larger(box.z, rest.z), larger(box.w, rest.w));
+	return stays;
 }
 
 /* No faster than when the step began. */

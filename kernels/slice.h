@@ -56,11 +56,14 @@ int partner_number(LIST_IN(owners), RECORD_OUT(work), int id)
 	return partner < 0 ? -1 : owners[partner];
 }
 
-/* A number is kept as it is, and leaves its cluster, unless that lies in a pile: it is nobody's in the slice that begins if it hits nothing before that ends. */
-void number_release(LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), LIST_OUT(parents), int id, float until,
-	int round)
+/* A number is kept as it is, and leaves its cluster, unless that lies in a pile: it is nobody's in the slice that begins if it hits nothing before that ends. False if an event has
+ * it leave its reach by then. */
+bool number_release(RECORD_IN(slots), RECORD_IN(reach), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_OUT(need),
+	LIST_IN(owners), LIST_OUT(parents), int id, float until, int round, float length)
 {
 	__global float4 *record = work + WORK_WIDTH * id;
+	float4 way;
+	bool stays = members[MEMBER(id, MEMBER_EVENTS)] == 0 || way_until(slots, reach, need, active[id], work_load(work, id), until, 0.0f, length, &way);
 	bool hits = CHANNEL(record[WORK_NEXT], NEXT_TIME) <= until;
 	int other_id = hits ? partner_number(owners, work, id) : -1;
 	if (other_id >= 0 && members[MEMBER(other_id, MEMBER_EVENTS)] != members[MEMBER(id, MEMBER_SEEN)])
@@ -75,6 +78,7 @@ void number_release(LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_
 	members[MEMBER(id, MEMBER_HITS)] = members[MEMBER(id, MEMBER_RULED)] = 0; /* the step's are counted */
 	parents[active[id]] = active[owner < 0 ? id : owner];
 	state_copy(members, work, id, status[STATUS_NUMBERS] + id);
+	return stays;
 }
 
 /* Two that hit each other in the slice that begins are in one cluster, and with a pile those that it hits in the step. */

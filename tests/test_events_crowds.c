@@ -162,6 +162,40 @@ static void slices_change_no_bit(void **unused)
 	}
 }
 
+/* A ball at rest is hit as the step begins, gets beyond its reach in a later slice, and there hits one of which it did not know; beside many that rest, so that reaches are short. */
+static void what_leaves_its_reach_late_misses_nothing(void **unused)
+{
+	(void)unused;
+	enum { SIDE = 10, COUNT = SIDE * SIDE + 3 };
+	carom_body_def bodies[COUNT];
+	scenery_random random = {8};
+	carom_hit *hits = NULL;
+	size_t hit_count = 0;
+	carom_world_def def = runs_def();
+	def.time_step = 0.1f;
+	def.keep_hits = true;
+	fill_at(&random, SCENERY_CIRCLES, SIDE, 0.5f, 3.0f, 0.01f, bodies);
+	bodies[COUNT - 3] = scenery_circle(-11.5f, 40.0f, 100.0f, 0.0f, 0.5f);
+	bodies[COUNT - 2] = scenery_circle(0.0f, 40.0f, 0.0f, 0.0f, 0.5f);
+	bodies[COUNT - 1] = scenery_circle(7.0f, 40.0f, 0.0f, 0.0f, 0.5f);
+	SCENERY_EACH_DEVICE(device) {
+		for (uint32_t slices = 1; slices <= SLICES_MOST; slices *= 4) {
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			assert_int_equal(runs_step(world, 1).hits, 0);
+			world->events.slices = slices;
+			assert_int_equal(runs_step(world, 1).hits, 2);
+			assert_true(world->events.saves || slices == 1);
+			size_t count;
+			carom_hit *now = runs_hits(world, &count);
+			runs_same_hits(&hits, &hit_count, now, count);
+			carom_world_destroy(world);
+		}
+	}
+	free(hits);
+}
+
 /* Where most of a step's work would be lost it gets slices by itself, and none where it is not crowded. */
 static void crowded_steps_get_slices(void **unused)
 {
@@ -344,7 +378,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(crowds_keep_energy_and_momentum), cmocka_unit_test(twenty_thousand_circles),
 		cmocka_unit_test(little_or_nothing_in_a_room), cmocka_unit_test(changed_worlds_are_as_new_ones), cmocka_unit_test(slices_change_no_bit),
-		cmocka_unit_test(crowded_steps_get_slices), cmocka_unit_test(accumulate_adds_no_energy_to_events), cmocka_unit_test(narrow_faces_keep_energy),
-		cmocka_unit_test(a_throng_is_a_limit)};
+		cmocka_unit_test(what_leaves_its_reach_late_misses_nothing), cmocka_unit_test(crowded_steps_get_slices),
+		cmocka_unit_test(accumulate_adds_no_energy_to_events), cmocka_unit_test(narrow_faces_keep_energy), cmocka_unit_test(a_throng_is_a_limit)};
 	return cmocka_run_group_tests_name("events_crowds", tests, NULL, NULL);
 }

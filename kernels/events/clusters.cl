@@ -37,10 +37,12 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 }
 
 /* If the slice before is done, and the step has another: that begins. */
-__kernel void events_release(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners),
-	LIST_OUT(parents), int4 domain)
+__kernel void events_release(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
+	LIST_OUT(need), LIST_IN(owners), LIST_OUT(parents), int4 domain)
 {
 	int count = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
+	float length = step_length(TEX(uniforms), TEX(clock)), until = slice_end(status, status[STATUS_SLICE] + 1);
+	bool stays = true;
 	if (status[STATUS_ROUND] != domain.z - 1 || is_last_slice(status))
 		return;
 	if (get_global_id(0) == 0) {
@@ -49,7 +51,9 @@ __kernel void events_release(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECOR
 	}
 	for (int id = get_global_id(0); id < count; id += get_global_size(0))
 		if (active[id] >= 0)
-			number_release(status, members, active, work, owners, parents, id, slice_end(status, status[STATUS_SLICE] + 1), domain.z);
+			stays = number_release(slots, reach, status, members, active, work, need, owners, parents, id, until, domain.z, length) && stays;
+	if (!stays)
+		atomic_or(&status[STATUS_LEFT], 1);
 }
 
 __kernel void events_pair(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners),

@@ -9,6 +9,7 @@
 #include "cpu/membership.hpp"
 #include "cpu/shock.hpp"
 #include "cpu/sieve.hpp"
+#include "cpu/ways.hpp"
 
 #include <optional>
 
@@ -18,10 +19,10 @@ namespace carom::cpu {
 template <typename T> class Queue
 {
 public:
-	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Box<T> *reach, int32_t *needs, const int32_t *touching_counts,
+	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Ways<T> &all_ways, const int32_t *touching_counts,
 		const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
-		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), boxes(reach),
-		  need(needs), heap(all.members, work_of, room), membership(all, work_of, number, in_round),
+		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), ways(all_ways),
+		  heap(all.members, work_of, room), membership(all, work_of, number, in_round),
 		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr), until(all.until())
 	{
 	}
@@ -33,7 +34,7 @@ public:
 		if (membership.is_in_pile() && !membership.take_near())
 			return count();
 		membership.each([this](int32_t m) {
-			__builtin_prefetch(&boxes[clusters.active[m]]); /* to be asked when it was hit */
+			ways.fetch(clusters.active[m]); /* to be asked when it was hit */
 			recall(m);
 			heap.add(m);
 		});
@@ -290,31 +291,13 @@ private:
 		widen(s, id, way);
 	}
 
-	/* Adds the way that is left of the slice to the box of all of it. If what is left of the step leaves the reach the step begins again, but goes on as long
-	 * as it tells what others need, too. */
+	/* Adds the way that is left of the slice to the box of all of it. */
 	void widen(int32_t s, int32_t id, const Trajectory<T> &way, T margin = 0)
 	{
-		const Body<T> body = clusters.body(slots[s], way);
-		const Box<T> in_step = left(body, 1 - way.time, margin), in_slice = until < 1 ? left(body, until - way.time, margin) : in_step;
+		const Box<T> rest = ways.until(until, s, way, margin);
 		T *box = work[id].box;
-		box[0] = std::min(box[0], in_slice.min_x), box[1] = std::min(box[1], in_slice.min_y);
-		box[2] = std::max(box[2], in_slice.max_x), box[3] = std::max(box[3], in_slice.max_y);
-		const Box<T> &most = boxes[s];
-		if (in_step.min_x - body.radius >= most.min_x && in_step.min_y - body.radius >= most.min_y && in_step.max_x + body.radius <= most.max_x
-			&& in_step.max_y + body.radius <= most.max_y)
-			return;
-		need[s] = as_bits(static_cast<float>(in_step.half(slots[s].place)));
-		__atomic_store_n(&clusters.status[STATUS_LEFT], 1, __ATOMIC_RELAXED);
-	}
-
-	/* Where its middle gets in such a part of the step. */
-	static Box<T> left(const Body<T> &body, T rest, T margin)
-	{
-		const T size = std::abs(body.x.x()) + std::abs(body.x.y()) + body.radius;
-		const T pad = T(0.125) * rest * rest * (std::abs(body.a.x()) + std::abs(body.a.y())) + size * T(4 * SLOP) + margin;
-		const Vec<T> end = body.place_at(rest);
-		return {std::min(body.x.x(), end.x()) - pad, std::min(body.x.y(), end.y()) - pad, std::max(body.x.x(), end.x()) + pad,
-			std::max(body.x.y(), end.y()) + pad};
+		box[0] = std::min(box[0], rest.min_x), box[1] = std::min(box[1], rest.min_y);
+		box[2] = std::max(box[2], rest.max_x), box[3] = std::max(box[3], rest.max_y);
 	}
 
 	/* What a finished cluster did; of one that is given up all is lost. */
@@ -341,8 +324,7 @@ private:
 	const Slot<T> *const slots;
 	Member *const members;
 	Work<T> *const work;
-	const Box<T> *const boxes;
-	int32_t *const need;
+	const Ways<T> &ways;
 	Heap<T> heap;
 	Membership<T> membership;
 	const int32_t *const touching; /* where forces bear what rests: the step contacts */

@@ -176,7 +176,8 @@ template <typename T> static bool is_over(const Clusters<T> &clusters, const Wor
  * in the next one, and all is kept as it is. */
 template <typename T> static void release(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 13);
+	const Clusters<T> clusters(job, 15);
+	const Ways<T> ways(clusters, job.records(13), job.list(14));
 	int32_t *const status = clusters.status;
 	Member *const members = clusters.members;
 	Work<T> *const work = reinterpret_cast<Work<T> *>(job.records(12));
@@ -194,6 +195,8 @@ template <typename T> static void release(const Job<T> &job)
 				continue;
 			Member &member = members[id];
 			T *const next = work[id].next;
+			if (member.events > 0)
+				ways.until(until, s, work[id].trajectory(clusters.slots[s]));
 			if (next[NEXT_TIME] <= until && is_over(clusters, work, id))
 				next[NEXT_TIME] = NEXT_UNKNOWN;
 			if (member.owner < 0 || !members[member.owner].pile)
@@ -281,7 +284,7 @@ template <typename T> static void resolve(const Job<T> &job)
 	if (clusters.status[STATUS_ROUND] < round)
 		return;
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(12));
-	const Box<T> *boxes = reinterpret_cast<const Box<T> *>(job.records(13));
+	const Ways<T> ways(clusters, job.records(13), job.list(14));
 	const Hits<T> hits(job.records(19), job.list(6));
 	const int32_t count = clusters.status[STATUS_SEEDS];
 	const bool is_to_fetch = fetches(clusters, count, round);
@@ -293,7 +296,7 @@ template <typename T> static void resolve(const Job<T> &job)
 			if (is_to_fetch)
 				fetch_active(clusters, id, count, false);
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
-				tally += Queue<T>(clusters, rubs, work, boxes, job.list(14), job.list(18), hits, id, round, room).run();
+				tally += Queue<T>(clusters, rubs, work, ways, job.list(18), hits, id, round, room).run();
 		}
 		tally.add_to(clusters.status);
 	});
