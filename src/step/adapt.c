@@ -10,6 +10,7 @@
 #define PATIENCE 4    /* of them, with lists that were too short: from then on each making has the slowest bodies get twice as far */
 #define MOST_DOUBLINGS 20
 #define LOST_LEAST 256     /* events in a slice: for less another is not worth its kernels */
+#define SLICES_SOME 4      /* as some are to one, SLICES_MOST are to some */
 #define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
 #define GOOD_LISTS 4       /* made in a row that were good to the end: the next may be used a step longer */
 
@@ -27,14 +28,15 @@ static void adapt_reach(carom_world *world, const int32_t *status)
 	}
 }
 
-/* With twice as many slices about half as much of the work is lost: there are more where it was more than half of all, fewer where less than an eighth. */
+/* There are more slices where more than half of all work was lost, fewer where less than a ninth; one, some or many, for with two clusters may still run into one another all over the
+ * room, and what is between loses little. */
 void carom_events_adapt_slices(carom_events *events, int32_t *status)
 {
 	const int64_t lost = status[STATUS_LOST], answered = 2 * (int64_t)status[STATUS_ANSWERED], worth = LOST_LEAST * (int64_t)status[STATUS_STEPS];
-	if (7 * lost < answered && events->slices > 1)
-		events->slices /= 2;
-	for (int64_t bound = answered; bound > 0 && lost > bound && lost > worth * events->slices && events->slices < SLICES_MOST; bound *= 2)
-		events->slices *= 2;
+	if (8 * lost < answered && events->slices > 1)
+		events->slices = events->slices > SLICES_SOME ? SLICES_SOME : 1;
+	for (int64_t bound = answered; bound > 0 && lost > bound && lost > worth * events->slices && events->slices < SLICES_MOST; bound *= SLICES_SOME)
+		events->slices *= SLICES_SOME;
 	status[STATUS_LOST] = status[STATUS_ANSWERED] = 0;
 	status[STATUS_SLICES] = events->saves ? (int32_t)events->slices : 1;
 }
