@@ -127,7 +127,7 @@ int join(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OU
 	if (owner == leader)
 		return other;
 	conflict(status, members, active, parents, leader, owner, round);
-	if (slice_events(status, members, id) >= PILE_EVENTS)
+	if (slice_events(members, id) >= PILE_EVENTS)
 		members[MEMBER(leader, MEMBER_PILE)] = 1;
 	if (round - status[STATUS_BEGUN] >= SPREAD_ROUND)
 		spread(LISTS, owners, parents, leader, head, round);

@@ -220,7 +220,7 @@
 #define PILE_GAP 0.5f
 
 /* Members: fifteen ints a number */
-#define MEMBER_WIDTH 15
+#define MEMBER_WIDTH 16
 #define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
 #define MEMBER_LINK 2     /* next member of the cluster, -1 for none */
@@ -236,6 +236,7 @@
 #define MEMBER_RULED 12   /* of its hits: those that were answered otherwise than by their restitution */
 #define MEMBER_KEPT 13    /* the first of its hits in Hits, -1 for none */
 #define MEMBER_PILE 14    /* 1: it led a cluster that lies in a pile, in this step */
+#define MEMBER_BEGUN 15   /* EVENTS, as the slice began */
 
 /* Owners: the number of the body in the slot, -1 for none, -2: just being given one; Active: the slot of the number, -1 for none; Parents: union-find of slots */
 

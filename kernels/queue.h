@@ -131,7 +131,7 @@ void cluster_count(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_I
 		held += slice_holds(status, work, m) ? 1 : 0;
 		if (!finished)
 			lost += go_back(slots, status, members, active, work, m);
-		else if (!is_last_slice(status) && slice_events(status, members, m) >= PILE_EVENTS)
+		else if (!is_last_slice(status) && slice_events(members, m) >= PILE_EVENTS)
 			members[MEMBER(members[MEMBER(m, MEMBER_OWNER)], MEMBER_PILE)] = 1; /* it stays together */
 	}
 	if (finished && hits > 0)
@@ -309,7 +309,7 @@ int meeting(VERTICES_IN, RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), R
 	bool meet = !(a.x - reach > b.z || a.z + reach < b.x || a.y - reach > b.w || a.w + reach < b.y), pause;
 	if (!meet && !(until < 1.0f))
 		return MEETING_NONE;
-	if (meet && (slice_events(status, members, id) > 1 || slice_events(status, members, other_id) > 1))
+	if (meet && (slice_events(members, id) > 1 || slice_events(members, other_id) > 1))
 		return MEETING_NOW;
 	trajectory k = work_load(work, id), o = work_load(work, other_id);
 	if (stay_apart(disc_of_trajectory(slots, s, k, length), disc_of_trajectory(slots, other, o, length)))
@@ -323,7 +323,7 @@ void number_check(VERTICES_IN, RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIS
 	float length)
 {
 	int s = active[id], owner = members[MEMBER(id, MEMBER_OWNER)];
-	if (s < 0 || owner < 0 || slice_events(status, members, id) == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != round)
+	if (s < 0 || owner < 0 || slice_events(members, id) == 0 || PEEK(members, MEMBER(owner, MEMBER_ROUND)) != round)
 		return;
 	/* Of a pair that was changed in the slice one at least was done in this round, and finds the other; in the first round both were, and one look is enough. What was changed
 	 * in an earlier slice finds nobody any more. */
@@ -340,9 +340,8 @@ void number_check(VERTICES_IN, RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIS
 			int theirs = members[MEMBER(other_id, MEMBER_OWNER)];
 			if (theirs == owner || (theirs >= 0 && PEEK(members, MEMBER(theirs, MEMBER_ROUND)) > round))
 				continue;
-			int what = slice_events(status, members, other_id) > 0
-				? meeting(VERTICES, slots, status, members, work, rules, s, id, other, other_id, length)
-				: MEETING_NONE;
+			int what = slice_events(members, other_id) > 0 ? meeting(VERTICES, slots, status, members, work, rules, s, id, other, other_id, length)
+														   : MEETING_NONE;
 			if (what == MEETING_NOW)
 				conflict(status, members, active, parents, owner, theirs, round);
 			if (what == MEETING_LATER)

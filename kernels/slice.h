@@ -7,10 +7,9 @@ INLINE int saved_index(LIST_IN(status), int id)
 }
 
 /* A number's events in the slice. */
-int slice_events(LIST_IN(status), LIST_OUT(members), int id)
+INLINE int slice_events(LIST_OUT(members), int id)
 {
-	int saved = saved_index(status, id), events = members[MEMBER(id, MEMBER_EVENTS)];
-	return saved < 0 ? events : events - members[MEMBER(saved, MEMBER_EVENTS)];
+	return members[MEMBER(id, MEMBER_EVENTS)] - members[MEMBER(id, MEMBER_BEGUN)];
 }
 
 bool is_held(RECORD_OUT(work), int index)
@@ -39,7 +38,7 @@ void state_copy(LIST_OUT(members), RECORD_OUT(work), int from, int to)
 /* The number is as when the slice began; how many events are lost. */
 int go_back(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), int id)
 {
-	int saved = saved_index(status, id), events = slice_events(status, members, id);
+	int saved = saved_index(status, id), events = slice_events(members, id);
 	if (saved < 0) {
 		work_begin(slots, members, work, active[id], id);
 		return events;
@@ -75,6 +74,7 @@ bool number_release(RECORD_IN(slots), RECORD_IN(reach), LIST_IN(status), LIST_OU
 	members[MEMBER(id, MEMBER_OWNER)] = owner;
 	members[MEMBER(id, MEMBER_ROUND)] = owner == id ? round : 0;
 	members[MEMBER(id, MEMBER_HEAD)] = -1;
+	members[MEMBER(id, MEMBER_BEGUN)] = members[MEMBER(id, MEMBER_EVENTS)];
 	members[MEMBER(id, MEMBER_HITS)] = members[MEMBER(id, MEMBER_RULED)] = 0; /* the step's are counted */
 	parents[active[id]] = active[owner < 0 ? id : owner];
 	state_copy(members, work, id, status[STATUS_NUMBERS] + id);
@@ -97,7 +97,7 @@ void number_muster(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_I
 	int id)
 {
 	int root_slot = active[id], hits = members[MEMBER(id, MEMBER_HITS)], ruled = members[MEMBER(id, MEMBER_RULED)];
-	bool held = slice_events(status, members, id) > 0 && slice_holds(status, work, id);
+	bool held = slice_events(members, id) > 0 && slice_holds(status, work, id);
 	int lost = go_back(slots, status, members, active, work, id);
 	while (parents[root_slot] != root_slot) /* nobody changes that now */
 		root_slot = parents[root_slot];

@@ -12,7 +12,7 @@ template <typename T> void begin_anew(Member &member, Work<T> &work, const Slot<
 	work.keep(Trajectory<T>(slot));
 	work.next[NEXT_TIME] = NO_HIT;
 	work.empty_box();
-	member.events = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
+	member.events = member.begun = member.rapid = member.stuck = member.fast = member.hits = member.ruled = 0;
 	member.kept = -1;
 }
 
@@ -114,11 +114,7 @@ public:
 	int32_t saved_index(int32_t id) const { return id >= 0 && id < status[STATUS_SAVED] ? status[STATUS_NUMBERS] + id : -1; }
 
 	/* A number's events in the slice. */
-	int32_t events_of(int32_t id) const
-	{
-		const int32_t saved = saved_index(id);
-		return members[id].events - (saved >= 0 ? members[saved].events : 0);
-	}
+	int32_t events_of(int32_t id) const { return members[id].events - members[id].begun; }
 
 	/* The number goes back to the state in which the slice began. */
 	void go_back(int32_t id, Work<T> *work) const

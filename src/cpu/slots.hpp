@@ -71,9 +71,10 @@ struct Member {
 	int32_t ruled; /* of the hits */
 	int32_t kept;  /* the first of them in Hits, -1 for none */
 	int32_t unused;
-	int32_t pile; /* 1: it led a cluster that lies in a pile, in this step */
+	int32_t pile;  /* 1: it led a cluster that lies in a pile, in this step */
+	int32_t begun; /* events, as the slice began */
 
-	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0}; }
+	void reset() { *this = {0, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0}; }
 };
 
 static_assert(sizeof(Member) == MEMBER_WIDTH * sizeof(int32_t) && offsetof(Member, hits) == MEMBER_HITS * sizeof(int32_t)

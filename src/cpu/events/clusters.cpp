@@ -204,6 +204,7 @@ template <typename T> static void release(const Job<T> &job)
 			member.round = member.owner == id ? round : 0;
 			member.hits = member.ruled = 0;
 			member.head = -1;
+			member.begun = member.events;
 			work[id].empty_box();
 			clusters.parents[s] = clusters.active[member.owner < 0 ? id : member.owner];
 			members[numbers + id] = member;
