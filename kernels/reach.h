@@ -155,7 +155,8 @@ void member_reset(LIST_OUT(members), int id)
 {
 	__global int *m = members + MEMBER(id, 0);
 	m[MEMBER_OWNER] = m[MEMBER_LINK] = m[MEMBER_HEAD] = m[MEMBER_KEPT] = -1;
-	m[MEMBER_EVENTS] = m[MEMBER_BEGUN] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = m[MEMBER_RULED] = m[MEMBER_PILE] = 0;
+	m[MEMBER_EVENTS] = m[MEMBER_BEGUN] = m[MEMBER_RAPID] = m[MEMBER_STUCK] = m[MEMBER_SEEN] = m[MEMBER_ROUND] = m[MEMBER_HITS] = m[MEMBER_RULED] =
+		m[MEMBER_PILE] = 0;
 }
 
 /* What a step that was not done has left of its clusters. */
