@@ -219,7 +219,7 @@
 #define PILE_EVENTS 8
 #define PILE_GAP 0.5f
 
-/* Members: fifteen ints a number */
+/* Members: sixteen ints a number */
 #define MEMBER_WIDTH 16
 #define MEMBER_STUCK 0    /* its last events, one after the other, that were rapid and slow hits; and STUCK_FAST, if one in the step was not slow */
 #define MEMBER_OWNER 1    /* number of the cluster's leader */
