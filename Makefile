@@ -184,13 +184,12 @@ $(FOREIGN).gch: src/cpu/foreign.hpp $(BUILD)/flags | $(BUILD)/needs
 	@cp $< $(FOREIGN)
 	$(call say,CXX) $(CXX) $(ALL_CXXFLAGS) -x c++-header -o $@ $(FOREIGN)
 
-$(FOREIGN).gch: private PACKAGES := $(EIGEN)
 OF_CPU := $(filter $(BUILD)/src/cpu/%,$(LIBRARY_OBJECTS)) $(BUILD)/cpu_stages.o
 $(OF_CPU): private CXXFLAGS += -include $(FOREIGN)
 $(OF_CPU): $(FOREIGN).gch
 
 # Third parties and insides are kept out of where they don't belong by what is on the include path.
-$(BUILD)/src/cpu/%.o $(BUILD)/cpu_stages.o: private PACKAGES := $(EIGEN)
+$(OF_CPU) $(FOREIGN).gch: private PACKAGES := $(EIGEN)
 $(BUILD)/tools/%.o: private PACKAGES :=
 $(BUILD)/tools/%.o: private INCLUDES := -Iinclude
 $(call object,$(wildcard tools/carom_plot*.c)): private PACKAGES := $(CAIRO_INCLUDES)
