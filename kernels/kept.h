@@ -57,16 +57,16 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_
 	}
 }
 
-/* What the next step begins with, in N: the mean of a force and of what there was before, or that force alone. */
-float force_mean(float force, float before, bool lasts, float length)
+/* What the next step begins with, in N: the mean of a force and of what there was before, or that force alone. What was there `bears`: it stays. */
+float force_mean(float force, float before, bool lasts, bool bears, float length)
 {
 	float now = (force / length) / length;
-	return lasts ? before + WARM_FOLLOW * (now - before) : now;
+	return !lasts ? now : bears ? before : before + WARM_FOLLOW * (now - before);
 }
 
 /* In the place of a body's forces, where such began this step. */
 void forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
-	float length)
+	bool bears, float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
@@ -75,18 +75,18 @@ void forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 		if (!last_forces_of(slots, warm, warm_counts, s, other, rub, &last))
 			continue;
 		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f;
-		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, length);
+		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, bears, length);
 		if (rub)
-			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, length);
+			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, bears, length);
 	}
 }
 
 /* Keeps the forces on a body, in such a step, for the next one. */
 void forces_keep(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_counts), int s,
-	bool rub, float length)
+	bool rub, bool bears, float length)
 {
 	int body = slot_body(slots, s), count = 0, before = PARTNER_NONE;
-	forces_mean(slots, contacts, grips, touching, warm, warm_counts, s, rub, length);
+	forces_mean(slots, contacts, grips, touching, warm, warm_counts, s, rub, bears, length);
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];

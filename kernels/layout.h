@@ -357,7 +357,7 @@
 /* Warm: the forces that the last steps ended with, as means that follow the last one by WARM_FOLLOW: what a step ends with makes up for what the one before
  * left within its tolerance, and so differs from what bears. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies
  * rub two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations
- * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. */
+ * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. What bears without another iteration is kept as it is. */
 #define WARM_WIDTH(rub) ((rub) ? 2 : 1)
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */
@@ -444,6 +444,7 @@
 #define STATUS_PASS 30   /* of the step: 0: not begun yet, */
 #define PASS_IMPULSES 1  /* what comes together is stopped, */
 #define PASS_FORCES 2    /* and borne */
+#define STATUS_BEARS 47  /* 1: what the pass began with does it, within its tolerance: no second iteration was wanted */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */
@@ -515,7 +516,14 @@
  * GRIP_BLEND of what is missing: in many iterations the two would drive each other on, and so would friction that has more momentum than GRIP_MOMENTUM. What does not slide may
  * creep by GRIP_CREEP of what normal forces are found within: little is left of that when coordinates are rounded; what slides is slowed within a
  * GRIP_SLIDE of it; each GRIP_PATIENCE iterations this may be twice as much: what moves on needs no more, and what lies still comes to it in a few steps.
- * Where bodies rub and slide impulses come to no end: GRIP_IMPULSES iterations do, for what those leave is a hit. */
+ * Where bodies rub and slide impulses come to no end: GRIP_IMPULSES iterations do, for what those leave is a hit. In the first iteration twice as much counts,
+ * GRIP_BEGUN: so a step may need no more, and then its forces are those of the next one, too.
+ *
+ * A body that rubs at all points, two at least, comes to rest where it touches what is at rest, moves in a step by less than STILL_SPEED of what forces are found within, and gets no
+ * faster but by less than STILL_PUSH of that. One at rest stays where its forces leave less than STILL_PUSH. */
+#define STILL_SPEED 0.125f
+#define STILL_PUSH 0.015625f
+#define GRIP_BEGUN 2.0f
 #define GRIP_FOLLOW 16
 #define GRIP_BLEND 0.0625f
 #define GRIP_MOMENTUM 0.9375f

@@ -220,7 +220,7 @@ int4 grips_iterate(RECORD_OUT(grips), int s, int four, float4 force, const ways 
 	at[GRIP_BOUND] = most;
 	at[GRIP_START] = held + beta * (held - at[GRIP_FORCE]);
 	at[GRIP_FORCE] = held;
-	tolerance *= (float)(1 << done / GRIP_PATIENCE);
+	tolerance *= done == 0 ? GRIP_BEGUN : (float)(1 << done / GRIP_PATIENCE);
 	return fabs(held) < most ? fabs(slip) > GRIP_CREEP * tolerance : fabs(allowed - most) > (GRIP_SLIDE * tolerance) * step;
 }
 

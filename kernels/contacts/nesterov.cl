@@ -7,14 +7,14 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 	bool waits = iterations_are_wanted(status);
 	if (status[STATUS_PASS] == 0)
 		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
-	if (!(step_length(TEX(uniforms), TEX(clock)) > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
-		return;
-	if (!waits && status[STATUS_PASS] == PASS_FORCES)
+	if (!(step_length(TEX(uniforms), TEX(clock)) > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY]
+		|| (!waits && status[STATUS_PASS] == PASS_FORCES))
 		return;
 	status[STATUS_HANDED] = domain.w;
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
+	status[STATUS_BEARS] = 1;
 	status[STATUS_PASS]++;
 }
 
@@ -57,12 +57,11 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 {
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
-	bool alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
+	bool again, alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	int most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
-	bool again;
 	do {
 		bool wanted = false;
 		int now = (status[STATUS_FIRST] + done) & 1;
@@ -80,6 +79,8 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 	} while (again && alone);
 	if (again && get_local_id(0) == 0)
 		atomic_max(&status[STATUS_WANTED], domain.z + 1);
+	if ((again || done > domain.z + 1 - status[STATUS_FIRST]) && get_local_id(0) == 0)
+		atomic_and(&status[STATUS_BEARS], 0);
 }
 
 __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
@@ -92,8 +93,8 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 		status[STATUS_BORNE] = 1;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		float4 sum = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), (float4)(0.0f, 0.0f, 0.0f, 0.0f));
-		slot_take(slots, status, s, sum, length);
+		slot_take(slots, status, s, rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), (float4)(0.0f)), length);
+		slot_stay(slots, status, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), length);
 		if (slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z)) /* lists made anew for this step know none of this */
 			need[s] = as_int(way_ahead(slots, s, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)));
 	}
@@ -103,15 +104,17 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 __kernel void contacts_release(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_IN(touching),
 	RECORD_OUT(grips), RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm), LIST_OUT(warm_counts), int4 domain)
 {
-	bool again = domain.w;
+	bool again = domain.w, rub = anything_rubs(TEX(uniforms));
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH); /* of the step that is done: the clock has gone on */
 	if (!status[STATUS_BORNE] || (status[STATUS_PASS] > 0) != again)
 		return;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		slot_restore(slots, pushes, s, again);
-		if (!again)
-			forces_keep(slots, contacts, grips, touching, warm, warm_counts, s, anything_rubs(TEX(uniforms)), length);
+		if (!again) {
+			slot_come_to_rest(slots, contacts, grips, touching, pushes, s, rub, length);
+			forces_keep(slots, contacts, grips, touching, warm, warm_counts, s, rub, status[STATUS_BEARS], length);
+		}
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 	}
 }

@@ -13,7 +13,7 @@
 /* Each header stands after those it needs. */
 static const char *const headers[2][32] = {
 	{"layout", "texture", "numbers", "filter", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach",
-		"cluster", "around", "mend", "roster", "answer", "slice", "heap", "team", "join", "rest", "shock", "queue", "seek", "load", "kept"},
+		"cluster", "around", "mend", "roster", "answer", "slice", "heap", "team", "join", "rest", "shock", "queue", "seek", "load", "kept", "still"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "tiles", "light"},
 };
 

@@ -1,6 +1,6 @@
 /* The forces between bodies that rest on each other: a projected gradient, accelerated as Nesterov did. */
 #include "cpu/response.hpp"
-#include "cpu/rests.hpp"
+#include "cpu/still.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -14,25 +14,6 @@ template <typename T> static T gives(const Slot<T> &slot, T arm)
 {
 	return slot.mass[MASS_INVERSE] + slot.mass[MASS_INVERSE_INERTIA] * (arm * arm);
 }
-
-/* Of a slot, before the step. */
-template <typename T> struct Kept {
-	T push[4], velocities[4];
-
-	void keep(const Slot<T> &slot)
-	{
-		std::copy_n(slot.push, PUSH_BODY, push);
-		velocities[0] = slot.place[LINEAR_VX], velocities[1] = slot.place[LINEAR_VY], velocities[2] = slot.turn[TURN_VELOCITY];
-	}
-
-	/* But for which body it is, which others look at meanwhile. */
-	void restore(Slot<T> &slot, bool with_velocities) const
-	{
-		std::copy_n(push, PUSH_BODY, slot.push);
-		if (with_velocities)
-			slot.place[LINEAR_VX] = velocities[0], slot.place[LINEAR_VY] = velocities[1], slot.turn[TURN_VELOCITY] = velocities[2];
-	}
-};
 
 template <typename T> static void begin(const Job<T> &job)
 {
@@ -49,6 +30,7 @@ template <typename T> static void begin(const Job<T> &job)
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
+	status[STATUS_BEARS] = 1;
 	status[STATUS_PASS]++;
 }
 
@@ -214,7 +196,7 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 	const Lanes<T> pushed = grips.start - rate * grips.step;
 	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = magnitude(held);
 	const Lanes<T> left = size < most ? rate : allowed - most;
-	const Lanes<T> tolerance = static_cast<T>(1 << done / GRIP_PATIENCE) * points.tolerance;
+	const Lanes<T> tolerance = (done == 0 ? T(GRIP_BEGUN) : static_cast<T>(1 << done / GRIP_PATIENCE)) * points.tolerance;
 	wanted |= magnitude(left) > (size < most ? T(GRIP_CREEP) * tolerance : (T(GRIP_SLIDE) * tolerance) * grips.step);
 	grips.bound = most;
 	grips.start = held + beta * (held - grips.force);
@@ -296,8 +278,10 @@ template <typename T> static void iterate(const Job<T> &job)
 	if (rests.status[STATUS_WANTED] != number)
 		return;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
-		if (some(rests, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
+		if (some(rests, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number) {
 			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
+			__atomic_store_n(&rests.status[STATUS_BEARS], 0, __ATOMIC_RELAXED);
+		}
 	});
 }
 
@@ -324,6 +308,8 @@ template <typename T> static void apply(const Job<T> &job)
 				slots[s].push[PUSH_X] += x / rests.length;
 				slots[s].push[PUSH_Y] += y / rests.length;
 				slots[s].push[PUSH_TORQUE] += torque / rests.length;
+				if (stays_still(rests, s))
+					slots[s].push[PUSH_X] = slots[s].push[PUSH_Y] = slots[s].push[PUSH_TORQUE] = 0;
 			}
 			if (keeper.pushed(s)) /* lists that are made anew for this step, without the forces, have to be long enough */
 				need[s] = as_bits(static_cast<float>(keeper.way_of(slots[s])));
@@ -340,9 +326,10 @@ template <typename T> static void find_means(const Rests<T> &rests, int32_t s, T
 		if (point == 0)
 			last = warm.of(slot.body(), partner.key(rests.slots));
 		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
+		const T follow = rests.status[STATUS_BEARS] ? T(0) : T(WARM_FOLLOW);
 		const auto mean = [&](T force, T before) {
 			const T now = (force / length) / length;
-			return lasts ? before + T(WARM_FOLLOW) * (now - before) : now;
+			return lasts ? before + follow * (now - before) : now;
 		};
 		points.force[i] = mean(points.force[i], last.normal[point]);
 		if (rests.rubs)
@@ -380,6 +367,8 @@ template <typename T> static void release(const Job<T> &job)
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
 			kept[s].restore(slots[s], again);
+			if (!again && comes_to_rest(rests, s, kept, length))
+				slots[s].place[LINEAR_VX] = slots[s].place[LINEAR_VY] = slots[s].turn[TURN_VELOCITY] = 0;
 			if (!again)
 				keep_forces(rests, s, length, warm);
 			keeper.pushed(s);

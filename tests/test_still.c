@@ -1,0 +1,149 @@
+/* What lies still, by the step contacts: bodies that rub come to rest, to the bit, and stay until something moves them; and what must move does. On every device.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <string.h>
+
+#include "runs.h"
+
+#define SIDE 6
+#define PYRAMID (SIDE * (SIDE + 1) / 2)
+
+static carom_body_def box_at(float x, float y)
+{
+	return scenery_box(x, y, 0.0f, 0.0f, 1.0f, 1.0f);
+}
+
+static carom_world_def ground(float friction)
+{
+	carom_world_def def = runs_resting("contacts", 200.0f, 100.0f);
+	def.restitution = 0.0f;
+	def.friction = friction;
+	return def;
+}
+
+static bool is_at_rest(const carom_body_state *state)
+{
+	return state->velocity.x == 0.0f && state->velocity.y == 0.0f && state->angular_velocity == 0.0f;
+}
+
+static carom_world *pyramid(const scenery_device *device)
+{
+	carom_world_def def = ground(0.5f);
+	carom_body_def boxes[PYRAMID];
+	int k = 0;
+	for (int row = 0; row < SIDE; row++)
+		for (int column = 0; column < SIDE - row; column++)
+			boxes[k++] = box_at(((float)column - 0.5f * (float)(SIDE - row - 1)) * 1.02f, 0.5005f + 1.0005f * (float)row);
+	return runs_world(&def, device, boxes, PYRAMID);
+}
+
+/* A pyramid comes to rest, and then nothing changes, not in a bit; what hits it moves it again, and it comes to rest once more. */
+static void a_pyramid_comes_to_rest(void **unused)
+{
+	uint64_t first = 0, later = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = pyramid(device);
+		carom_body_state before[PYRAMID];
+		carom_error error;
+		if (!world)
+			continue;
+		runs_step(world, 240);
+		for (uint32_t k = 0; k < PYRAMID; k++) {
+			before[k] = runs_state(world, k);
+			assert_true(is_at_rest(&before[k]));
+		}
+		runs_same_hash(&first, runs_hash(world), device);
+		runs_step(world, 60);
+		for (uint32_t k = 0; k < PYRAMID; k++) {
+			const carom_body_state now = runs_state(world, k);
+			assert_memory_equal(&now, &before[k], sizeof now);
+		}
+		before[PYRAMID - 1].velocity.x = 0.5f;
+		scenery_check(carom_world_set_states(world, PYRAMID - 1, 1, &before[PYRAMID - 1], &error), &error);
+		runs_step(world, 240);
+		for (uint32_t k = 0; k < PYRAMID; k++) {
+			const carom_body_state now = runs_state(world, k);
+			assert_true(is_at_rest(&now));
+			assert_true(k < PYRAMID - 1 || now.position.x > before[k].position.x + 0.01f);
+		}
+		runs_same_hash(&later, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
+/* What friction holds by a hundredth lies still; what it fails to hold by a hundredth slides as Coulomb says, from rest on; a ball alone rolls away, however little the ground leans. */
+static void what_is_not_held_starts(void **unused)
+{
+	const double friction = 0.5, g = (double)RUNS_GRAVITY, seconds = 5.0;
+	static const double leans[] = {0.495, 0.505, 0.001};
+	(void)unused;
+	for (int i = 0; i < 3; i++) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = ground((float)friction);
+			carom_body_def body = i < 2 ? box_at(0.0f, 0.5005f) : scenery_circle(0.0f, 0.5005f, 0.0f, 0.0f, 0.5f);
+			carom_world *world = runs_world(&def, device, &body, 1);
+			carom_error error;
+			if (!world)
+				continue;
+			runs_step(world, 60);
+			carom_body_state state = runs_state(world, 0);
+			const double from = (double)state.position.x;
+			assert_true(i == 2 || is_at_rest(&state));
+			scenery_check(carom_world_set_gravity(world, (carom_vec2){(float)(leans[i] * g), (float)-g}, &error), &error);
+			runs_advance(world, seconds);
+			state = runs_state(world, 0);
+			const double pull = i == 2 ? 2.0 / 3.0 * leans[i] : leans[i] - friction, way = (double)state.position.x - from;
+			if (i == 0)
+				assert_true(is_at_rest(&state) && fabs(way) < 1e-3);
+			else
+				runs_near(way, 0.5 * pull * g * seconds * seconds, 0.1 * pull * g * seconds * seconds);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* Boxes upon each other on something kinematic ride with it, however slowly it goes, sideways and up. */
+static void what_rides_goes_with_it(void **unused)
+{
+	const float speed = 0.001f;
+	const double seconds = 10.0;
+	(void)unused;
+	for (int up = 0; up < 2; up++) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			enum { COUNT = 4 };
+			carom_world_def def = ground(0.5f);
+			carom_body_def bodies[COUNT] = {scenery_box(0.0f, 2.0f, 0.0f, 0.0f, 10.0f, 1.0f)};
+			carom_body_state before[COUNT];
+			bodies[0].is_kinematic = true;
+			bodies[0].velocity = (carom_vec2){up ? 0.0f : speed, up ? speed : 0.0f};
+			for (int k = 1; k < COUNT; k++)
+				bodies[k] = box_at(0.0f, 2.0005f + 1.0005f * (float)k);
+			carom_world *world = runs_world(&def, device, bodies, COUNT);
+			if (!world)
+				continue;
+			runs_step(world, 120);
+			for (uint32_t k = 0; k < COUNT; k++)
+				before[k] = runs_state(world, k);
+			runs_advance(world, seconds);
+			for (uint32_t k = 0; k < COUNT; k++) {
+				const carom_body_state now = runs_state(world, k);
+				const double x = (double)(now.position.x - before[k].position.x), y = (double)(now.position.y - before[k].position.y);
+				runs_near(up ? y : x, (double)speed * seconds, 5e-4);
+				runs_near(up ? x : y, 0.0, 5e-4);
+			}
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(a_pyramid_comes_to_rest), cmocka_unit_test(what_is_not_held_starts), cmocka_unit_test(what_rides_goes_with_it)};
+	return cmocka_run_group_tests_name("still", tests, NULL, NULL);
+}
