@@ -76,7 +76,7 @@ static void a_pyramid_comes_to_rest(void **unused)
 static void what_is_not_held_starts(void **unused)
 {
 	const double friction = 0.5, g = (double)RUNS_GRAVITY, seconds = 5.0;
-	static const double leans[] = {0.495, 0.505, 0.001};
+	static const double leans[] = {0.495, 0.505, 0.0001};
 	(void)unused;
 	for (int i = 0; i < 3; i++) {
 		uint64_t first = 0;
