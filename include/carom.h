@@ -331,7 +331,8 @@ typedef enum carom_wall {
 } carom_wall;
 
 /** Two bodies, or a body and a wall, that rest on each other, or might, at one or two points. Forces are means of those that bore in the last steps: the last
- * one counts a quarter, the one before three quarters of that and so on, for what one step does too much the next does too little. */
+ * one counts a quarter, the one before three quarters of that and so on, for what one step does too much the next does too little; of steps that change nothing about
+ * what bears they stay as they are. */
 typedef struct carom_contact {
 	uint32_t body;     /**< its index */
 	int32_t other;     /**< the index of a body before it, or a carom_wall */

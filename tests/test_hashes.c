@@ -75,7 +75,7 @@ static const struct {
 	{10, SCENERY_MIXED, 49, 0.5f, -9.81f, 0.5f, RESTING_STEPS, {0x0c3ead4c230722ec, 0x32e4659c5f1d96f6}, {0x5b1f8406ca4b71d8, 0x88b52be9cdc0e967},
 		0x771c7a8933e784a9},
 	{11, SCENERY_POLYGONS, 25, 0.75f, -3.0f, 1000.0f, RESTING_STEPS, {0x0adc6a3a146a038a, 0x420d9e63c030fdeb},
-		{0xa91b88da53d08f0c, 0xc58c8625893bbc92}, 0x2ece8d9db8479a7d},
+		{0xa91b88da53d08f0c, 0xc58c8625893bbc92}, 0x14a5bbd4968728a1},
 	{12, SCENERY_CIRCLES, 64, 1.0f, -2.0f, 0.25f, STEPS, {0xb0af4e0886036521}, {0xdb0ea15d092cc348}, 0x18db110f8cf79b12},
 };
 
