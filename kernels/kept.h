@@ -57,11 +57,11 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_
 	}
 }
 
-/* What the next step begins with, in N: the mean of a force and of what there was before, or that force alone. What was there `bears`: it stays. */
-float force_mean(float force, float before, bool lasts, bool bears, float length)
+/* What the next step begins with, in N: the mean of a force and of what there was before, or that force alone. What was there stays where it bears, and the two rub. */
+float force_mean(float force, float before, bool lasts, bool stays, float length)
 {
 	float now = (force / length) / length;
-	return !lasts ? now : bears ? before : before + WARM_FOLLOW * (now - before);
+	return !lasts ? now : stays ? before : before + WARM_FOLLOW * (now - before);
 }
 
 /* In the place of a body's forces, where such began this step. */
@@ -74,10 +74,10 @@ void forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (!last_forces_of(slots, warm, warm_counts, s, other, rub, &last))
 			continue;
-		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f;
-		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, bears, length);
+		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, stays = bears && rub && grip[4 * GRIP_FRICTION] > 0.0f;
+		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, stays, length);
 		if (rub)
-			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, bears, length);
+			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, stays, length);
 	}
 }
 

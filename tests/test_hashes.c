@@ -62,9 +62,9 @@ static const struct {
 } random_worlds[] = {
 	{1, SCENERY_MIXED, 49, 1.0f, 0.0f, 0.0f, STEPS, {0xa64955af05d36bab}, {0xad78a91f2deaa6da}, 0xf7a0d8c272c38439},
 	{2, SCENERY_MIXED, 100, 0.75f, -9.81f, 0.0f, RESTING_STEPS, {0x204a7b0f1af35cc7, 0x0fbb8a31c55fd95b}, {0x674ea8787045d4d8, 0xb9bbb426954f20c5},
-		0x43b3770ebe1173af},
+		0x4dfbe62c950edd3e},
 	{3, SCENERY_POLYGONS, 64, 0.5f, -1.0f, 0.0f, RESTING_STEPS, {0x8a1cd3f3d3a0750a, 0x82a7e1836c0a4ac7}, {0xbdb0b024236a9200, 0xf146e9155540a074},
-		0xbca59055e841fdb6},
+		0xc50db60c87cd3326},
 	{4, SCENERY_CIRCLES, 196, 0.875f, -3.0f, 0.0f, RESTING_STEPS, {0x2c0cb69fffe63f90, 0xb62125c1a5365cac}, {0x5222fe046872010e, 0x6131f8ab1255f382},
 		0x073b3d85ed167c2b},
 	{5, SCENERY_POLYGONS, 81, 1.0f, -2.0f, 0.0f, STEPS, {0x7e9d409444ed5fce}, {0x9d27cada1b18f2a2}, 0xc926bdac39c09a20},

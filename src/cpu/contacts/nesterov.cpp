@@ -326,7 +326,8 @@ template <typename T> static void find_means(const Rests<T> &rests, int32_t s, T
 		if (point == 0)
 			last = warm.of(slot.body(), partner.key(rests.slots));
 		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
-		const T follow = rests.status[STATUS_BEARS] ? T(0) : T(WARM_FOLLOW);
+		const bool stays = rests.status[STATUS_BEARS] && rests.rubs && grips.friction[i] > 0;
+		const T follow = stays ? T(0) : T(WARM_FOLLOW);
 		const auto mean = [&](T force, T before) {
 			const T now = (force / length) / length;
 			return lasts ? before + follow * (now - before) : now;
