@@ -357,7 +357,7 @@
 /* Warm: the forces that the last steps ended with, as means that follow the last one by WARM_FOLLOW: what a step ends with makes up for what the one before
  * left within its tolerance, and so differs from what bears. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies
  * rub two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations
- * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. What bears without another iteration is kept as it is. */
+ * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. Where they rub what bears without another iteration is kept as it is. */
 #define WARM_WIDTH(rub) ((rub) ? 2 : 1)
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */

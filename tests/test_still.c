@@ -1,7 +1,6 @@
 /* What lies still, by the step contacts: bodies that rub come to rest, to the bit, and stay until something moves them; and what must move does. On every device.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <string.h>
 
 #include "runs.h"
 

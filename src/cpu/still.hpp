@@ -12,9 +12,11 @@ template <typename T> T nearly_still(const Rests<T> &rests, int32_t s)
 {
 	T least = infinite<T>;
 	int32_t count = 0;
+	if (!rests.rubs)
+		return 0;
 	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t) {
 		const bool is_kinematic = partner.moves() && !rests.slots[partner.slot()].is_dynamic();
-		least = rests.rubs && grips.friction[i] > 0 && !is_kinematic ? smaller(least, points.tolerance[i]) : T(0);
+		least = grips.friction[i] > 0 && !is_kinematic ? smaller(least, points.tolerance[i]) : T(0);
 		count++;
 	});
 	return count > 1 ? least : T(0);
@@ -23,7 +25,7 @@ template <typename T> T nearly_still(const Rests<T> &rests, int32_t s)
 /* The most that a motion, or a push, moves any part of a body along an axis. */
 template <typename T> T largest(const Slot<T> &slot, T x, T y, T turning)
 {
-	return larger(larger(std::abs(x), std::abs(y)), slot.radius() * std::abs(turning));
+	return larger(largest(Vec<T>(x, y)), slot.radius() * std::abs(turning));
 }
 
 template <typename T> T speed(const Slot<T> &slot)
