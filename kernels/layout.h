@@ -366,10 +366,13 @@
 #define WARM_FOLLOW 0.25f
 #define WARM_MOST 1e6f /* m/step^2, of either body: a larger force is not begun with */
 
-/* Touching: two ints a slot */
-#define TOUCHING_WIDTH 2
-#define TOUCHING_COUNT 0 /* of the slot's points; -1: too many contacts */
-#define TOUCHING_SLOT 1  /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
+/* Touching: three ints a slot */
+#define TOUCHING_WIDTH 3
+#define TOUCHING_COUNT 0  /* of the slot's points; -1: too many contacts */
+#define TOUCHING_SLOT 1   /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
+#define TOUCHING_WANTED 2 /* the last iteration that the island wants whose root the slot is */
+
+/* Islands: an int a slot, its parent in its island: dynamic bodies that touch each other, directly or by others. A root is its own; once there was an iteration, all have the root. */
 
 /* Loads: three records a slot: how it moves in a step, x, y, angle, in the iterations with even numbers and in the others, and by itself; and its share.
  * Before them those of slot -1, of what does not move: zeros. */
@@ -444,7 +447,6 @@
 #define STATUS_PASS 30   /* of the step: 0: not begun yet, */
 #define PASS_IMPULSES 1  /* what comes together is stopped, */
 #define PASS_FORCES 2    /* and borne */
-#define STATUS_BEARS 47  /* 1: what the pass began with does it, within its tolerance: no second iteration was wanted */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */

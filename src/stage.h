@@ -54,6 +54,7 @@ typedef enum carom_role {
 	ROLE_GRIPS,      /* records, CONTACTS_MOST of GRIP_WIDTH a slot; of one alone where nothing rubs */
 	ROLE_CONTACTS,   /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */
 	ROLE_TOUCHING,   /* list, TOUCHING_WIDTH a slot; of one int by events */
+	ROLE_ISLANDS,    /* list, one a slot */
 	ROLE_SHOCKS,     /* records, SHOCK_POINTS of SHOCK_WIDTH a number; one alone by events; the CPU keeps its own */
 	ROLE_LOADS,      /* records, LOADS_WIDTH a slot */
 	ROLE_PUSHES,     /* records, PUSHES_WIDTH a slot */

@@ -14,25 +14,24 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
-	status[STATUS_BEARS] = 1;
 	status[STATUS_PASS]++;
 }
 
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
-	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_counts), int4 domain)
+	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_counts), LIST_OUT(islands), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || status[STATUS_FIRST] != domain.z || status[STATUS_PASS] != PASS_IMPULSES)
 		return;
 	slot_keep(slots, pushes, s);
+	islands[s] = s;
 	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, s, step_length(TEX(uniforms), TEX(clock)));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
 	if (count > 0 || warm_counts[slot_body(slots, s)] > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
-__kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), LIST_IN(touching),
-	RECORD_OUT(grips), RECORD_OUT(loads), RECORD_IN(warm), LIST_IN(warm_counts), int4 domain)
+__kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_IN(warm_counts), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
 	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
@@ -40,9 +39,11 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 		return;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		if (impulses)
+		touching[TOUCH(s, TOUCHING_WANTED)] = domain.z;
+		if (impulses) {
 			rests_drop(contacts, grips, touching, s, rub);
-		else
+			island_join(slots, contacts, touching, islands, s);
+		} else
 			rests_warm(slots, contacts, grips, touching, warm, warm_counts, s, rub, length);
 		float4 load = load_alone(slots, impulses, s, length);
 		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
@@ -52,26 +53,24 @@ __kernel void contacts_join(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), L
 }
 
 /* One iteration; or where few bodies touch all there are, by one group alone, for which they cost less than launches. */
-__kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_IN(touching),
-	RECORD_OUT(grips), RECORD_OUT(loads), int4 domain)
+__kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), int4 domain)
 {
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
 	bool again, alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
-	int most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
 	do {
 		bool wanted = false;
-		int now = (status[STATUS_FIRST] + done) & 1;
 		for (int i = begin; i < touches; i += stride)
-			wanted |= rests_iterate(slots, contacts, grips, touching, loads, touching[TOUCH(i, TOUCHING_SLOT)], now, done, rub, impulses);
+			wanted |= island_iterate(slots, status, contacts, grips, touching, islands, loads, touching[TOUCH(i, TOUCHING_SLOT)], done, rub,
+				impulses);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;
 		barrier(CLK_LOCAL_MEM_FENCE);
-		if (wanted && done < most)
+		if (wanted)
 			atomic_or(&more, 1);
 		barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 		again = more;
@@ -79,12 +78,9 @@ __kernel void contacts_iterate(TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots)
 	} while (again && alone);
 	if (again && get_local_id(0) == 0)
 		atomic_max(&status[STATUS_WANTED], domain.z + 1);
-	if ((again || done > domain.z + 1 - status[STATUS_FIRST]) && get_local_id(0) == 0)
-		atomic_and(&status[STATUS_BEARS], 0);
 }
 
-__kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching),
-	RECORD_IN(grips), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
+__kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
 	if (status[STATUS_HANDED] != domain.w || iterations_are_wanted(status))
@@ -101,8 +97,8 @@ __kernel void contacts_apply(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots),
 }
 
 /* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
-__kernel void contacts_release(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_IN(touching),
-	RECORD_OUT(grips), RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm), LIST_OUT(warm_counts), int4 domain)
+__kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm),
+	LIST_OUT(warm_counts), int4 domain)
 {
 	bool again = domain.w, rub = anything_rubs(TEX(uniforms));
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH); /* of the step that is done: the clock has gone on */
@@ -113,7 +109,8 @@ __kernel void contacts_release(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots
 		slot_restore(slots, pushes, s, again);
 		if (!again) {
 			slot_come_to_rest(slots, contacts, grips, touching, pushes, s, rub, length);
-			forces_keep(slots, contacts, grips, touching, warm, warm_counts, s, rub, status[STATUS_BEARS], length);
+			bool bears = touching[TOUCH(islands[s], TOUCHING_WANTED)] == status[STATUS_FIRST]; /* what the second pass began with */
+			forces_keep(slots, contacts, grips, touching, warm, warm_counts, s, rub, bears, length);
 		}
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 	}

@@ -11,9 +11,10 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][32] = {
+static const char *const headers[2][33] = {
 	{"layout", "texture", "numbers", "filter", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach",
-		"cluster", "around", "mend", "roster", "answer", "slice", "heap", "team", "join", "rest", "shock", "queue", "seek", "load", "kept", "still"},
+		"cluster", "around", "mend", "roster", "answer", "slice", "heap", "team", "join", "rest", "shock", "queue", "seek", "load", "kept", "still",
+		"island"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "tiles", "light"},
 };
 

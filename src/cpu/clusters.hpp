@@ -2,6 +2,7 @@
 #ifndef CAROM_CPU_CLUSTERS_HPP
 #define CAROM_CPU_CLUSTERS_HPP
 
+#include "cpu/forest.hpp"
 #include "cpu/reach.hpp"
 
 namespace carom::cpu {
@@ -138,22 +139,8 @@ public:
 
 	bool ready() const { return this->length > 0 && lists_are_good(status) && !forces_are_wanted(status); }
 
-	int32_t root_of(int32_t s) const
-	{
-		for (int32_t parent; (parent = __atomic_load_n(&parents[s], __ATOMIC_ACQUIRE)) != s;)
-			s = parent;
-		return s;
-	}
-
-	void unite(int32_t a, int32_t b) const
-	{
-		while ((a = root_of(a)) != (b = root_of(b))) {
-			int32_t child = std::max(a, b);
-			const int32_t hook = child;
-			if (__atomic_compare_exchange_n(&parents[hook], &child, std::min(a, b), false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE))
-				return;
-		}
-	}
+	int32_t root_of(int32_t s) const { return Forest{parents}.root_of(s); }
+	void unite(int32_t a, int32_t b) const { Forest{parents}.unite(a, b); }
 
 	bool take(int32_t s, int32_t id) const
 	{

@@ -55,9 +55,9 @@ template <typename T> struct Grips {
 
 static_assert(sizeof(Points<float>) == FOUR_WIDTH * 4 * sizeof(float) && sizeof(Grips<float>) == GRIP_WIDTH * 4 * sizeof(float), "records");
 
-/* In Touching, how many points; -1: there are too many contacts. */
+/* In Touching, how many points, -1: there are too many contacts; a list; and of a root which iteration its island wants last. */
 struct Touching {
-	int32_t count, slot;
+	int32_t count, slot, wanted;
 };
 
 static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");

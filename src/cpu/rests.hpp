@@ -57,20 +57,21 @@ template <typename T> struct Kept {
 	}
 };
 
-/* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching, Grips. */
+/* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching, Grips, Islands. */
 template <typename T> struct Rests {
 	const Slot<T> *slots;
 	int32_t *status;
 	Points<T> *points;
-	const Touching *touching;
+	Touching *touching;
 	Grips<T> *grips;
+	Forest islands; /* dynamic bodies that touch each other, directly or by others */
 	T length;
 	bool rubs;
 	bool impulses; /* of the pass; read once, for in Status it lies beside what an iteration writes */
 
 	explicit Rests(const Job<T> &job)
 		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
-		  touching(reinterpret_cast<const Touching *>(job.list(5))), grips(reinterpret_cast<Grips<T> *>(job.records(6))),
+		  touching(reinterpret_cast<Touching *>(job.list(5))), grips(reinterpret_cast<Grips<T> *>(job.records(6))), islands{job.list(7)},
 		  length(step_length(job.texels(1), job.texels(0))), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
 		  impulses(status[STATUS_PASS] == PASS_IMPULSES)
 	{

@@ -72,7 +72,7 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 				   records = folded(FOURS_MOST * FOUR_WIDTH * n) + folded(FOURS_MOST * GRIP_WIDTH * n) + folded(LOADS_OF(n))
 		+ folded(PUSHES_WIDTH * n) + folded(SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n))
 		+ folded(CONTACTS_MOST * n * (uint64_t)WARM_WIDTH(true));
-	return carom_events_memory(pipeline, def, body_count, vertex_count) + 16 * records + 4 * (folded(TOUCHING_WIDTH * n) + folded(n));
+	return carom_events_memory(pipeline, def, body_count, vertex_count) + 16 * records + 4 * (folded(TOUCHING_WIDTH * n) + 2 * folded(n));
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -84,6 +84,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, FOURS_MOST * FOUR_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_GRIPS, false, FOURS_MOST * GRIP_WIDTH * (world->rubs ? n : 1), error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
+	TRY(carom_events_create_list(world, ROLE_ISLANDS, false, n, error));
 	TRY(carom_events_create_list(world, ROLE_SHOCKS, false, SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n), error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_OF(n), error));
 	TRY(carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error));

@@ -1,4 +1,5 @@
 /* The forces between bodies that rest on each other: a projected gradient, accelerated as Nesterov did. */
+#include "cpu/keep.hpp"
 #include "cpu/response.hpp"
 #include "cpu/still.hpp"
 
@@ -30,7 +31,6 @@ template <typename T> static void begin(const Job<T> &job)
 	if (waits)
 		return;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
-	status[STATUS_BEARS] = 1;
 	status[STATUS_PASS]++;
 }
 
@@ -55,6 +55,7 @@ template <typename T> static void find(const Job<T> &job)
 	const Rubs<T> rubs(job.texels(1), job.texels(17));
 	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
 	const int32_t *last_counts = job.list(19);
+	int32_t *islands = job.list(20);
 	int32_t *status = clusters.status;
 	if (status[STATUS_FIRST] != job.domain[2] || status[STATUS_PASS] != PASS_IMPULSES)
 		return;
@@ -62,6 +63,7 @@ template <typename T> static void find(const Job<T> &job)
 		RestFinder<T> finder(clusters, rubs);
 		for (int32_t s = from; s < to; s++) {
 			kept[s].keep(clusters.slots[s]);
+			islands[s] = s;
 			touching[s].count = finder.find(s, points + FOURS_MOST * s, grips + FOURS_MOST * s);
 			/* what rests on a kinematic body goes by that one's load */
 			if (touching[s].count > 0 || last_counts[clusters.slots[s].body()] > 0 || clusters.slots[s].is_kinematic())
@@ -106,46 +108,31 @@ template <typename T> static void drop(const Rests<T> &rests, int32_t s)
 	});
 }
 
-/* A force in a step's units; 0 if it is too large for either body to begin with. */
-template <typename T> static T begun(const Rests<T> &rests, const Slot<T> &slot, Partner partner, T force, T length)
+/* A body and those that it touches are of one island. */
+template <typename T> static void unite(const Rests<T> &rests, int32_t s)
 {
-	const T own = slot.mass[MASS_INVERSE], start = (force * length) * length;
-	const T inverse_mass = partner.moves() ? larger(own, rests.slots[partner.slot()].mass[MASS_INVERSE]) : own;
-	return std::abs(start) * inverse_mass <= T(WARM_MOST) ? start : T(0);
-}
-
-/* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those of the last steps. */
-template <typename T> static void warm_up(const Rests<T> &rests, const Warm<T> &warm, int32_t s)
-{
-	const Slot<T> &slot = rests.slots[s];
-	WarmForces<T> last;
-	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
-		if (point == 0)
-			last = warm.of(slot.body(), partner.key(rests.slots));
-		const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART);
-		points.least[i] = T(EASE) * points.least[i] - T(0.5f / CONTACT_PART) * points.tolerance[i];
-		points.force[i] = points.start[i] = part * begun(rests, slot, partner, last.normal[point], rests.length);
-		if (rests.rubs) {
-			grips.bound[i] = friction * points.force[i];
-			grips.force[i] = grips.start[i] = part * begun(rests, slot, partner, last.friction[point], rests.length);
-		}
+	rests.each_point(s, [&](const Points<T> &, const Grips<T> &, int32_t, Partner partner, int32_t point) {
+		if (point == 0 && partner.slot() > s && rests.slots[partner.slot()].is_dynamic()) /* of two bodies one says so */
+			rests.islands.unite(s, partner.slot());
 	});
 }
 
 template <typename T> static void join(const Job<T> &job)
 {
 	const Rests<T> rests(job);
-	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
-	const Warm<T> warm(job.records(8), job.list(9), rests.rubs);
+	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
+	const Warm<T> warm(job.records(9), job.list(10), rests.rubs);
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
-			if (rests.impulses)
+			rests.touching[s].wanted = first;
+			if (rests.impulses) {
 				drop(rests, s);
-			else
+				unite(rests, s);
+			} else
 				warm_up(rests, warm, s);
 			Lanes<T> *load = loads + LOADS_OF(s);
 			rests.alone(s, share_of(rests, s), load[LOADS_ALONE]);
@@ -238,14 +225,21 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
-/* The same of some of the bodies that touch. */
+/* The same of some of the bodies that touch, where their islands want it. */
 template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests, Lanes<T> *loads, int32_t from, int32_t to, int32_t number)
 {
 	const int32_t done = number - rests.status[STATUS_FIRST];
+	const bool is_last = done + 1 >= (rubs && rests.impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS);
 	bool wanted = false;
-	for (int32_t k = from; k < to; k++)
-		wanted |= iterate_one<rubs>(rests, loads, rests.touching[k].slot, number & 1, done);
-	return wanted && done + 1 < (rubs && rests.impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS);
+	for (int32_t k = from; k < to; k++) {
+		const int32_t s = rests.touching[k].slot;
+		int32_t *const island_wants = &rests.touching[done == 0 ? rests.islands.flat_root_of(s) : rests.islands.parents[s]].wanted;
+		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) < number || !iterate_one<rubs>(rests, loads, s, number & 1, done) || is_last)
+			continue;
+		wanted = true;
+		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
+	}
+	return wanted;
 }
 
 #if defined(__x86_64__)
@@ -268,20 +262,18 @@ template <bool rubs, typename T> static auto best_iteration(T)
 	return iterate_some<rubs, T>;
 }
 
-/* One iteration, if it is wanted, of all. */
+/* One iteration, of all that want it. */
 template <typename T> static void iterate(const Job<T> &job)
 {
 	const Rests<T> rests(job);
-	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(7));
+	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
 	const int32_t number = job.domain[2];
 	const auto some = rests.rubs ? best_iteration<true>(T()) : best_iteration<false>(T());
 	if (rests.status[STATUS_WANTED] != number)
 		return;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
-		if (some(rests, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number) {
+		if (some(rests, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
 			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
-			__atomic_store_n(&rests.status[STATUS_BEARS], 0, __ATOMIC_RELAXED);
-		}
 	});
 }
 
@@ -289,11 +281,11 @@ template <typename T> static void apply(const Job<T> &job)
 {
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
-	int32_t *need = job.list(10);
+	int32_t *need = job.list(11);
 	if (rests.status[STATUS_HANDED] != job.domain[3] || iterations_are_wanted(rests.status))
 		return;
 	rests.status[STATUS_BORNE] = 1;
-	const ReachKeeper<T> keeper(slots, job.records(7), rests.status, job.list(8), job.list(9), job.domain[2], job.texels(0));
+	const ReachKeeper<T> keeper(slots, job.records(8), rests.status, job.list(9), job.list(10), job.domain[2], job.texels(0));
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
@@ -317,53 +309,18 @@ template <typename T> static void apply(const Job<T> &job)
 	});
 }
 
-/* In the place of a slot's forces what the next step begins with, in N: their means, where such began this one. */
-template <typename T> static void find_means(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
-{
-	const Slot<T> &slot = rests.slots[s];
-	WarmForces<T> last;
-	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
-		if (point == 0)
-			last = warm.of(slot.body(), partner.key(rests.slots));
-		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
-		const bool stays = rests.status[STATUS_BEARS] && rests.rubs && grips.friction[i] > 0;
-		const T follow = stays ? T(0) : T(WARM_FOLLOW);
-		const auto mean = [&](T force, T before) {
-			const T now = (force / length) / length;
-			return lasts ? before + follow * (now - before) : now;
-		};
-		points.force[i] = mean(points.force[i], last.normal[point]);
-		if (rests.rubs)
-			grips.force[i] = mean(grips.force[i], last.friction[point]);
-	});
-}
-
-/* Keeps the forces on a slot for the next step. */
-template <typename T> static void keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
-{
-	const int32_t body = rests.slots[s].body();
-	int32_t count = 0;
-	find_means(rests, s, length, warm);
-	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
-		if (point == 0)
-			warm.begin(body, count++, partner.key(rests.slots));
-		warm.keep(body, count - 1, point, points.force[i], rests.rubs ? grips.force[i] : T(0));
-	});
-	warm.keep_count(body, count);
-}
-
 /* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
 template <typename T> static void release(const Job<T> &job)
 {
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
-	const Kept<T> *kept = reinterpret_cast<const Kept<T> *>(job.records(7));
-	const Warm<T> warm(job.records(11), job.list(12), rests.rubs);
+	const Kept<T> *kept = reinterpret_cast<const Kept<T> *>(job.records(8));
+	const Warm<T> warm(job.records(12), job.list(13), rests.rubs);
 	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH); /* of the step that is done: the clock has gone on */
 	const bool again = job.domain[3];
 	if (!rests.status[STATUS_BORNE] || (rests.status[STATUS_PASS] > 0) != again)
 		return;
-	const ReachKeeper<T> keeper(slots, job.records(8), rests.status, job.list(9), job.list(10), job.domain[2], job.texels(0));
+	const ReachKeeper<T> keeper(slots, job.records(9), rests.status, job.list(10), job.list(11), job.domain[2], job.texels(0));
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;

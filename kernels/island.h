@@ -1,0 +1,38 @@
+/* Islands: dynamic bodies that touch each other, directly or by others. Each iterates by itself: CONTRACT.md, "contacts". What an island wants is with its root. */
+
+#define RESTS_IN                                                                                                                       \
+	TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_OUT(touching), RECORD_OUT(grips), \
+		LIST_OUT(islands)
+
+/* The body in a slot and those that it touches are of one island. */
+void island_join(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), LIST_OUT(islands), int s)
+{
+	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		int other = (int)POINT_IN(contacts, FOUR_WIDTH, s, point)[4 * FOUR_PARTNER];
+		if (other > s && slot_is_dynamic(slots, other)) /* of two bodies one says so */
+			unite(islands, s, other);
+	}
+}
+
+/* All are joined: the root of a slot's island, which is its parent from now on. */
+int island_root(LIST_OUT(islands), int s)
+{
+	int root = find_root(islands, s);
+	if (root != int_load(islands, s))
+		atomic_xchg(&islands[s], root);
+	return root;
+}
+
+/* One iteration of a body, after so many, if its island wants it. True if that wants another. */
+bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_OUT(islands),
+	RECORD_OUT(loads), int s, int done, bool rub, bool impulses)
+{
+	int number = status[STATUS_FIRST] + done, most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
+	int wants = TOUCH(done == 0 ? island_root(islands, s) : islands[s], TOUCHING_WANTED);
+	if (PEEK(touching, wants) < number || !rests_iterate(slots, contacts, grips, touching, loads, s, number & 1, done, rub, impulses)
+		|| done + 1 >= most)
+		return false;
+	if (PEEK(touching, wants) == number)
+		atomic_max(&touching[wants], number + 1);
+	return true;
+}
