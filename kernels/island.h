@@ -25,8 +25,9 @@ int island_root(LIST_OUT(islands), int s)
 
 /* One iteration of a body, after so many, if its island wants it. True if that wants another. */
 bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_OUT(islands),
-	RECORD_OUT(loads), int s, int done, bool rub, bool impulses)
+	RECORD_OUT(loads), int s, int done, bool rub)
 {
+	bool impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	int number = status[STATUS_FIRST] + done, most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
 	int wants = TOUCH(done == 0 ? island_root(islands, s) : islands[s], TOUCHING_WANTED);
 	if (PEEK(touching, wants) < number || !rests_iterate(slots, contacts, grips, touching, loads, s, number & 1, done, rub, impulses)
@@ -35,4 +36,10 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 	if (PEEK(touching, wants) == number)
 		atomic_max(&touching[wants], number + 1);
 	return true;
+}
+
+/* Did what the second pass began with bear an island? */
+bool island_bears(LIST_IN(status), LIST_IN(touching), LIST_IN(islands), int s)
+{
+	return touching[TOUCH(islands[s], TOUCHING_WANTED)] == status[STATUS_FIRST];
 }

@@ -64,11 +64,12 @@ float force_mean(float force, float before, bool lasts, bool stays, float length
 	return !lasts ? now : stays ? before : before + WARM_FOLLOW * (now - before);
 }
 
-/* In the place of a body's forces, where such began this step. */
-void forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
+/* In the place of a body's forces, where such began this step. True if they are what it began with. */
+bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
 	bool bears, float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
+	bool same = true;
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
@@ -78,15 +79,18 @@ void forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, stays, length);
 		if (rub)
 			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, stays, length);
+		same = same && at[4 * FOUR_FORCE] == last.force && (!rub || grip[4 * GRIP_FORCE] == last.friction);
 	}
+	return same;
 }
 
-/* Keeps the forces on a body, in such a step, for the next one. */
-void forces_keep(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_counts), int s,
-	bool rub, bool bears, float length)
+/* Keeps the forces on a body, in such a step, for the next one. If this one did not begin with them its island is not to fall asleep. */
+void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_IN(islands), RECORD_OUT(warm),
+	LIST_OUT(warm_counts), int s, bool rub, float length)
 {
 	int body = slot_body(slots, s), count = 0, before = PARTNER_NONE;
-	forces_mean(slots, contacts, grips, touching, warm, warm_counts, s, rub, bears, length);
+	if (!forces_mean(slots, contacts, grips, touching, warm, warm_counts, s, rub, island_bears(status, touching, islands, s), length))
+		island_disturb(touching, islands, s);
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? s : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];

@@ -366,11 +366,18 @@
 #define WARM_FOLLOW 0.25f
 #define WARM_MOST 1e6f /* m/step^2, of either body: a larger force is not begun with */
 
-/* Touching: three ints a slot */
-#define TOUCHING_WIDTH 3
-#define TOUCHING_COUNT 0  /* of the slot's points; -1: too many contacts */
-#define TOUCHING_SLOT 1   /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
-#define TOUCHING_WANTED 2 /* the last iteration that the island wants whose root the slot is */
+/* Touching: ints of each slot */
+#define TOUCHING_WIDTH 5
+#define TOUCHING_COUNT 0    /* of its points; -1: too many contacts */
+#define TOUCHING_SLOT 1     /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
+#define TOUCHING_WANTED 2   /* of a root: the last iteration that its island wants */
+#define TOUCHING_RESTLESS 3 /* of a root: 1: not all of its island is as the step began; of one that sleeps: it is to wake */
+#define TOUCHING_ASLEEP 4   /* 1: each step would leave it, and all of its island, as it is: its push is kept, and 0 in the slot */
+
+/* What sleep_begin is for */
+#define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
+#define SLEEP_ENDS 1      /* of all */
+#define SLEEP_FORGOTTEN 2 /* slots are loaded anew */
 
 /* Islands: an int a slot, its parent in its island: dynamic bodies that touch each other, directly or by others. A root is its own; once there was an iteration, all have the root. */
 
@@ -381,8 +388,8 @@
 #define LOADS_ALONE 2
 #define LOAD_SHARE 3 /* as if so many points alone pushed it */
 
-/* Pushes: two records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular */
-#define PUSHES_WIDTH 2
+/* Pushes: three records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular; the place x, y, angle */
+#define PUSHES_WIDTH 3
 
 /* Shocks: SHOCK_POINTS points a number, each of three records: where what a body is hit with passes on */
 #define SHOCK_WIDTH 3
@@ -447,6 +454,8 @@
 #define STATUS_PASS 30   /* of the step: 0: not begun yet, */
 #define PASS_IMPULSES 1  /* what comes together is stopped, */
 #define PASS_FORCES 2    /* and borne */
+#define STATUS_ROUSED 47 /* 1: all wake in the next step */
+#define STATUS_SLEPT 54  /* float bits, s: the step in which those that sleep would stay as they are */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */

@@ -283,6 +283,16 @@ void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
 	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE);
 	pushes[PUSHES_WIDTH * s] = SLOT_LOAD(slots, s, SLOT_PUSH);
 	pushes[PUSHES_WIDTH * s + 1] = (float4)(place.z, place.w, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY), 0.0f);
+	pushes[PUSHES_WIDTH * s + 2] = (float4)(place.x, place.y, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_ANGLE), 0.0f);
+}
+
+/* Is it at rest where it was at rest before the step? */
+bool slot_stayed(RECORD_IN(slots), RECORD_IN(pushes), int s)
+{
+	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE), turn = SLOT_LOAD(slots, s, SLOT_TURN);
+	float4 velocities = pushes[PUSHES_WIDTH * s + 1], before = pushes[PUSHES_WIDTH * s + 2];
+	return velocities.x == 0.0f && velocities.y == 0.0f && velocities.z == 0.0f && place.z == 0.0f && place.w == 0.0f
+		&& CHANNEL(turn, TURN_VELOCITY) == 0.0f && place.x == before.x && place.y == before.y && CHANNEL(turn, TURN_ANGLE) == before.z;
 }
 
 /* But for which body it is, which others look at meanwhile. */

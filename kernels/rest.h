@@ -230,22 +230,27 @@ void rest_on_walls(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(sl
 		rest_on_wall(VERTICES, room, k, wall, rub, near, all);
 }
 
-/* How many points the body in a slot rests on; -1: it has too many contacts. */
-int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), RECORD_OUT(grips), int s,
-	float length)
+/* How many points the body in a slot rests on; -1: it has too many contacts. If it is awake, all that sleep near it are disturbed. */
+int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_IN(pushes), LIST_OUT(touching), LIST_IN(islands),
+	RECORD_OUT(contacts), RECORD_OUT(grips), int s, float length)
 {
 	rests all;
 	nearness near = {0.0f, CONTACT_FAST};
 	all.count = 0;
-	if (!slot_is_dynamic(slots, s))
+	if (slot_is_static(slots, s))
 		return 0;
-	body k = body_of(slots, s, trajectory_start(slots, s), length);
-	rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, near, &all);
+	bool awake = !touching[TOUCH(s, TOUCHING_ASLEEP)], dynamic = slot_is_dynamic(slots, s);
+	body k = body_awake(slots, touching, pushes, s, length);
+	if (dynamic)
+		rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, near, &all);
 	int end = spans[SPAN(s, SPAN_END)];
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
 		int other = neighbour_of(neighbours, extra, i);
-		body partner = body_of(slots, other, trajectory_start(slots, other), length);
-		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, other, partner, near, &all);
+		body partner = body_awake(slots, touching, pushes, other, length);
+		if (awake && touching[TOUCH(other, TOUCHING_ASLEEP)] && (!dynamic || near_force(k, partner, near) > 0.0f))
+			island_disturb(touching, islands, other);
+		if (dynamic)
+			rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, other, partner, near, &all);
 	}
 	return all.count > CONTACTS_MOST ? -1 : rests_write(&all, contacts, grips, s, anything_rubs(TEX(uniforms)));
 }

@@ -63,3 +63,40 @@ void slot_come_to_rest(RECORD_OUT(slots), RECORD_IN(contacts), RECORD_IN(grips),
 	if (way < STILL_SPEED * within && way < way_before + STILL_PUSH * within && still_beside(contacts, touching, pushes, s))
 		velocities_set(slots, s, 0.0f, 0.0f, 0.0f);
 }
+
+/* Is nothing left of its push? */
+bool slot_is_unpushed(RECORD_IN(slots), int s)
+{
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
+	return push.x == 0.0f && push.y == 0.0f && push.z == 0.0f;
+}
+
+/* Its push is its own again, if it slept. */
+void slot_wake(RECORD_OUT(slots), LIST_OUT(touching), RECORD_IN(pushes), int s)
+{
+	if (touching[TOUCH(s, TOUCHING_ASLEEP)])
+		slot_restore(slots, pushes, s, false);
+	touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
+}
+
+/* Does what SLEEP_... says with a slot; true if it fell asleep, or woke. */
+bool slot_sleep(RECORD_OUT(slots), RECORD_IN(contacts), LIST_OUT(touching), RECORD_IN(grips), LIST_IN(islands), RECORD_IN(pushes), int s, int what,
+	bool rub, float length)
+{
+	bool asleep = touching[TOUCH(s, TOUCHING_ASLEEP)];
+	if (what == SLEEP_FORGOTTEN)
+		touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
+	else if (asleep && (what == SLEEP_ENDS || !slot_stayed(slots, pushes, s))) {
+		slot_wake(slots, touching, pushes, s);
+		island_disturb(touching, islands, s);
+		if (what == SLEEP_BEGINS)
+			slot_come_to_rest(slots, contacts, grips, touching, pushes, s, rub, length);
+		return true;
+	} else if (!asleep && what == SLEEP_BEGINS && touching[TOUCH(s, TOUCHING_COUNT)] > 0 && !island_is_disturbed(touching, islands, s)) {
+		float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
+		slots[SLOT_WIDTH * s + SLOT_PUSH] = (float4)(0.0f, 0.0f, 0.0f, push.w);
+		touching[TOUCH(s, TOUCHING_ASLEEP)] = 1;
+		return true;
+	}
+	return false;
+}

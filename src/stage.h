@@ -119,11 +119,13 @@ typedef enum carom_stage {
 	STAGE_UNLOAD,  /* (slots): the slots into the state */
 	/* the step contacts; iterations are numbered like rounds */
 	STAGE_CONTACTS_BEGIN,   /* (1, 1, first iteration, last) */
-	STAGE_CONTACTS_FIND,    /* (slots, 1, first iteration) */
+	STAGE_CONTACTS_FIND,    /* (slots, 1, first iteration, 0: of those that are awake; 1: of those that they wake) */
 	STAGE_CONTACTS_JOIN,    /* (share, 1, first iteration) */
 	STAGE_CONTACTS_ITERATE, /* (share, 1, iteration) */
 	STAGE_CONTACTS_APPLY,   /* (share, 1, room in Movers, last iteration) */
 	STAGE_CONTACTS_RELEASE, /* (share, 1, room in Movers, 0: after a step; 1: before one begins again) */
+	STAGE_SLEEP_BEGIN,      /* (slots, 1, room in Movers, SLEEP_...) */
+	STAGE_SLEEP_END,        /* (changed bodies, 1): before STAGE_CHANGE */
 	/* rendering [3] */
 	STAGE_VERTICES,  /* (vertices) */
 	STAGE_SHAPES,    /* (marks + bodies, 1, marks) */

@@ -71,10 +71,17 @@ void carom_roster_changed(carom_world *world, size_t first)
 	world->newest &= ~(unsigned)PLACE_TEXTURES;
 }
 
+/* Steps in which bodies sleep: so many of Changes are changed; 0: all are to wake. */
+static carom_status wake(carom_world *world, uint32_t changes, carom_error *error)
+{
+	return world->step->wake ? world->step->wake(world, changes, error) : CAROM_OK;
+}
+
 static carom_status tell_indices(carom_world *world, carom_error *error)
 {
 	if (!(world->unsent & UNSENT_INDICES))
 		return CAROM_OK;
+	TRY(wake(world, 0, error));
 	TRY(carom_friction_send(world, error));
 	TRY(carom_filters_send(world, error));
 	world->unsent &= ~(unsigned)UNSENT_INDICES;
@@ -86,6 +93,7 @@ static carom_status tell_filters(carom_world *world, carom_error *error)
 {
 	if (!(world->unsent & UNSENT_FILTERS))
 		return CAROM_OK;
+	TRY(wake(world, 0, error));
 	TRY(carom_filters_send(world, error));
 	carom_events_drop_lists(world);
 	world->unsent &= ~(unsigned)UNSENT_FILTERS;
@@ -97,6 +105,7 @@ static carom_status tell_def(carom_world *world, carom_error *error)
 {
 	if (!(world->unsent & UNSENT_DEF))
 		return CAROM_OK;
+	TRY(wake(world, 0, error));
 	if (world->def.time_step > LIST_STEPS * world->events.list_step)
 		carom_events_drop_lists(world);
 	TRY(world->bodies_current ? carom_uniforms_send(world, error)
@@ -131,6 +140,7 @@ static carom_status tell_changes(carom_world *world, carom_error *error)
 	TRY(carom_records_create(world, CHANGES_WIDTH * count, &texels, error));
 	fill_changes(world, texels);
 	TRY(send(world, CHANGES_WIDTH * count, texels, error));
+	TRY(wake(world, count, error));
 	TRY(carom_run(world, STAGE_CHANGE, (int32_t)count, 1, carom_events_movers(world), 0, error));
 	world->newest &= ~(unsigned)PLACE_TEXTURES;
 	return CAROM_OK;
@@ -149,12 +159,23 @@ static void fill_added(const carom_world *world, uint32_t first, float *texels)
 	}
 }
 
+/* Others may come to lie on it where it is. */
+static bool has_static(const carom_world *world, uint32_t first)
+{
+	for (size_t i = first; i < world->body_count; i++)
+		if (!carom_is_dynamic(&carom_world_bodies(world)[i]))
+			return true;
+	return false;
+}
+
 static carom_status tell_added(carom_world *world, carom_error *error)
 {
 	const uint32_t first = world->events.known, count = (uint32_t)world->body_count - first;
 	float *texels;
 	if (count == 0)
 		return CAROM_OK;
+	if (has_static(world, first))
+		TRY(wake(world, 0, error));
 	if (world->events.outlines < world->vertices.used)
 		TRY(carom_outlines_send(world, error));
 	TRY(carom_records_create(world, ADDED_WIDTH * count, &texels, error));
@@ -190,6 +211,7 @@ carom_status carom_removed_send(carom_world *world, const uint32_t *indices, uin
 {
 	uint32_t slots = world->events.known;
 	float *texels;
+	TRY(wake(world, 0, error));
 	TRY(carom_records_create(world, count, &texels, error));
 	for (uint32_t k = 0; k < count; k++) {
 		texels[4 * k + REMOVED_BODY] = (float)indices[k];

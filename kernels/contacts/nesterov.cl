@@ -7,31 +7,32 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 	bool waits = iterations_are_wanted(status);
 	if (status[STATUS_PASS] == 0)
 		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
-	if (!(step_length(TEX(uniforms), TEX(clock)) > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY]
-		|| (!waits && status[STATUS_PASS] == PASS_FORCES))
+	float length = step_length(TEX(uniforms), TEX(clock));
+	if (!(length > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY] || (!waits && status[STATUS_PASS] == PASS_FORCES))
 		return;
 	status[STATUS_HANDED] = domain.w;
-	if (waits)
-		return;
-	status[STATUS_FIRST] = status[STATUS_WANTED] = domain.z;
-	status[STATUS_PASS]++;
+	if (!waits)
+		pass_begin(status, domain.z, length);
 }
 
+/* First of those that are awake; then of those that they wake. */
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
 	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_counts), LIST_OUT(islands), int4 domain)
 {
 	int s = get_global_id(0);
-	if (s >= domain.x || status[STATUS_FIRST] != domain.z || status[STATUS_PASS] != PASS_IMPULSES)
+	if (s >= domain.x || status[STATUS_FIRST] != domain.z || status[STATUS_PASS] != PASS_IMPULSES || !is_due(status, touching, islands, s, domain.w))
 		return;
-	slot_keep(slots, pushes, s);
+	if (!domain.w)
+		slot_keep(slots, pushes, s);
 	islands[s] = s;
-	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, contacts, grips, s, step_length(TEX(uniforms), TEX(clock)));
+	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s,
+		step_length(TEX(uniforms), TEX(clock)));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
 	if (count > 0 || warm_counts[slot_body(slots, s)] > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
-__kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_IN(warm_counts), int4 domain)
+__kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_IN(warm_counts), RECORD_IN(pushes), int4 domain)
 {
 	float length = step_length(TEX(uniforms), TEX(clock));
 	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
@@ -41,6 +42,8 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_I
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		touching[TOUCH(s, TOUCHING_WANTED)] = domain.z;
 		if (impulses) {
+			slot_wake(slots, touching, pushes, s);
+			touching[TOUCH(s, TOUCHING_RESTLESS)] = 0;
 			rests_drop(contacts, grips, touching, s, rub);
 			island_join(slots, contacts, touching, islands, s);
 		} else
@@ -57,15 +60,14 @@ __kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), int4 domain)
 {
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
-	bool again, alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
+	bool again, alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms));
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
 	do {
 		bool wanted = false;
 		for (int i = begin; i < touches; i += stride)
-			wanted |= island_iterate(slots, status, contacts, grips, touching, islands, loads, touching[TOUCH(i, TOUCHING_SLOT)], done, rub,
-				impulses);
+			wanted |= island_iterate(slots, status, contacts, grips, touching, islands, loads, touching[TOUCH(i, TOUCHING_SLOT)], done, rub);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;
@@ -100,17 +102,17 @@ __kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_
 __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm),
 	LIST_OUT(warm_counts), int4 domain)
 {
-	bool again = domain.w, rub = anything_rubs(TEX(uniforms));
+	bool again = domain.w, rub = anything_rubs(TEX(uniforms)), due = status[STATUS_BORNE] && (status[STATUS_PASS] > 0) == again;
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH); /* of the step that is done: the clock has gone on */
-	if (!status[STATUS_BORNE] || (status[STATUS_PASS] > 0) != again)
-		return;
-	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
+	for (int i = get_global_id(0); due && i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
+		bool borne = slot_is_unpushed(slots, s);
 		slot_restore(slots, pushes, s, again);
 		if (!again) {
 			slot_come_to_rest(slots, contacts, grips, touching, pushes, s, rub, length);
-			bool bears = touching[TOUCH(islands[s], TOUCHING_WANTED)] == status[STATUS_FIRST]; /* what the second pass began with */
-			forces_keep(slots, contacts, grips, touching, warm, warm_counts, s, rub, bears, length);
+			forces_keep(slots, status, contacts, grips, touching, islands, warm, warm_counts, s, rub, length);
+			if (!borne || !slot_stayed(slots, pushes, s))
+				island_disturb(touching, islands, s);
 		}
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 	}

@@ -32,12 +32,14 @@ template <typename T> void warm_up(const Rests<T> &rests, const Warm<T> &warm, i
 	});
 }
 
-/* In the place of a slot's forces what the next step begins with, in N: their means, where such began this one. */
-template <typename T> void find_means(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
+/* In the place of a slot's forces what the next step begins with, in N: their means, where such began this one. True if that
+ * is what began it. */
+template <typename T> bool find_means(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const bool bears = rests.touching[rests.islands.parents[s]].wanted == rests.status[STATUS_FIRST]; /* what the second pass began with */
 	WarmForces<T> last;
+	bool are_same = true;
 	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
 			last = warm.of(slot.body(), partner.key(rests.slots));
@@ -51,21 +53,24 @@ template <typename T> void find_means(const Rests<T> &rests, int32_t s, T length
 		points.force[i] = mean(points.force[i], last.normal[point]);
 		if (rests.rubs)
 			grips.force[i] = mean(grips.force[i], last.friction[point]);
+		are_same = are_same && points.force[i] == last.normal[point] && (!rests.rubs || grips.force[i] == last.friction[point]);
 	});
+	return are_same;
 }
 
-/* Keeps the forces on a slot for the next step. */
-template <typename T> void keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
+/* Keeps the forces on a slot for the next step. True if this one began with the same. */
+template <typename T> bool keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
 {
 	const int32_t body = rests.slots[s].body();
 	int32_t count = 0;
-	find_means(rests, s, length, warm);
+	const bool are_same = find_means(rests, s, length, warm);
 	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
 			warm.begin(body, count++, partner.key(rests.slots));
 		warm.keep(body, count - 1, point, points.force[i], rests.rubs ? grips.force[i] : T(0));
 	});
 	warm.keep_count(body, count);
+	return are_same;
 }
 
 }

@@ -2,7 +2,7 @@
 #ifndef CAROM_CPU_RESTING_HPP
 #define CAROM_CPU_RESTING_HPP
 
-#include "cpu/clusters.hpp"
+#include "cpu/sleep.hpp"
 #include "cpu/warm.hpp"
 
 #include <algorithm>
@@ -55,13 +55,6 @@ template <typename T> struct Grips {
 
 static_assert(sizeof(Points<float>) == FOUR_WIDTH * 4 * sizeof(float) && sizeof(Grips<float>) == GRIP_WIDTH * 4 * sizeof(float), "records");
 
-/* In Touching, how many points, -1: there are too many contacts; a list; and of a root which iteration its island wants last. */
-struct Touching {
-	int32_t count, slot, wanted;
-};
-
-static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");
-
 /* Where a body slides at a point, seen from its partner: n is towards it, levers go from the two centres to the point. */
 template <typename T> struct Slip {
 	T arm = 0, other_arm = 0;
@@ -109,20 +102,27 @@ template <typename T> class RestFinder
 public:
 	RestFinder(const Clusters<T> &all, const Rubs<T> &friction) : clusters(all), rubs(friction) {}
 
-	/* How many points the body rests on, which are written in order, and how they slide, where anything rubs; -1 if it has too many contacts. */
-	int32_t find(int32_t s, Points<T> *to, Grips<T> *grips)
+	/* How many points the body rests on, which are written in order, and how they slide, where anything rubs; -1 if it has too many contacts. If it does not sleep
+	 * itself, what sleeps near it is disturbed. */
+	int32_t find(int32_t s, const Sleepers<T> &sleepers, Points<T> *to, Grips<T> *grips)
 	{
-		const Slot<T> &slot = clusters.slots[s];
+		Slot<T> room, other_room;
+		const Slot<T> &slot = sleepers.awake(clusters.slots[s], s, room);
+		const bool is_awake = !sleepers.sleeps(s), is_dynamic = slot.is_dynamic();
 		const Nearness<T> nearness;
 		count = 0;
-		if (!slot.is_dynamic())
+		if (slot.is_static())
 			return 0;
-		if (!clusters.stays_inside(s, Trajectory<T>(slot), T(1)))
-			walls(s, Trajectory<T>(slot), nearness);
+		if (is_dynamic && !(is_awake && clusters.stays_inside(s, Trajectory<T>(slot), T(1))))
+			walls(slot, Trajectory<T>(slot), nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-			const Slot<T> &other_slot = clusters.slots[other];
-			if (may_rest(slot.radius() + other_slot.radius() + std::max(strength(slot), strength(other_slot)), slot.place, other_slot.place))
-				pair(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot), nearness);
+			const Slot<T> &other_slot = sleepers.awake(clusters.slots[other], other, other_room);
+			const bool is_near = !is_dynamic
+				|| may_rest(slot.radius() + other_slot.radius() + std::max(strength(slot), strength(other_slot)), slot.place, other_slot.place);
+			if (is_near && is_awake && sleepers.sleeps(other))
+				sleepers.disturb(other);
+			if (is_near && is_dynamic)
+				pair(slot, Trajectory<T>(slot), other, other_slot, Trajectory<T>(other_slot), nearness);
 		});
 		return count > CONTACTS_MOST ? -1 : write(to, grips);
 	}
@@ -135,7 +135,7 @@ public:
 		const auto look = [&](bool at_known) {
 			int32_t left_out = 0;
 			count = 0;
-			walls(s, way, nearness);
+			walls(clusters.slots[s], way, nearness);
 			clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
 				const Trajectory<T> other_way = way_of(other);
 				if (!may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place))
@@ -143,7 +143,7 @@ public:
 				if (!at_known && is_known(other))
 					left_out++;
 				else
-					pair(s, way, other, other_way, nearness);
+					pair(clusters.slots[s], way, other, clusters.slots[other], other_way, nearness);
 			});
 			return left_out;
 		};
@@ -231,9 +231,9 @@ private:
 		return {key, 0, partner, n, rules.force, T(CONTACT_PART) * (T(EASE) * rules.cushion()), friction, {}};
 	}
 
-	void pair(int32_t s, const Trajectory<T> &way, int32_t other, const Trajectory<T> &other_way, const Nearness<T> &nearness)
+	void pair(const Slot<T> &slot, const Trajectory<T> &way, int32_t other, const Slot<T> &other_slot, const Trajectory<T> &other_way,
+		const Nearness<T> &nearness)
 	{
-		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
 		const T friction = rubs.between(slot.body(), other_slot.body());
 		if (!loses_energy(larger(slot.turn[TURN_RESTITUTION], other_slot.turn[TURN_RESTITUTION]), friction))
 			return;
@@ -269,9 +269,8 @@ private:
 		insert(rest);
 	}
 
-	void walls(int32_t s, const Trajectory<T> &way, const Nearness<T> &nearness)
+	void walls(const Slot<T> &slot, const Trajectory<T> &way, const Nearness<T> &nearness)
 	{
-		const Slot<T> &slot = clusters.slots[s];
 		const T friction = rubs.at_wall(slot.body());
 		if (!clusters.has_walls() || !loses_energy(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), friction))
 			return;

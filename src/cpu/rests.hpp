@@ -36,27 +36,6 @@ template <typename T> struct Sums {
 	}
 };
 
-/* Of a slot, before the step. */
-template <typename T> struct Kept {
-	T push[4], velocities[4];
-
-	void keep(const Slot<T> &slot)
-	{
-		std::copy_n(slot.push, PUSH_BODY, push);
-		velocities[0] = slot.place[LINEAR_VX], velocities[1] = slot.place[LINEAR_VY], velocities[2] = slot.turn[TURN_VELOCITY];
-	}
-
-	bool is_at_rest() const { return velocities[0] == 0 && velocities[1] == 0 && velocities[2] == 0; }
-
-	/* But for which body it is, which others look at meanwhile. */
-	void restore(Slot<T> &slot, bool with_velocities) const
-	{
-		std::copy_n(push, PUSH_BODY, slot.push);
-		if (with_velocities)
-			slot.place[LINEAR_VX] = velocities[0], slot.place[LINEAR_VY] = velocities[1], slot.turn[TURN_VELOCITY] = velocities[2];
-	}
-};
-
 /* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching, Grips, Islands. */
 template <typename T> struct Rests {
 	const Slot<T> *slots;

@@ -33,6 +33,17 @@ template <typename T> T speed(const Slot<T> &slot)
 	return largest(slot, slot.place[LINEAR_VX], slot.place[LINEAR_VY], slot.turn[TURN_VELOCITY]);
 }
 
+/* Is nothing left of a body's push? */
+template <typename T> bool is_unpushed(const Slot<T> &slot)
+{
+	return slot.push[PUSH_X] == 0 && slot.push[PUSH_Y] == 0 && slot.push[PUSH_TORQUE] == 0;
+}
+
+template <typename T> void stop(Slot<T> &slot)
+{
+	slot.place[LINEAR_VX] = slot.place[LINEAR_VY] = slot.turn[TURN_VELOCITY] = 0;
+}
+
 /* Is a body at rest, and left there by its push? */
 template <typename T> bool stays_still(const Rests<T> &rests, int32_t s)
 {

@@ -17,6 +17,20 @@ static carom_status release(carom_world *world, int32_t again, carom_error *erro
 	return carom_run(world, STAGE_CONTACTS_RELEASE, carom_events_share(world), 1, carom_events_movers(world), again, error);
 }
 
+/* Of all slots, what SLEEP_... says. */
+static carom_status sleep_of(carom_world *world, uint32_t count, int32_t what, carom_error *error)
+{
+	return carom_run(world, STAGE_SLEEP_BEGIN, (int32_t)count, 1, carom_events_movers(world), what, error);
+}
+
+/* Before the device is told of so many changes, who is to wake; 0: all, for what holds for all is another one. */
+static carom_status wake(carom_world *world, uint32_t changes, carom_error *error)
+{
+	if (changes > 0)
+		return carom_run(world, STAGE_SLEEP_END, (int32_t)changes, 1, 0, 0, error);
+	return sleep_of(world, world->events.known, SLEEP_ENDS, error);
+}
+
 /* What bears what, and with which impulses or forces. */
 static carom_status bear(carom_world *world, carom_error *error)
 {
@@ -24,6 +38,7 @@ static carom_status bear(carom_world *world, carom_error *error)
 	const int32_t last = world->events.iteration += (int32_t)world->events.iterations;
 	TRY(carom_run(world, STAGE_CONTACTS_BEGIN, 1, 1, first, last, error));
 	TRY(carom_run(world, STAGE_CONTACTS_FIND, count, 1, first, 0, error));
+	TRY(carom_run(world, STAGE_CONTACTS_FIND, count, 1, first, 1, error));
 	TRY(carom_run(world, STAGE_CONTACTS_JOIN, share, 1, first, 0, error));
 	for (int32_t iteration = first; iteration <= last; iteration++)
 		TRY(carom_run(world, STAGE_CONTACTS_ITERATE, share, 1, iteration, 0, error));
@@ -34,12 +49,14 @@ static carom_status run(carom_world *world, carom_error *error)
 {
 	if (carom_events_lists_are_due(world)) {
 		TRY(release(world, 1, error)); /* the slots are sorted anew */
+		TRY(wake(world, 0, error));
 		TRY(carom_events_find_neighbours(world, error));
 	}
 	for (int pass = 0; pass < 2; pass++) /* impulses, forces */
 		TRY(bear(world, error));
 	TRY(carom_events_resolve(world, error));
-	return release(world, 0, error);
+	TRY(release(world, 0, error));
+	return sleep_of(world, (uint32_t)world->body_count, SLEEP_BEGINS, error);
 }
 
 /* Of a step that is not done nothing is left: it begins again, with new lists, which forget how far it was. */
@@ -54,8 +71,12 @@ static carom_status unload(carom_world *world, carom_error *error)
 /* What bears a body where it has been put is looked for before it could hit that. */
 static carom_status begin(carom_world *world, carom_error *error)
 {
+	if (!world->contacts_sent && world->newest & PLACE_SLOTS)
+		TRY(wake(world, 0, error));
 	TRY(carom_contacts_send(world, error));
 	TRY(carom_events_begin(world, error));
+	if (world->events.iteration == 0) /* they are loaded anew */
+		TRY(sleep_of(world, world->capacity, SLEEP_FORGOTTEN, error));
 	return world->events.told ? carom_events_mend(world, error) : CAROM_OK;
 }
 
@@ -92,4 +113,5 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	return carom_events_create_list(world, ROLE_WARM_COUNT, false, n, error);
 }
 
-const carom_step carom_step_contacts = {"contacts", false, prepare, run, begin, carom_events_finish, unload, carom_events_take_hits, false, memory};
+const carom_step carom_step_contacts = {
+	"contacts", false, prepare, run, begin, carom_events_finish, unload, carom_events_take_hits, false, memory, wake};

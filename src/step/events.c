@@ -360,4 +360,4 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 }
 
 const carom_step carom_step_events = {"events", false, carom_events_prepare, run, carom_events_begin, carom_events_finish, carom_events_unload,
-	carom_events_take_hits, false, carom_events_memory};
+	carom_events_take_hits, false, carom_events_memory, NULL};

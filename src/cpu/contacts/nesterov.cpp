@@ -30,6 +30,9 @@ template <typename T> static void begin(const Job<T> &job)
 	status[STATUS_HANDED] = last;
 	if (waits)
 		return;
+	const int32_t length = as_bits(static_cast<float>(step_length(job.texels(1), job.texels(0))));
+	status[STATUS_ROUSED] = status[STATUS_PASS] == 0 && (status[STATUS_ROUSED] || length != status[STATUS_SLEPT]);
+	status[STATUS_SLEPT] = length;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
 	status[STATUS_PASS]++;
 }
@@ -46,31 +49,36 @@ static void sort_touching(Touching *touching, int32_t count)
 		touching[k].slot = all[static_cast<size_t>(k)];
 }
 
+/* First those that are awake; then those that they wake. */
 template <typename T> static void find(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 14);
 	Points<T> *points = reinterpret_cast<Points<T> *>(job.records(12));
-	Touching *touching = reinterpret_cast<Touching *>(job.list(13));
-	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(16));
+	const Sleepers<T> sleepers{reinterpret_cast<Touching *>(job.list(13)), reinterpret_cast<Kept<T> *>(job.records(16)), job.list(20)};
 	const Rubs<T> rubs(job.texels(1), job.texels(17));
 	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
 	const int32_t *last_counts = job.list(19);
-	int32_t *islands = job.list(20);
+	Touching *touching = sleepers.touching;
 	int32_t *status = clusters.status;
+	const bool is_second = job.domain[3];
 	if (status[STATUS_FIRST] != job.domain[2] || status[STATUS_PASS] != PASS_IMPULSES)
 		return;
 	job.pool.run(job.domain[0], 256, [&](int32_t from, int32_t to) {
 		RestFinder<T> finder(clusters, rubs);
 		for (int32_t s = from; s < to; s++) {
-			kept[s].keep(clusters.slots[s]);
-			islands[s] = s;
-			touching[s].count = finder.find(s, points + FOURS_MOST * s, grips + FOURS_MOST * s);
+			if (sleepers.sleeps(s) != is_second || (is_second && !status[STATUS_ROUSED] && !sleepers.is_disturbed(s)))
+				continue;
+			if (!is_second)
+				sleepers.kept[s].keep(clusters.slots[s]);
+			sleepers.islands[s] = s;
+			touching[s].count = finder.find(s, sleepers, points + FOURS_MOST * s, grips + FOURS_MOST * s);
 			/* what rests on a kinematic body goes by that one's load */
 			if (touching[s].count > 0 || last_counts[clusters.slots[s].body()] > 0 || clusters.slots[s].is_kinematic())
 				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
 		}
 	});
-	sort_touching(touching, status[STATUS_TOUCHING]);
+	if (is_second)
+		sort_touching(touching, status[STATUS_TOUCHING]);
 }
 
 /* A bound of what all points do together, each as if it alone gave way by 1. */
@@ -122,6 +130,8 @@ template <typename T> static void join(const Job<T> &job)
 	const Rests<T> rests(job);
 	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
 	const Warm<T> warm(job.records(9), job.list(10), rests.rubs);
+	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
+	const Sleepers<T> sleepers{rests.touching, reinterpret_cast<Kept<T> *>(job.records(11)), rests.islands.parents};
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
@@ -130,6 +140,9 @@ template <typename T> static void join(const Job<T> &job)
 			const int32_t s = rests.touching[k].slot;
 			rests.touching[s].wanted = first;
 			if (rests.impulses) {
+				if (sleepers.sleeps(s))
+					sleepers.wake(slots[s], s);
+				rests.touching[s].restless = 0;
 				drop(rests, s);
 				unite(rests, s);
 			} else
@@ -314,7 +327,8 @@ template <typename T> static void release(const Job<T> &job)
 {
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
-	const Kept<T> *kept = reinterpret_cast<const Kept<T> *>(job.records(8));
+	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
+	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents};
 	const Warm<T> warm(job.records(12), job.list(13), rests.rubs);
 	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH); /* of the step that is done: the clock has gone on */
 	const bool again = job.domain[3];
@@ -324,11 +338,14 @@ template <typename T> static void release(const Job<T> &job)
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
+			const bool is_borne = is_unpushed(slots[s]);
 			kept[s].restore(slots[s], again);
-			if (!again && comes_to_rest(rests, s, kept, length))
-				slots[s].place[LINEAR_VX] = slots[s].place[LINEAR_VY] = slots[s].turn[TURN_VELOCITY] = 0;
-			if (!again)
-				keep_forces(rests, s, length, warm);
+			if (!again) {
+				if (comes_to_rest(rests, s, kept, length))
+					stop(slots[s]);
+				if (!keep_forces(rests, s, length, warm) || !is_borne || !kept[s].stays(slots[s]))
+					sleepers.disturb(s);
+			}
 			keeper.pushed(s);
 		}
 	});
