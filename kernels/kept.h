@@ -57,16 +57,16 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_
 	}
 }
 
-/* What the next step begins with, in N: the mean of a force and of what there was before, or that force alone. What was there stays where it bears, and the two rub. */
-float force_mean(float force, float before, bool lasts, bool stays, float length)
+/* What the next step begins with, in N: the mean of a force and of what there was before, or that force alone. */
+float force_mean(float force, float before, bool lasts, float follow, float length)
 {
 	float now = (force / length) / length;
-	return !lasts ? now : stays ? before : before + WARM_FOLLOW * (now - before);
+	return lasts ? before + follow * (now - before) : now;
 }
 
 /* In the place of a body's forces, where such began this step. True if they are what it began with. */
-bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
-	bool bears, float length)
+bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(pushes), RECORD_IN(warm),
+	LIST_IN(warm_counts), int s, bool rub, bool bears, float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
 	bool same = true;
@@ -75,21 +75,22 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (!last_forces_of(slots, warm, warm_counts, s, other, rub, &last))
 			continue;
-		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, stays = bears && rub && grip[4 * GRIP_FRICTION] > 0.0f;
-		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, stays, length);
+		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, rubs = rub && grip[4 * GRIP_FRICTION] > 0.0f;
+		float follow = rubs ? (bears && was_at_rest(pushes, s) && (other < 0 || was_at_rest(pushes, other)) ? 0.0f : GRIP_WARM_FOLLOW) : WARM_FOLLOW;
+		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, follow, length);
 		if (rub)
-			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, stays, length);
+			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, follow, length);
 		same = same && at[4 * FOUR_FORCE] == last.force && (!rub || grip[4 * GRIP_FORCE] == last.friction);
 	}
 	return same;
 }
 
 /* Keeps the forces on a body, in such a step, for the next one. If this one did not begin with them its island is not to fall asleep. */
-void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_IN(islands), RECORD_OUT(warm),
-	LIST_OUT(warm_counts), int s, bool rub, float length)
+void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(pushes),
+	RECORD_OUT(warm), LIST_OUT(warm_counts), int s, bool rub, float length)
 {
 	int body = slot_body(slots, s), count = 0, before = PARTNER_NONE;
-	if (!forces_mean(slots, contacts, grips, touching, warm, warm_counts, s, rub, island_bears(status, touching, islands, s), length))
+	if (!forces_mean(slots, contacts, grips, touching, pushes, warm, warm_counts, s, rub, island_bears(status, touching, islands, s), length))
 		island_disturb(touching, islands, s);
 	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? s : 0, point);

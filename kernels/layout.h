@@ -357,22 +357,28 @@
 /* Warm: the forces that the last steps ended with, as means that follow the last one by WARM_FOLLOW: what a step ends with makes up for what the one before
  * left within its tolerance, and so differs from what bears. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies
  * rub two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations
- * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. Where they rub what bears without another iteration is kept as it is. */
+ * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. Where they rub they follow by GRIP_WARM_FOLLOW, for what stops them is no more what bears them; and what bears bodies at rest without another
+ * iteration is kept as it is. */
 #define WARM_WIDTH(rub) ((rub) ? 2 : 1)
 #define WARM_PARTNER 0  /* the other's index, or -1 - wall */
 #define WARM_FORCES 1   /* two, N */
 #define WARM_FRICTION 0 /* of the second record: two, N */
 #define WARM_PART 0.9f
 #define WARM_FOLLOW 0.25f
+#define GRIP_WARM_FOLLOW 0.125f
 #define WARM_MOST 1e6f /* m/step^2, of either body: a larger force is not begun with */
 
 /* Touching: ints of each slot */
-#define TOUCHING_WIDTH 5
+#define TOUCHING_WIDTH 6
 #define TOUCHING_COUNT 0    /* of its points; -1: too many contacts */
 #define TOUCHING_SLOT 1     /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
 #define TOUCHING_WANTED 2   /* of a root: the last iteration that its island wants */
 #define TOUCHING_RESTLESS 3 /* of a root: 1: not all of its island is as the step began; of one that sleeps: it is to wake */
 #define TOUCHING_ASLEEP 4   /* 1: each step would leave it, and all of its island, as it is: its push is kept, and 0 in the slot */
+#define TOUCHING_FOOTING 5  /* bits: of a root, what its island is on: */
+#define FOOTING_FIRM 1      /* something static, where it does not slide; */
+#define FOOTING_LOOSE 2     /* something static, on which it slides, or kinematic; and of each slot, root or not: */
+#define FOOTING_SLIDES 4    /* its body slides somewhere */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
@@ -531,8 +537,11 @@
  * GRIP_BEGUN: so a step may need no more, and then its forces are those of the next one, too.
  *
  * A body that rubs at all points, two at least, comes to rest where it touches what is at rest, moves in a step by less than STILL_SPEED of what forces are found within, and gets no
- * faster but by less than STILL_PUSH of that. One at rest stays where its forces leave less than STILL_PUSH. */
+ * faster but by less than STILL_PUSH of that. One at rest stays where its forces leave less than STILL_PUSH. One that does not slide, of an island that stands firm,
+ * loses STILL_BRAKE of its velocities while it moves by less than STILL_SLOW of that and gets no faster: else a column trembles on within what forces are found within. */
 #define STILL_SPEED 0.125f
+#define STILL_SLOW 4.0f
+#define STILL_BRAKE 0.5f
 #define STILL_PUSH 0.015625f
 #define GRIP_BEGUN 2.0f
 #define GRIP_FOLLOW 16

@@ -266,17 +266,6 @@ void velocities_set(RECORD_OUT(slots), int s, float x, float y, float turning)
 	slots[SLOT_WIDTH * s + SLOT_TURN] = turn;
 }
 
-/* What a body's forces come to, in such a step, changes its velocities at once, or its push. */
-void slot_take(RECORD_OUT(slots), LIST_IN(status), int s, float4 sum, float length)
-{
-	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), place = SLOT_LOAD(slots, s, SLOT_PLACE);
-	float x = sum.x / length, y = sum.y / length, torque = sum.z / length;
-	if (status[STATUS_PASS] == PASS_IMPULSES)
-		velocities_set(slots, s, place.z + x, place.w + y, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) + torque);
-	else
-		slots[SLOT_WIDTH * s + SLOT_PUSH] = (float4)(push.x + x / length, push.y + y / length, push.z + torque / length, push.w);
-}
-
 /* What a step begins with, to be brought back. */
 void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
 {
@@ -286,13 +275,19 @@ void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
 	pushes[PUSHES_WIDTH * s + 2] = (float4)(place.x, place.y, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_ANGLE), 0.0f);
 }
 
+bool was_at_rest(RECORD_IN(pushes), int s)
+{
+	float4 velocities = pushes[PUSHES_WIDTH * s + 1];
+	return velocities.x == 0.0f && velocities.y == 0.0f && velocities.z == 0.0f;
+}
+
 /* Is it at rest where it was at rest before the step? */
 bool slot_stayed(RECORD_IN(slots), RECORD_IN(pushes), int s)
 {
 	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE), turn = SLOT_LOAD(slots, s, SLOT_TURN);
-	float4 velocities = pushes[PUSHES_WIDTH * s + 1], before = pushes[PUSHES_WIDTH * s + 2];
-	return velocities.x == 0.0f && velocities.y == 0.0f && velocities.z == 0.0f && place.z == 0.0f && place.w == 0.0f
-		&& CHANNEL(turn, TURN_VELOCITY) == 0.0f && place.x == before.x && place.y == before.y && CHANNEL(turn, TURN_ANGLE) == before.z;
+	float4 before = pushes[PUSHES_WIDTH * s + 2];
+	return was_at_rest(pushes, s) && place.z == 0.0f && place.w == 0.0f && CHANNEL(turn, TURN_VELOCITY) == 0.0f && place.x == before.x
+		&& place.y == before.y && CHANNEL(turn, TURN_ANGLE) == before.z;
 }
 
 /* But for which body it is, which others look at meanwhile. */

@@ -30,14 +30,22 @@ float still_speed(RECORD_IN(slots), int s)
 	return still_most(slots, s, place.z, place.w, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
 }
 
-/* Nothing pushes what is at rest, if all that does comes to hardly anything, forces too. */
-void slot_stay(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float length)
+/* What a body's forces come to, in such a step, changes its velocities at once, or its push. What is at rest stays so if all that moves it comes to hardly anything. */
+void slot_take(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float4 sum,
+	float length)
 {
-	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
-	float way = (still_most(slots, s, push.x, push.y, push.z) * length) * length;
-	if (status[STATUS_PASS] == PASS_FORCES && still_speed(slots, s) == 0.0f
-		&& way < STILL_PUSH * still_within(slots, contacts, grips, touching, s, rub))
-		slots[SLOT_WIDTH * s + SLOT_PUSH] = (float4)(0.0f, 0.0f, 0.0f, push.w);
+	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	float x = sum.x / length, y = sum.y / length, torque = sum.z / length, turning = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) + torque;
+	bool impulses = status[STATUS_PASS] == PASS_IMPULSES, at_rest = still_speed(slots, s) == 0.0f;
+	float4 moves = impulses ? (float4)(place.z + x, place.w + y, turning, 0.0f)
+							: (float4)(push.x + x / length, push.y + y / length, push.z + torque / length, 0.0f);
+	float way = still_most(slots, s, moves.x, moves.y, moves.z) * length;
+	if (at_rest && (impulses ? way : way * length) < STILL_PUSH * still_within(slots, contacts, grips, touching, s, rub))
+		moves = (float4)(0.0f);
+	if (impulses)
+		velocities_set(slots, s, moves.x, moves.y, moves.z);
+	else
+		slots[SLOT_WIDTH * s + SLOT_PUSH] = (float4)(moves.x, moves.y, moves.z, push.w);
 }
 
 /* Was any that a body touches at rest as the step began? */
@@ -47,21 +55,51 @@ bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int
 		int other = (int)POINT_IN(contacts, FOUR_WIDTH, s, point)[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;
-		float4 velocities = pushes[PUSHES_WIDTH * max(other, 0) + 1];
-		if (other < 0 || (velocities.x == 0.0f && velocities.y == 0.0f && velocities.z == 0.0f))
+		if (other < 0 || was_at_rest(pushes, other))
 			return true;
 	}
 	return false;
 }
 
-/* What hardly moves after a step comes to rest, unless it gets faster. */
-void slot_come_to_rest(RECORD_OUT(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), RECORD_IN(pushes), int s, bool rub, float length)
+/* What the island of a slot is on, once its forces are found: bits for its root, and for the slot itself. */
+void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_OUT(touching), LIST_IN(islands), int s, bool rub)
 {
-	float4 before = pushes[PUSHES_WIDTH * s + 1];
-	float within = still_within(slots, contacts, grips, touching, s, rub), way = still_speed(slots, s) * length;
-	float way_before = still_most(slots, s, before.x, before.y, before.z) * length;
-	if (way < STILL_SPEED * within && way < way_before + STILL_PUSH * within && still_beside(contacts, touching, pushes, s))
+	int own = 0, all = 0;
+	for (int point = 0; rub && status[STATUS_PASS] == PASS_FORCES && point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, s, point);
+		int other = (int)at[4 * FOUR_PARTNER];
+		if (other == PARTNER_NONE || !(at[4 * FOUR_FORCE] > 0.0f))
+			continue;
+		bool slides = !(fabs(grip[4 * GRIP_FORCE]) < grip[4 * GRIP_BOUND]);
+		own |= slides ? FOOTING_SLIDES : 0;
+		if (other < 0 || !slot_is_dynamic(slots, other))
+			all |= other < 0 && !slides ? FOOTING_FIRM : FOOTING_LOOSE;
+	}
+	if (own)
+		atomic_or(&touching[TOUCH(s, TOUCHING_FOOTING)], own);
+	if (all)
+		atomic_or(&touching[TOUCH(islands[s], TOUCHING_FOOTING)], all);
+}
+
+/* Does a body slide nowhere, and stand, by its island, on something static? */
+bool slot_is_firm(LIST_IN(touching), LIST_IN(islands), int s)
+{
+	int all = touching[TOUCH(islands[s], TOUCHING_FOOTING)];
+	return !(touching[TOUCH(s, TOUCHING_FOOTING)] & FOOTING_SLIDES) && (all & (FOOTING_FIRM | FOOTING_LOOSE)) == FOOTING_FIRM;
+}
+
+/* What hardly moves after a step comes to rest, unless it gets faster; what stands firm, and moves little, gets slower. */
+void slot_settle(RECORD_OUT(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), LIST_IN(islands), RECORD_IN(pushes), int s, bool rub,
+	float length)
+{
+	float4 before = pushes[PUSHES_WIDTH * s + 1], place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	float within = still_within(slots, contacts, grips, touching, s, rub), way = still_speed(slots, s) * length, left = 1.0f - STILL_BRAKE;
+	if (!(way < still_most(slots, s, before.x, before.y, before.z) * length + STILL_PUSH * within))
+		return;
+	if (way < STILL_SPEED * within && still_beside(contacts, touching, pushes, s))
 		velocities_set(slots, s, 0.0f, 0.0f, 0.0f);
+	else if (way < STILL_SLOW * within && slot_is_firm(touching, islands, s))
+		velocities_set(slots, s, left * place.z, left * place.w, left * CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
 }
 
 /* Is nothing left of its push? */
@@ -90,7 +128,7 @@ bool slot_sleep(RECORD_OUT(slots), RECORD_IN(contacts), LIST_OUT(touching), RECO
 		slot_wake(slots, touching, pushes, s);
 		island_disturb(touching, islands, s);
 		if (what == SLEEP_BEGINS)
-			slot_come_to_rest(slots, contacts, grips, touching, pushes, s, rub, length);
+			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, length);
 		return true;
 	} else if (!asleep && what == SLEEP_BEGINS && touching[TOUCH(s, TOUCHING_COUNT)] > 0 && !island_is_disturbed(touching, islands, s)) {
 		float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);

@@ -2,6 +2,7 @@
 #include "wild.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "runs.h"
 
@@ -195,4 +196,68 @@ void wild_add_watchers(wild_world *world)
 		*watcher = scenery_circle(low.x + (high.x - low.x) * ((float)i + 0.5f) / (float)WILD_WATCHERS, low.y + 0.004f, 0.0f, 0.0f, 0.002f);
 		watcher->is_static = true;
 	}
+}
+
+/* A body gets another velocity, if it may have one. */
+static void steer(carom_world *world, uint32_t index)
+{
+	carom_body_state state = runs_state(world, index);
+	carom_body_info info;
+	carom_error error;
+	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
+	if (info.is_static)
+		return;
+	state.velocity = (carom_vec2){1.0f - state.velocity.y, state.velocity.x};
+	scenery_check(carom_world_set_states(world, index, 1, &state, &error), &error);
+	if (!info.is_kinematic)
+		scenery_check(carom_world_set_force(world, index, (carom_vec2){3.0f * info.mass, info.mass}, 0.0f, &error), &error);
+}
+
+/* A body goes, and one like it comes in its place, as the last one. */
+static void replace(carom_world *world, uint32_t index)
+{
+	const carom_body_state state = runs_state(world, index);
+	carom_body_def def = carom_default_body_def();
+	carom_vec2 vertices[CAROM_MAX_VERTICES];
+	carom_body_info info;
+	carom_error error;
+	scenery_check(carom_world_get_body(world, index, &info, &error), &error);
+	if (info.vertices)
+		memcpy(vertices, info.vertices, info.vertex_count * sizeof *vertices);
+	def.shape = info.vertices ? CAROM_POLYGON : CAROM_CIRCLE;
+	def.radius = info.radius;
+	def.vertices = vertices;
+	def.vertex_count = info.vertex_count;
+	def.position = state.position;
+	def.angle = state.angle;
+	def.velocity = state.velocity;
+	def.angular_velocity = state.angular_velocity;
+	def.is_static = info.is_static;
+	def.is_kinematic = info.is_kinematic;
+	def.mass = info.is_static || info.is_kinematic ? 0.0f : info.mass;
+	def.restitution = info.restitution;
+	def.friction = info.friction;
+	def.force = info.force;
+	def.torque = info.torque;
+	def.categories = info.categories;
+	def.mask = info.mask;
+	scenery_check(carom_world_remove(world, &index, 1, &error), &error);
+	scenery_check(carom_world_add(world, &def, 1, NULL, &error), &error);
+}
+
+void wild_change(carom_world *world, uint32_t step, float time_step)
+{
+	static const float lengths[] = {1.1f, 0.6f, 1.6f, 1.0f};
+	const uint32_t count = (uint32_t)carom_world_body_count(world);
+	carom_error error;
+	if (step % 3 == 0)
+		steer(world, 7 * step % count);
+	if (step % 4 == 1)
+		replace(world, 11 * step % count);
+	if (step % 12 == 9)
+		scenery_check(carom_world_set_gravity(world, (carom_vec2){(float)(step % 5) - 2.0f, -1.0f}, &error), &error);
+	if (step % 8 == 5)
+		scenery_check(carom_world_set_time_step(world, lengths[step / 8 % 4] * time_step, &error), &error);
+	if (step % 10 == 7)
+		scenery_check(carom_world_set_filter(world, 5 * step % count, 1 + step % 20 / 10, CAROM_MASK - step % 30 / 10, &error), &error);
 }

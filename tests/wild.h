@@ -22,4 +22,7 @@ void wild_make_wider(uint64_t seed, wild_world *world);
 /* Many that nothing happens to, so that those in hits are few: only then bodies do not look at each other in each step. */
 void wild_add_watchers(wild_world *world);
 
+/* Before the step of that number bodies are steered, go and come, or what holds for all changes; `time_step` is the first one. */
+void wild_change(carom_world *world, uint32_t step, float time_step);
+
 #endif

@@ -21,7 +21,7 @@ static const struct reference {
 	struct outcome expected;
 } references[] = {
 	{"events", 60, false, {0x72ffa6a29798faca, 0x7dfcc495d9b42702, 0x728f7931a28ac03f}},
-	{"contacts", 12, true, {0xd5005d048e824e28, 0x60293d296bcfaef6, 0x67c51f6d6ec811af}},
+	{"contacts", 12, true, {0xbc41622176472303, 0x80127798056ec41b, 0xc832e7850a3e3bdf}},
 	{"first_impact", 60, false, {0xe443f056f109fad9, 0x7628f5ddae755cc8, 0x5be3f6b36ea95729}},
 };
 

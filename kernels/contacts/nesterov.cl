@@ -43,7 +43,7 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_I
 		touching[TOUCH(s, TOUCHING_WANTED)] = domain.z;
 		if (impulses) {
 			slot_wake(slots, touching, pushes, s);
-			touching[TOUCH(s, TOUCHING_RESTLESS)] = 0;
+			touching[TOUCH(s, TOUCHING_RESTLESS)] = touching[TOUCH(s, TOUCHING_FOOTING)] = 0;
 			rests_drop(contacts, grips, touching, s, rub);
 			island_join(slots, contacts, touching, islands, s);
 		} else
@@ -91,8 +91,9 @@ __kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_
 		status[STATUS_BORNE] = 1;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		slot_take(slots, status, s, rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), (float4)(0.0f)), length);
-		slot_stay(slots, status, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), length);
+		float4 sum = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), (float4)(0.0f));
+		slot_take(slots, status, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), sum, length);
+		slot_foot(slots, status, contacts, grips, touching, islands, s, anything_rubs(TEX(uniforms)));
 		if (slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z)) /* lists made anew for this step know none of this */
 			need[s] = as_int(way_ahead(slots, s, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)));
 	}
@@ -109,8 +110,8 @@ __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), L
 		bool borne = slot_is_unpushed(slots, s);
 		slot_restore(slots, pushes, s, again);
 		if (!again) {
-			slot_come_to_rest(slots, contacts, grips, touching, pushes, s, rub, length);
-			forces_keep(slots, status, contacts, grips, touching, islands, warm, warm_counts, s, rub, length);
+			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, length);
+			forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_counts, s, rub, length);
 			if (!borne || !slot_stayed(slots, pushes, s))
 				island_disturb(touching, islands, s);
 		}

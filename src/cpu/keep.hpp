@@ -34,7 +34,7 @@ template <typename T> void warm_up(const Rests<T> &rests, const Warm<T> &warm, i
 
 /* In the place of a slot's forces what the next step begins with, in N: their means, where such began this one. True if that
  * is what began it. */
-template <typename T> bool find_means(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
+template <typename T> bool find_means(const Rests<T> &rests, const Kept<T> *kept, int32_t s, T length, const Warm<T> &warm)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const bool bears = rests.touching[rests.islands.parents[s]].wanted == rests.status[STATUS_FIRST]; /* what the second pass began with */
@@ -44,8 +44,9 @@ template <typename T> bool find_means(const Rests<T> &rests, int32_t s, T length
 		if (point == 0)
 			last = warm.of(slot.body(), partner.key(rests.slots));
 		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
-		const bool stays = bears && rests.rubs && grips.friction[i] > 0;
-		const T follow = stays ? T(0) : T(WARM_FOLLOW);
+		const bool rub = rests.rubs && grips.friction[i] > 0;
+		const bool stays = bears && rub && kept[s].is_at_rest() && (!partner.moves() || kept[partner.slot()].is_at_rest());
+		const T follow = stays ? T(0) : rub ? T(GRIP_WARM_FOLLOW) : T(WARM_FOLLOW);
 		const auto mean = [&](T force, T before) {
 			const T now = (force / length) / length;
 			return lasts ? before + follow * (now - before) : now;
@@ -59,11 +60,11 @@ template <typename T> bool find_means(const Rests<T> &rests, int32_t s, T length
 }
 
 /* Keeps the forces on a slot for the next step. True if this one began with the same. */
-template <typename T> bool keep_forces(const Rests<T> &rests, int32_t s, T length, const Warm<T> &warm)
+template <typename T> bool keep_forces(const Rests<T> &rests, const Kept<T> *kept, int32_t s, T length, const Warm<T> &warm)
 {
 	const int32_t body = rests.slots[s].body();
 	int32_t count = 0;
-	const bool are_same = find_means(rests, s, length, warm);
+	const bool are_same = find_means(rests, kept, s, length, warm);
 	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
 			warm.begin(body, count++, partner.key(rests.slots));

@@ -10,7 +10,7 @@ namespace carom::cpu {
 
 /* In Touching, how many points, -1: there are too many contacts; a list; and what layout.h says of each island, at its root, and of sleep. */
 struct Touching {
-	int32_t count, slot, wanted, restless, asleep;
+	int32_t count, slot, wanted, restless, asleep, footing;
 };
 
 static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");

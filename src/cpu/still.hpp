@@ -39,17 +39,15 @@ template <typename T> bool is_unpushed(const Slot<T> &slot)
 	return slot.push[PUSH_X] == 0 && slot.push[PUSH_Y] == 0 && slot.push[PUSH_TORQUE] == 0;
 }
 
-template <typename T> void stop(Slot<T> &slot)
+template <typename T> T pushed_by(const Slot<T> &slot)
 {
-	slot.place[LINEAR_VX] = slot.place[LINEAR_VY] = slot.turn[TURN_VELOCITY] = 0;
+	return largest(slot, slot.push[PUSH_X], slot.push[PUSH_Y], slot.push[PUSH_TORQUE]);
 }
 
-/* Is a body at rest, and left there by its push? */
-template <typename T> bool stays_still(const Rests<T> &rests, int32_t s)
+/* Is that far in a step too little to move a body that is at rest? */
+template <typename T> bool is_slight(const Rests<T> &rests, int32_t s, T way)
 {
-	const Slot<T> &slot = rests.slots[s];
-	const T push = largest(slot, slot.push[PUSH_X], slot.push[PUSH_Y], slot.push[PUSH_TORQUE]);
-	return speed(slot) == 0 && (push * rests.length) * rests.length < T(STILL_PUSH) * nearly_still(rests, s);
+	return way < T(STILL_PUSH) * nearly_still(rests, s);
 }
 
 /* Does it touch anything that was at rest as the step began? */
@@ -62,13 +60,46 @@ template <typename T> bool leans_on_rest(const Rests<T> &rests, int32_t s, const
 	return leans;
 }
 
-/* Does it, after a step that took so long, hardly move, and get no faster? */
-template <typename T> bool comes_to_rest(const Rests<T> &rests, int32_t s, const Kept<T> *kept, T length)
+/* What its island is on, of a slot whose forces are found: noted at the root, and whether it slides at the slot. */
+template <typename T> void find_footing(const Rests<T> &rests, int32_t s)
 {
-	const Slot<T> &slot = rests.slots[s];
+	int32_t own = 0, all = 0;
+	if (!rests.rubs)
+		return;
+	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t) {
+		if (!(points.force[i] > 0))
+			return;
+		const bool slides = !(std::abs(grips.force[i]) < grips.bound[i]);
+		if (slides)
+			own = FOOTING_SLIDES;
+		if (!partner.moves())
+			all |= slides ? FOOTING_LOOSE : FOOTING_FIRM;
+		else if (!rests.slots[partner.slot()].is_dynamic())
+			all |= FOOTING_LOOSE;
+	});
+	__atomic_fetch_or(&rests.touching[s].footing, own, __ATOMIC_RELAXED);
+	__atomic_fetch_or(&rests.touching[rests.islands.parents[s]].footing, all, __ATOMIC_RELAXED);
+}
+
+/* Does nothing slide at a slot, and does its island stand on something? */
+template <typename T> bool stands_firm(const Rests<T> &rests, int32_t s)
+{
+	const int32_t all = rests.touching[rests.islands.parents[s]].footing;
+	return !(rests.touching[s].footing & FOOTING_SLIDES) && (all & FOOTING_FIRM) && !(all & FOOTING_LOOSE);
+}
+
+/* After a step that took so long a body comes to rest that hardly moves and gets no faster; one that stands firm is slowed. */
+template <typename T> void settle(const Rests<T> &rests, Slot<T> &slot, int32_t s, const Kept<T> *kept, T length)
+{
 	const T *const before = kept[s].velocities;
 	const T within = nearly_still(rests, s), now = speed(slot) * length, was = largest(slot, before[0], before[1], before[2]) * length;
-	return now < T(STILL_SPEED) * within && now < was + T(STILL_PUSH) * within && leans_on_rest(rests, s, kept);
+	if (!(now < was + T(STILL_PUSH) * within))
+		return;
+	if (now < T(STILL_SPEED) * within && leans_on_rest(rests, s, kept))
+		slot.place[LINEAR_VX] = slot.place[LINEAR_VY] = slot.turn[TURN_VELOCITY] = 0;
+	else if (now < T(STILL_SLOW) * within && stands_firm(rests, s))
+		for (T *velocity : {&slot.place[LINEAR_VX], &slot.place[LINEAR_VY], &slot.turn[TURN_VELOCITY]})
+			*velocity *= T(1 - STILL_BRAKE);
 }
 
 }

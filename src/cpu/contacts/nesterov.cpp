@@ -142,7 +142,7 @@ template <typename T> static void join(const Job<T> &job)
 			if (rests.impulses) {
 				if (sleepers.sleeps(s))
 					sleepers.wake(slots[s], s);
-				rests.touching[s].restless = 0;
+				rests.touching[s].restless = rests.touching[s].footing = 0;
 				drop(rests, s);
 				unite(rests, s);
 			} else
@@ -304,16 +304,20 @@ template <typename T> static void apply(const Job<T> &job)
 			const int32_t s = rests.touching[k].slot;
 			Lanes<T> sum{};
 			rests.add_forces(s, sum);
+			const bool is_at_rest = speed(slots[s]) == 0;
 			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
 			if (rests.impulses) {
 				slots[s].place[LINEAR_VX] += x;
 				slots[s].place[LINEAR_VY] += y;
 				slots[s].turn[TURN_VELOCITY] += torque;
+				if (is_at_rest && is_slight(rests, s, speed(slots[s]) * rests.length))
+					slots[s].place[LINEAR_VX] = slots[s].place[LINEAR_VY] = slots[s].turn[TURN_VELOCITY] = 0;
 			} else {
 				slots[s].push[PUSH_X] += x / rests.length;
 				slots[s].push[PUSH_Y] += y / rests.length;
 				slots[s].push[PUSH_TORQUE] += torque / rests.length;
-				if (stays_still(rests, s))
+				find_footing(rests, s);
+				if (is_at_rest && is_slight(rests, s, pushed_by(slots[s]) * rests.length * rests.length))
 					slots[s].push[PUSH_X] = slots[s].push[PUSH_Y] = slots[s].push[PUSH_TORQUE] = 0;
 			}
 			if (keeper.pushed(s)) /* lists that are made anew for this step, without the forces, have to be long enough */
@@ -341,9 +345,8 @@ template <typename T> static void release(const Job<T> &job)
 			const bool is_borne = is_unpushed(slots[s]);
 			kept[s].restore(slots[s], again);
 			if (!again) {
-				if (comes_to_rest(rests, s, kept, length))
-					stop(slots[s]);
-				if (!keep_forces(rests, s, length, warm) || !is_borne || !kept[s].stays(slots[s]))
+				settle(rests, slots[s], s, kept, length);
+				if (!keep_forces(rests, kept, s, length, warm) || !is_borne || !kept[s].stays(slots[s]))
 					sleepers.disturb(s);
 			}
 			keeper.pushed(s);

@@ -25,8 +25,8 @@ template <typename T> static void begin(const Job<T> &job)
 			if (is_asleep && (what == SLEEP_ENDS || !kept[s].stays(slots[s]))) {
 				sleepers.wake(slots[s], s);
 				sleepers.disturb(s);
-				if (what == SLEEP_BEGINS && comes_to_rest(rests, s, kept, length))
-					stop(slots[s]);
+				if (what == SLEEP_BEGINS)
+					settle(rests, slots[s], s, kept, length);
 			} else if (!is_asleep && what == SLEEP_BEGINS && rests.touching[s].count > 0 && !sleepers.is_disturbed(s))
 				sleepers.fall_asleep(slots[s], s);
 			if (is_asleep != sleepers.sleeps(s) && !rests.status[STATUS_STALE])
