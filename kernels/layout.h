@@ -452,16 +452,18 @@
 #define STATUS_BUSTLE 28     /* hits of the last step that is done: where there are many, shorter lists are better */
 #define STATUS_BRIEF 29      /* float bits, s: how long the lists of bodies are to last that are far faster than most */
 /* Of the step contacts, whose iterations are numbered on and on: */
-#define STATUS_WANTED 23 /* the last iteration that is wanted; if that is after STATUS_HANDED, the step waits for its forces */
-#define STATUS_FIRST 24  /* the first of those now */
-#define STATUS_HANDED 25 /* the last that was handed over */
-#define STATUS_BORNE 26  /* 1: pushes or velocities are changed */
-#define STATUS_WAITS 27  /* since the host asked: steps not done since they needed more iterations */
-#define STATUS_PASS 30   /* of the step: 0: not begun yet, */
-#define PASS_IMPULSES 1  /* what comes together is stopped, */
-#define PASS_FORCES 2    /* and borne */
-#define STATUS_ROUSED 47 /* 1: all wake in the next step */
-#define STATUS_SLEPT 54  /* float bits, s: the step in which those that sleep would stay as they are */
+#define STATUS_WANTED 23   /* the last iteration that is wanted; if that is after STATUS_HANDED, the step waits for its forces */
+#define STATUS_FIRST 24    /* the first of those now */
+#define STATUS_HANDED 25   /* the last that was handed over */
+#define STATUS_BORNE 26    /* 1: pushes or velocities are changed */
+#define STATUS_WAITS 27    /* since the host asked: steps not done since they needed more iterations */
+#define STATUS_PASS 30     /* of the step: 0: not begun yet, */
+#define PASS_IMPULSES 1    /* what comes together is stopped, */
+#define PASS_FORCES 2      /* and borne */
+#define STATUS_ROUSED 47   /* 1: all wake in the next step */
+#define STATUS_SLEPT 54    /* float bits, s: the step in which those that sleep would stay as they are */
+#define STATUS_SLEEPERS 55 /* bodies that sleep */
+#define STATUS_MOST 56     /* since the host asked: the most iterations of a pass that is done */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */

@@ -150,9 +150,15 @@ INLINE void fetch_awake(RECORD_IN(slots), LISTS_IN, LIST_IN(owners), __local con
 		fetch_neighbours(slots, spans, neighbours, owners, wakes, next, watched_end(spans, wakes, next));
 }
 
+/* All bits: in this step the body neither moves nor meets another such one: it sleeps, or where some do, is static. */
+INLINE int lies(RECORD_IN(slots), LIST_IN(status), LIST_IN(touching), int s)
+{
+	return status[STATUS_SLEEPERS] > 0 && (touching[TOUCH(s, TOUCHING_ASLEEP)] || slot_is_static(slots, s)) ? -1 : 0;
+}
+
 /* All that the slot looks at: pairs that are to be looked at closely go to those of the group. */
-void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int s, float length, int round, seeds *all,
-	__local int *pairs, __local int *pair_count)
+void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), int s, float length,
+	int round, seeds *all, __local int *pairs, __local int *pair_count)
 {
 	int wall, changed = wakes[WAKE(s, WAKE_CHANGED)];
 	bool pause;
@@ -160,7 +166,8 @@ void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(ow
 	trajectory k = trajectory_start(slots, s);
 	disc disc_k = disc_at_start(slots, s, length);
 	float ahead = steps_ahead(TEX(uniforms), status, length);
-	bool clear = is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
+	int still = lies(slots, status, touching, s);
+	bool clear = still || is_clear_of_walls(TEX(uniforms), slots, rules, s, k, length, 1.0f + ahead);
 	float next = clear ? 1.0f + ahead : 1.0f, t = clear ? NO_HIT : wall_time(VERTICES, TEX(uniforms), slots, rules, s, k, length, &wall, &pause);
 	if (t <= 1.0f)
 		seeds_add(LISTS, owners, all, s, -1 - wall, t, pause, round);
@@ -168,6 +175,11 @@ void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(ow
 	for (int i = bunch_first(spans, extra, s, end, 0); i != -1; i = bunch_next(extra, s, end, i, 0, 1)) {
 		bunch others = bunch_at(neighbours, extra, end, i);
 		ints wanted = watched(status, wakes, s, others, changed, i, half_end);
+#define LIES(one) lies(slots, status, touching, (others.slots)one)
+		if (still)
+			wanted &= ~(ints)(EACH(LIES));
+		if (still && !IS_ANY(wanted))
+			continue;
 		discs all_discs = discs_at_start(slots, s, others.slots, length);
 		floats meetings = wanted ? first_meetings(disc_k, &all_discs, ahead) : (floats)(next);
 		ints close = meetings <= (floats)(1.0f);

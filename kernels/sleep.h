@@ -21,6 +21,7 @@ bool is_due(LIST_IN(status), LIST_IN(touching), LIST_IN(islands), int s, bool wa
 /* A pass begins, with that iteration. All wake for a step of another length than the last one's. */
 void pass_begin(LIST_OUT(status), int first, float length)
 {
+	status[STATUS_MOST] = max(status[STATUS_MOST], status[STATUS_WANTED] - status[STATUS_FIRST] + 1);
 	status[STATUS_ROUSED] = status[STATUS_PASS] == 0 && (status[STATUS_ROUSED] || as_int(length) != status[STATUS_SLEPT]);
 	status[STATUS_SLEPT] = as_int(length);
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;

@@ -110,22 +110,24 @@ bool slot_is_unpushed(RECORD_IN(slots), int s)
 }
 
 /* Its push is its own again, if it slept. */
-void slot_wake(RECORD_OUT(slots), LIST_OUT(touching), RECORD_IN(pushes), int s)
+void slot_wake(RECORD_OUT(slots), LIST_OUT(status), LIST_OUT(touching), RECORD_IN(pushes), int s)
 {
-	if (touching[TOUCH(s, TOUCHING_ASLEEP)])
-		slot_restore(slots, pushes, s, false);
+	if (!touching[TOUCH(s, TOUCHING_ASLEEP)])
+		return;
+	slot_restore(slots, pushes, s, false);
 	touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
+	atomic_dec(&status[STATUS_SLEEPERS]);
 }
 
 /* Does what SLEEP_... says with a slot; true if it fell asleep, or woke. */
-bool slot_sleep(RECORD_OUT(slots), RECORD_IN(contacts), LIST_OUT(touching), RECORD_IN(grips), LIST_IN(islands), RECORD_IN(pushes), int s, int what,
-	bool rub, float length)
+bool slot_sleep(RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_OUT(touching), RECORD_IN(grips), LIST_IN(islands), RECORD_IN(pushes),
+	int s, int what, bool rub, float length)
 {
 	bool asleep = touching[TOUCH(s, TOUCHING_ASLEEP)];
 	if (what == SLEEP_FORGOTTEN)
 		touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
 	else if (asleep && (what == SLEEP_ENDS || !slot_stayed(slots, pushes, s))) {
-		slot_wake(slots, touching, pushes, s);
+		slot_wake(slots, status, touching, pushes, s);
 		island_disturb(touching, islands, s);
 		if (what == SLEEP_BEGINS)
 			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, length);
@@ -134,6 +136,7 @@ bool slot_sleep(RECORD_OUT(slots), RECORD_IN(contacts), LIST_OUT(touching), RECO
 		float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
 		slots[SLOT_WIDTH * s + SLOT_PUSH] = (float4)(0.0f, 0.0f, 0.0f, push.w);
 		touching[TOUCH(s, TOUCHING_ASLEEP)] = 1;
+		atomic_inc(&status[STATUS_SLEEPERS]);
 		return true;
 	}
 	return false;

@@ -42,7 +42,7 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_I
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		touching[TOUCH(s, TOUCHING_WANTED)] = domain.z;
 		if (impulses) {
-			slot_wake(slots, touching, pushes, s);
+			slot_wake(slots, status, touching, pushes, s);
 			touching[TOUCH(s, TOUCHING_RESTLESS)] = touching[TOUCH(s, TOUCHING_FOOTING)] = 0;
 			rests_drop(contacts, grips, touching, s, rub);
 			island_join(slots, contacts, touching, islands, s);
@@ -107,7 +107,7 @@ __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), L
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH); /* of the step that is done: the clock has gone on */
 	for (int i = get_global_id(0); due && i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		bool borne = slot_is_unpushed(slots, s);
+		bool borne = slot_is_unpushed(slots, s) && wakes[WAKE(s, WAKE_CHANGED)] != CHANGED_IN(status[STATUS_AGE]); /* and had no event */
 		slot_restore(slots, pushes, s, again);
 		if (!again) {
 			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, length);

@@ -1,6 +1,7 @@
 /* All the hits of a step: bodies that hit form clusters, and each cluster is a queue of events that one work-item runs. */
 
-__kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), int4 domain)
+__kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents),
+	LIST_IN(touching), int4 domain)
 {
 	__local int wanted[GROUP_MOST], first[2], awake[SEEK_EACH * GROUP_MOST], pairs[2 * PAIRS_MOST], awake_count, pair_count;
 	int local_id = get_local_id(0), lanes = get_local_size(0), slots_each = (domain.w - 1) / (int)get_global_size(0) + 1;
@@ -22,7 +23,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 	barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 	for (int k = local_id; k < awake_count; k += lanes) {
 		fetch_awake(slots, LISTS, owners, awake, k, awake_count);
-		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, awake[k], length, domain.z, &all, pairs, &pair_count);
+		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, touching, awake[k], length, domain.z, &all, pairs, &pair_count);
 	}
 	barrier(CLK_LOCAL_MEM_FENCE);
 	for (int k = local_id; k < min(pair_count, PAIRS_MOST); k += lanes)

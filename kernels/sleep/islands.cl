@@ -7,7 +7,7 @@ __kernel void sleep_begin(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_O
 	if (s >= domain.x || (domain.w == SLEEP_BEGINS && (!status[STATUS_BORNE] || status[STATUS_PASS] > 0)))
 		return;
 	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
-	if (slot_sleep(slots, contacts, touching, grips, islands, pushes, s, domain.w, anything_rubs(TEX(uniforms)), length)
+	if (slot_sleep(slots, status, contacts, touching, grips, islands, pushes, s, domain.w, anything_rubs(TEX(uniforms)), length)
 		&& !PEEK(status, STATUS_STALE))
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 }
@@ -21,6 +21,7 @@ __kernel void sleep_end(RECORD_IN(changes), LIST_IN(places), RECORD_IN(slots), L
 	int s = places[(int)CHANNEL(changes[CHANGES_WIDTH * k + CHANGES_TURN], CHANGE_BODY)];
 	if (touching[TOUCH(s, TOUCHING_ASLEEP)]) {
 		touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
+		atomic_dec(&status[STATUS_SLEEPERS]);
 		island_disturb(touching, islands, s);
 	} else if (slot_is_static(slots, s))
 		atomic_or(&status[STATUS_ROUSED], 1);

@@ -49,6 +49,7 @@ template <typename T> struct Sleepers {
 	Touching *touching;
 	Kept<T> *kept;
 	int32_t *islands; /* the root of each slot's */
+	int32_t *status;
 
 	bool sleeps(int32_t s) const { return touching[s].asleep != 0; }
 
@@ -70,13 +71,21 @@ template <typename T> struct Sleepers {
 	void wake(Slot<T> &slot, int32_t s) const
 	{
 		kept[s].restore(slot, false);
+		rouse(s);
+	}
+
+	/* Its push is going to be another one. */
+	void rouse(int32_t s) const
+	{
 		touching[s].asleep = 0;
+		fetch_add(&status[STATUS_SLEEPERS], -1);
 	}
 
 	void fall_asleep(Slot<T> &slot, int32_t s) const
 	{
 		slot.push[PUSH_X] = slot.push[PUSH_Y] = slot.push[PUSH_TORQUE] = 0;
 		touching[s].asleep = 1;
+		fetch_add(&status[STATUS_SLEEPERS], 1);
 	}
 };
 

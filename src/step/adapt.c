@@ -12,7 +12,10 @@
 #define LOST_LEAST 256     /* events in a slice: for less another is not worth its kernels */
 #define SLICES_SOME 4      /* as some are to one, SLICES_MOST are to some */
 #define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
-#define GOOD_LISTS 4       /* made in a row that were good to the end: the next may be used a step longer */
+#define LEAST_ITERATIONS 4 /* handed over a pass */
+#define LONG_LISTS 32      /* steps: */
+#define LONGEST_LISTS 1024
+#define GOOD_LISTS 4 /* made in a row that were good to the end: the next may be used a step longer */
 
 /* Where each body that is hit gets farther than its list, and there is no end of it, all are to know more of the others. */
 static void adapt_reach(carom_world *world, const int32_t *status)
@@ -57,11 +60,16 @@ carom_status carom_events_adapt(carom_world *world, const int32_t *status, carom
 		events->rounds--;
 	if (status[STATUS_WAITS] > steps / 8 && events->iterations < CONTACT_ITERATIONS)
 		events->iterations *= 2;
+	else if (status[STATUS_WAITS] == 0 && 4 * (uint32_t)status[STATUS_MOST] <= events->iterations && events->iterations > LEAST_ITERATIONS)
+		events->iterations /= 2;
 	events->good += (uint32_t)builds;
 	if (status[STATUS_IDLE] > 0) {
 		/* being idle cost little, but the lists had died before their time */
-		events->steps_a_list -= events->steps_a_list > 1;
+		events->steps_a_list -= events->steps_a_list > LONG_LISTS ? events->steps_a_list / 2 : events->steps_a_list > 1;
 		events->good = 0;
+	} else if (2 * (size_t)status[STATUS_SLEEPERS] > world->body_count && 8 * status[STATUS_MOVERS] < carom_events_movers(world)
+		&& 2 * events->since >= events->steps_a_list && events->steps_a_list < LONGEST_LISTS) {
+		events->steps_a_list *= 2; /* most sleep, and the others have hardly got any farther */
 	} else if (events->good > GOOD_LISTS) {
 		events->steps_a_list++;
 		events->good = 0;

@@ -280,7 +280,7 @@ carom_status carom_events_finish(carom_world *world, carom_error *error)
 		carom_events_adapt_slices(&world->events, status);
 	if (!status[STATUS_UNDER_WAY])
 		status[STATUS_KEPT] = status[STATUS_KEPT_BEFORE] = (int32_t)(world->events.hits_taken = 0);
-	status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;
+	status[STATUS_MOST] = status[STATUS_BUILDS] = status[STATUS_STEPS] = status[STATUS_IDLE] = status[STATUS_AGAIN] = status[STATUS_WAITS] = 0;
 	return send_status(world, status, error);
 }
 

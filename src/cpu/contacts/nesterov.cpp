@@ -30,6 +30,7 @@ template <typename T> static void begin(const Job<T> &job)
 	status[STATUS_HANDED] = last;
 	if (waits)
 		return;
+	status[STATUS_MOST] = std::max(status[STATUS_MOST], status[STATUS_WANTED] - status[STATUS_FIRST] + 1);
 	const int32_t length = as_bits(static_cast<float>(step_length(job.texels(1), job.texels(0))));
 	status[STATUS_ROUSED] = status[STATUS_PASS] == 0 && (status[STATUS_ROUSED] || length != status[STATUS_SLEPT]);
 	status[STATUS_SLEPT] = length;
@@ -54,7 +55,8 @@ template <typename T> static void find(const Job<T> &job)
 {
 	const Clusters<T> clusters(job, 14);
 	Points<T> *points = reinterpret_cast<Points<T> *>(job.records(12));
-	const Sleepers<T> sleepers{reinterpret_cast<Touching *>(job.list(13)), reinterpret_cast<Kept<T> *>(job.records(16)), job.list(20)};
+	const Sleepers<T> sleepers{
+		reinterpret_cast<Touching *>(job.list(13)), reinterpret_cast<Kept<T> *>(job.records(16)), job.list(20), clusters.status};
 	const Rubs<T> rubs(job.texels(1), job.texels(17));
 	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
 	const int32_t *last_counts = job.list(19);
@@ -131,7 +133,7 @@ template <typename T> static void join(const Job<T> &job)
 	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
 	const Warm<T> warm(job.records(9), job.list(10), rests.rubs);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
-	const Sleepers<T> sleepers{rests.touching, reinterpret_cast<Kept<T> *>(job.records(11)), rests.islands.parents};
+	const Sleepers<T> sleepers{rests.touching, reinterpret_cast<Kept<T> *>(job.records(11)), rests.islands.parents, rests.status};
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
@@ -332,9 +334,10 @@ template <typename T> static void release(const Job<T> &job)
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
-	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents};
+	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents, rests.status};
 	const Warm<T> warm(job.records(12), job.list(13), rests.rubs);
 	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH); /* of the step that is done: the clock has gone on */
+	const Wake *wakes = reinterpret_cast<const Wake *>(job.list(10));
 	const bool again = job.domain[3];
 	if (!rests.status[STATUS_BORNE] || (rests.status[STATUS_PASS] > 0) != again)
 		return;
@@ -342,11 +345,11 @@ template <typename T> static void release(const Job<T> &job)
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
-			const bool is_borne = is_unpushed(slots[s]);
+			const bool is_borne = is_unpushed(slots[s]), has_event = wakes[s].changed == CHANGED_IN(rests.status[STATUS_AGE]);
 			kept[s].restore(slots[s], again);
 			if (!again) {
 				settle(rests, slots[s], s, kept, length);
-				if (!keep_forces(rests, kept, s, length, warm) || !is_borne || !kept[s].stays(slots[s]))
+				if (!keep_forces(rests, kept, s, length, warm) || !is_borne || has_event || !kept[s].stays(slots[s]))
 					sleepers.disturb(s);
 			}
 			keeper.pushed(s);

@@ -1,4 +1,5 @@
 #include "cpu/queue.hpp"
+#include "cpu/sleep.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -16,8 +17,8 @@ public:
 	};
 
 	Seek(const Job<T> &job, std::vector<Seed> &room)
-		: clusters(job, 12), round(job.domain[2]), age(clusters.status[STATUS_AGE]), until(slice_end<T>(clusters.status, 0)), sieve(clusters.ahead),
-		  seeds(room)
+		: clusters(job, 12), touching(reinterpret_cast<const Touching *>(job.list(14))), any_sleep(clusters.status[STATUS_SLEEPERS] > 0),
+		  round(job.domain[2]), age(clusters.status[STATUS_AGE]), until(slice_end<T>(clusters.status, 0)), sieve(clusters.ahead), seeds(room)
 	{
 		seeds.clear();
 	}
@@ -61,11 +62,12 @@ private:
 				clusters.wakes[s].changed = 0; /* which nobody reads in this step */
 			const int32_t changed = clusters.wakes[s].changed, last = clusters.watched_end(s);
 			clusters.wake_at(s, clusters.ahead + 1);
-			if (!clusters.stays_inside(s, Trajectory<T>(clusters.slots[s]), clusters.ahead + 1))
+			const bool is_still = lies(s);
+			if (!is_still && !clusters.stays_inside(s, Trajectory<T>(clusters.slots[s]), clusters.ahead + 1))
 				walls(s);
 			clusters.each_neighbour(s, last, [&](int32_t other, bool is_first) {
 				const int32_t other_changed = age > 0 ? clusters.wakes[other].changed : 0;
-				if (is_first ? changed < other_changed : changed <= other_changed)
+				if ((is_first ? changed < other_changed : changed <= other_changed) || (is_still && lies(other)))
 					return;
 				sieve.add(s, other, Between<T>(disc, Disc<T>(slots[other], length), ahead));
 				if (sieve.is_full())
@@ -73,6 +75,9 @@ private:
 			});
 		}
 	}
+
+	/* Sleeps, or where some do, is static: meets no other such one in this step. */
+	bool lies(int32_t s) const { return any_sleep && (touching[s].asleep != 0 || clusters.slots[s].is_static()); }
 
 	bool is_awake(int32_t s) const { return age == 0 || clusters.wakes[s].next <= age; }
 
@@ -139,6 +144,8 @@ private:
 	}
 
 	const Clusters<T> clusters;
+	const Touching *const touching; /* where any sleep */
+	const bool any_sleep;
 	const int32_t round, age;
 	const T until; /* the end of the first slice */
 	Sieve<T> sieve;

@@ -9,7 +9,7 @@ template <typename T> static void begin(const Job<T> &job)
 	const Rests<T> rests(job);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
-	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents};
+	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents, rests.status};
 	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH);
 	const int32_t what = job.domain[3];
 	if (what == SLEEP_BEGINS && (!rests.status[STATUS_BORNE] || rests.status[STATUS_PASS] > 0))
@@ -42,12 +42,12 @@ template <typename T> static void end(const Job<T> &job)
 	const int32_t *places = job.list(1);
 	const Slot<T> *slots = reinterpret_cast<const Slot<T> *>(job.records(2));
 	int32_t *status = job.list(3);
-	const Sleepers<T> sleepers{reinterpret_cast<Touching *>(job.list(4)), nullptr, job.list(5)};
+	const Sleepers<T> sleepers{reinterpret_cast<Touching *>(job.list(4)), nullptr, job.list(5), status};
 	for (int32_t k = 0; k < job.domain[0]; k++) {
 		const int32_t s = places[static_cast<int32_t>(changes.of(CHANGES_WIDTH * k + CHANGES_TURN, CHANGE_BODY))];
 		if (sleepers.sleeps(s)) {
 			sleepers.disturb(s);
-			sleepers.touching[s].asleep = 0;
+			sleepers.rouse(s);
 		} else if (slots[s].is_static())
 			status[STATUS_ROUSED] = 1;
 	}
