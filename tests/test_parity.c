@@ -9,7 +9,8 @@
 /* The step events has a free hand between its stages: it is judged by its results, in test_events.c and test_hashes.c. */
 static bool is_of_events(const char *slot)
 {
-	return !strcmp(slot, "slots") || !strcmp(slot, "neighbours") || !strcmp(slot, "contacts") || !strcmp(slot, "events") || !strcmp(slot, "settle");
+	return !strcmp(slot, "slots") || !strcmp(slot, "neighbours") || !strcmp(slot, "contacts") || !strcmp(slot, "sleep") || !strcmp(slot, "events")
+		|| !strcmp(slot, "settle");
 }
 
 static void every_alternative_on_every_device(void **unused)

@@ -71,6 +71,63 @@ static void a_pyramid_comes_to_rest(void **unused)
 	}
 }
 
+/* Columns of boxes, quite upon each other and not, come to rest, each with its top where it was put. */
+static void columns_come_to_rest(void **unused)
+{
+	enum { MOST = 10, COLUMNS = 6, COUNT = 45 };
+	static const uint32_t heights[COLUMNS] = {3, 5, 8, 10, 10, 9};
+	carom_body_def boxes[COUNT];
+	uint32_t tops[COLUMNS], count = 0;
+	uint64_t first = 0;
+	(void)unused;
+	for (uint32_t c = 0; c < COLUMNS; c++) {
+		for (uint32_t k = 0; k < heights[c]; k++)
+			boxes[count++] = box_at(4.0f * (float)c + (c % 2 ? 0.05f * (float)(k * 7 % 5) - 0.1f : 0.0f), 0.5005f + 1.0005f * (float)k);
+		tops[c] = count - 1;
+	}
+	assert_int_equal(count, COUNT);
+	SCENERY_EACH_DEVICE(device) {
+		const carom_world_def def = ground(0.5f);
+		carom_world *world = runs_world(&def, device, boxes, COUNT);
+		if (!world)
+			continue;
+		runs_step(world, 420);
+		for (uint32_t k = 0; k < COUNT; k++) {
+			const carom_body_state state = runs_state(world, k);
+			assert_true(is_at_rest(&state));
+		}
+		for (uint32_t c = 0; c < COLUMNS; c++) {
+			const carom_body_state state = runs_state(world, tops[c]);
+			runs_near((double)state.position.x, (double)boxes[tops[c]].position.x, 0.02);
+			runs_near((double)state.position.y, heights[c] - 0.5, 0.012);
+		}
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
+/* On ice what slides slowly, also two upon each other, is slowed by friction alone. */
+static void what_slides_is_not_braked(void **unused)
+{
+	const double friction = 0.002, speed = 0.05, seconds = 1.0, g = (double)RUNS_GRAVITY;
+	carom_body_def boxes[] = {box_at(0.0f, 0.5005f), box_at(4.0f, 0.5005f), box_at(4.0f, 1.501f)};
+	uint64_t first = 0;
+	(void)unused;
+	for (int k = 0; k < 3; k++)
+		boxes[k].velocity.x = (float)speed;
+	SCENERY_EACH_DEVICE(device) {
+		const carom_world_def def = ground((float)friction);
+		carom_world *world = runs_world(&def, device, boxes, 3);
+		if (!world)
+			continue;
+		runs_advance(world, seconds);
+		for (uint32_t k = 0; k < 3; k++)
+			runs_near((double)runs_state(world, k).velocity.x, speed - friction * g * seconds, 0.1 * friction * g * seconds);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
 /* What friction holds by a hundredth lies still; what it fails to hold by a hundredth slides as Coulomb says, from rest on; a ball alone rolls away, however little the ground leans. */
 static void what_is_not_held_starts(void **unused)
 {
@@ -142,7 +199,7 @@ static void what_rides_goes_with_it(void **unused)
 
 int main(void)
 {
-	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(a_pyramid_comes_to_rest), cmocka_unit_test(what_is_not_held_starts), cmocka_unit_test(what_rides_goes_with_it)};
+	const struct CMUnitTest tests[] = {cmocka_unit_test(a_pyramid_comes_to_rest), cmocka_unit_test(columns_come_to_rest),
+		cmocka_unit_test(what_slides_is_not_braked), cmocka_unit_test(what_is_not_held_starts), cmocka_unit_test(what_rides_goes_with_it)};
 	return cmocka_run_group_tests_name("still", tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 #define LOST_LEAST 256     /* events in a slice: for less another is not worth its kernels */
 #define SLICES_SOME 4      /* as some are to one, SLICES_MOST are to some */
 #define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
-#define LEAST_ITERATIONS 4 /* handed over a pass */
+#define LEAST_ITERATIONS 8 /* handed over a pass */
 #define LONG_LISTS 32      /* steps: */
 #define LONGEST_LISTS 1024
 #define GOOD_LISTS 4 /* made in a row that were good to the end: the next may be used a step longer */
