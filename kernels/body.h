@@ -92,6 +92,12 @@ float step_length(TEX_IN(uniforms), TEX_IN(clock))
 	return remaining <= time_step * LAST_STEP ? remaining : time_step;
 }
 
+/* Of a step of that length, the one in which it is found what rests, and by which forces: the whole time step where it is cut short, so that what lies lies on in it. */
+float whole_length(TEX_IN(uniforms), float length)
+{
+	return length > 0.0f ? larger(length, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)) : 0.0f;
+}
+
 /* What remains after a step: nothing if that was to be the last, for what a float can't tell of its length is no step. */
 float2 time_left(float4 time, float advanced)
 {

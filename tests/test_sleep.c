@@ -123,16 +123,14 @@ static void what_is_disturbed_wakes(void **unused)
 		scenery_check(carom_world_set_states(world, STACK, 1, &state, &error), &error);
 		runs_step(world, 120);
 		runs_near((double)runs_state(world, STACK + 1).position.y, 0.5, 0.01);
-		/* a force that is more than friction holds; a step of another length; another gravity */
+		/* a force that is more than friction holds; another gravity */
 		assert_int_equal(sleepers(world), COUNT - 2);
 		scenery_check(carom_world_set_force(world, STACK, (carom_vec2){8.0f, 0.0f}, 0.0f, &error), &error);
 		runs_step(world, 60);
 		assert_true(runs_state(world, STACK).velocity.x > 2.0f);
 		assert_int_equal(sleepers(world), COUNT - 3);
 		runs_advance(world, 0.25 / 60.0);
-		assert_int_equal(sleepers(world), 0);
-		runs_step(world, 60);
-		assert_true(sleepers(world) > 0);
+		assert_int_equal(sleepers(world), COUNT - 3); /* a step that is cut short disturbs nobody */
 		scenery_check(carom_world_set_gravity(world, (carom_vec2){0.0f, 1.0f}, &error), &error);
 		runs_step(world, 60);
 		assert_int_equal(sleepers(world), 0);

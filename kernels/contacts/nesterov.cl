@@ -7,7 +7,7 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 	bool waits = iterations_are_wanted(status);
 	if (status[STATUS_PASS] == 0)
 		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
-	float length = step_length(TEX(uniforms), TEX(clock));
+	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	if (!(length > 0.0f) || !lists_are_good(status) || status[STATUS_UNDER_WAY] || (!waits && status[STATUS_PASS] == PASS_FORCES))
 		return;
 	status[STATUS_HANDED] = domain.w;
@@ -26,7 +26,7 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 		slot_keep(slots, pushes, s);
 	islands[s] = s;
 	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s,
-		step_length(TEX(uniforms), TEX(clock)));
+		whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock))));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
 	if (count > 0 || warm_counts[slot_body(slots, s)] > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
@@ -34,7 +34,7 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 
 __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_IN(warm_counts), RECORD_IN(pushes), int4 domain)
 {
-	float length = step_length(TEX(uniforms), TEX(clock));
+	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	if (status[STATUS_FIRST] != domain.z)
 		return;
@@ -84,7 +84,7 @@ __kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), int4 domain)
 
 __kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
 {
-	float length = step_length(TEX(uniforms), TEX(clock));
+	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	if (status[STATUS_HANDED] != domain.w || iterations_are_wanted(status))
 		return;
 	if (get_global_id(0) == 0)
@@ -104,7 +104,7 @@ __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), L
 	LIST_OUT(warm_counts), int4 domain)
 {
 	bool again = domain.w, rub = anything_rubs(TEX(uniforms)), due = status[STATUS_BORNE] && (status[STATUS_PASS] > 0) == again;
-	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH); /* of the step that is done: the clock has gone on */
+	float length = whole_length(TEX(uniforms), CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH)); /* of the step that is done */
 	for (int i = get_global_id(0); due && i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		bool borne = slot_is_unpushed(slots, s) && wakes[WAKE(s, WAKE_CHANGED)] != CHANGED_IN(status[STATUS_AGE]); /* and had no event */

@@ -6,7 +6,7 @@ __kernel void sleep_begin(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_O
 	int s = get_global_id(0);
 	if (s >= domain.x || (domain.w == SLEEP_BEGINS && (!status[STATUS_BORNE] || status[STATUS_PASS] > 0)))
 		return;
-	float length = CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH);
+	float length = whole_length(TEX(uniforms), CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH));
 	if (slot_sleep(slots, status, contacts, touching, grips, islands, pushes, s, domain.w, anything_rubs(TEX(uniforms)), length)
 		&& !PEEK(status, STATUS_STALE))
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);

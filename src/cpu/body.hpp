@@ -173,6 +173,12 @@ template <typename T> T step_length(const Texels<T> &clock, const Texels<T> &uni
 	return longest * T(LAST_STEP) < remaining ? longest : remaining;
 }
 
+/* Of a step of that length, the one in which it is found what rests, and by which forces: the whole time step where it is cut short, so that what lies lies on in it. */
+template <typename T> T whole_length(T length, const Texels<T> &uniforms)
+{
+	return length > 0 ? larger(length, uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP)) : T(0);
+}
+
 /* What the clock after a step says of time; where the step went to the end, none remains. */
 template <typename T> void add_time(const Texels<T> &clock, const Texels<T> &next, T advanced)
 {

@@ -49,8 +49,9 @@ template <typename T> class Clusters : public Bodies<T>
 {
 public:
 	/* The kernel's textures: those of Bodies, then spans, neighbours, status, members, active, found, extra, wake; owners and parents last. */
-	Clusters(const Job<T> &job, int owners_at)
-		: Bodies<T>(job), spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
+	Clusters(const Job<T> &job, int owners_at) : Clusters(job, owners_at, step_length(job.texels(2), job.texels(1))) {}
+	Clusters(const Job<T> &job, int owners_at, T step_length)
+		: Bodies<T>(job, step_length), spans(reinterpret_cast<Span *>(job.list(4))), neighbours(job.list(5)), status(job.list(6)),
 		  members(reinterpret_cast<Member *>(job.list(7))), active(job.list(8)), owners(job.list(owners_at)), parents(job.list(owners_at + 1)),
 		  found(reinterpret_cast<FoundHit *>(job.list(9))), extra(job.list(10)), wakes(reinterpret_cast<Wake *>(job.list(11))),
 		  ahead(this->length < this->time_step() ? T(0) : T(status[STATUS_AHEAD]))

@@ -51,7 +51,7 @@ template <typename T> struct Rests {
 	explicit Rests(const Job<T> &job)
 		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
 		  touching(reinterpret_cast<Touching *>(job.list(5))), grips(reinterpret_cast<Grips<T> *>(job.records(6))), islands{job.list(7)},
-		  length(step_length(job.texels(1), job.texels(0))), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
+		  length(whole_length(step_length(job.texels(1), job.texels(0)), job.texels(0))), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
 		  impulses(status[STATUS_PASS] == PASS_IMPULSES)
 	{
 	}

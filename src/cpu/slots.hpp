@@ -260,10 +260,11 @@ template <typename T> class Bodies : public Mover<T>
 {
 public:
 	/* The kernel's first textures are Outlines, Uniforms and the clock, the next the slots. */
-	explicit Bodies(const Job<T> &job)
-		: Mover<T>(step_length(job.texels(2), job.texels(1))), slots(reinterpret_cast<Slot<T> *>(job.records(3))), functions(job.functions),
-		  inside(job.inside), uniforms(job.texels(1)),
-		  corners(reinterpret_cast<const Corner<T> *>(job.records(0))), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
+	explicit Bodies(const Job<T> &job) : Bodies(job, step_length(job.texels(2), job.texels(1))) {}
+	/* In a step of another length. */
+	Bodies(const Job<T> &job, T step_length)
+		: Mover<T>(step_length), slots(reinterpret_cast<Slot<T> *>(job.records(3))), functions(job.functions), inside(job.inside),
+		  uniforms(job.texels(1)), corners(reinterpret_cast<const Corner<T> *>(job.records(0))), rules{rule(RULES_EPSILON), rule(RULES_ITERATIONS)},
 		  has_room(rule(RULES_HAS_ROOM) > 0)
 	{
 	}

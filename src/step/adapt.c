@@ -13,7 +13,7 @@
 #define SLICES_SOME 4      /* as some are to one, SLICES_MOST are to some */
 #define MANY_NEIGHBOURS 32 /* a slot: then that does not go on */
 #define LEAST_ITERATIONS 8 /* handed over a pass */
-#define LONG_LISTS 32      /* steps: */
+#define LONG_LISTS 32      /* steps, for which most may be asleep: where they wake they need new ones */
 #define LONGEST_LISTS 1024
 #define GOOD_LISTS 4 /* made in a row that were good to the end: the next may be used a step longer */
 
@@ -65,7 +65,7 @@ carom_status carom_events_adapt(carom_world *world, const int32_t *status, carom
 	events->good += (uint32_t)builds;
 	if (status[STATUS_IDLE] > 0) {
 		/* being idle cost little, but the lists had died before their time */
-		events->steps_a_list -= events->steps_a_list > LONG_LISTS ? events->steps_a_list / 2 : events->steps_a_list > 1;
+		events->steps_a_list = events->steps_a_list > LONG_LISTS ? LONG_LISTS : events->steps_a_list - (events->steps_a_list > 1);
 		events->good = 0;
 	} else if (2 * (size_t)status[STATUS_SLEEPERS] > world->body_count && 8 * status[STATUS_MOVERS] < carom_events_movers(world)
 		&& 2 * events->since >= events->steps_a_list && events->steps_a_list < LONGEST_LISTS) {

@@ -31,7 +31,7 @@ template <typename T> static void begin(const Job<T> &job)
 	if (waits)
 		return;
 	status[STATUS_MOST] = std::max(status[STATUS_MOST], status[STATUS_WANTED] - status[STATUS_FIRST] + 1);
-	const int32_t length = as_bits(static_cast<float>(step_length(job.texels(1), job.texels(0))));
+	const int32_t length = as_bits(static_cast<float>(whole_length(step_length(job.texels(1), job.texels(0)), job.texels(0))));
 	status[STATUS_ROUSED] = status[STATUS_PASS] == 0 && (status[STATUS_ROUSED] || length != status[STATUS_SLEPT]);
 	status[STATUS_SLEPT] = length;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
@@ -53,7 +53,7 @@ static void sort_touching(Touching *touching, int32_t count)
 /* First those that are awake; then those that they wake. */
 template <typename T> static void find(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 14);
+	const Clusters<T> clusters(job, 14, whole_length(step_length(job.texels(2), job.texels(1)), job.texels(1)));
 	Points<T> *points = reinterpret_cast<Points<T> *>(job.records(12));
 	const Sleepers<T> sleepers{
 		reinterpret_cast<Touching *>(job.list(13)), reinterpret_cast<Kept<T> *>(job.records(16)), job.list(20), clusters.status};
@@ -336,7 +336,7 @@ template <typename T> static void release(const Job<T> &job)
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
 	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents, rests.status};
 	const Warm<T> warm(job.records(12), job.list(13), rests.rubs);
-	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH); /* of the step that is done: the clock has gone on */
+	const T length = whole_length(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH), job.texels(0)); /* of the step that is done: the clock has gone on */
 	const Wake *wakes = reinterpret_cast<const Wake *>(job.list(10));
 	const bool again = job.domain[3];
 	if (!rests.status[STATUS_BORNE] || (rests.status[STATUS_PASS] > 0) != again)

@@ -10,7 +10,7 @@ template <typename T> static void begin(const Job<T> &job)
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
 	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents, rests.status};
-	const T length = job.texels(1).fact(CLOCK_STEP, STEP_LENGTH);
+	const T length = whole_length(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH), job.texels(0));
 	const int32_t what = job.domain[3];
 	if (what == SLEEP_BEGINS && (!rests.status[STATUS_BORNE] || rests.status[STATUS_PASS] > 0))
 		return;
