@@ -333,6 +333,7 @@ triangles_1024 | --set step=first_impact --steps 400 --inset -2,-2,4,4 | 1,024 t
 circles_1024   | --time 2 --inset -2,-2,4,4 | 1,024 circles after two seconds, a part of them enlarged
 heap           | --time 6                      | what fell into a box, and lies there
 pyramid        | --time 3                      | boxes that stand on each other, and on a slope, because they rub
+towers         | --time 3                      | towers of boxes that stand, and one that a ball hit
 mixer          | --time 10                     | two paddles that turn in a heap, whatever lies in their way
 sorter         | --time 1.8                    | red and blue bodies in one room, which pass through each other
 mixed          | --time 2                      | circles and polygons in one room after two seconds
@@ -369,6 +370,7 @@ pictures: all
 	$(BUILD)/carom run scenes/triangles_1024.json --set step=first_impact --steps 400 --inset -2,-2,4,4 --size 720x405 --png docs/triangles_1024.png
 	$(BUILD)/carom run scenes/heap.json --time 6 --size 720x405 --png docs/heap.png
 	$(BUILD)/carom run scenes/pyramid.json --time 3 --size 720x405 --png docs/pyramid.png
+	$(BUILD)/carom run scenes/towers.json --time 3 --size 720x405 --png docs/towers.png
 	$(BUILD)/carom run scenes/mixer.json --time 10 --size 720x405 --png docs/mixer.png
 	$(BUILD)/carom run scenes/sorter.json --time 1.8 --size 720x405 --png docs/sorter.png
 	$(BUILD)/carom run scenes/thin_wall.json --time 1 --fps 3 --size 480x264 --frames docs/thin_wall

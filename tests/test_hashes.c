@@ -31,6 +31,7 @@ static const struct {
 	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0x28f7fc6eebdf49df},
 	{"scenes/sorter.json", 0x0a70d5e9a9d7a8c2, 0xc8abc8f88e6f4314},
 	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0xdd27dd88bbe84178},
+	{"scenes/towers.json", 0x06a65b03a828eaba, 0x8116cf50fb7d3557},
 	{"scenes/triangles_1024.json", 0x66c29846c62647ee, 0x675a5d8b2f725e89},
 	{"scenes/triangles_256.json", 0x1177d91d38ab8d37, 0x09d294e56cdb127f},
 };
