@@ -188,8 +188,8 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 	}
 }
 
-/* The loads of four bodies that move, or of what doesn't: x, y and torque side by side. (Here and below results are handed out by pointers, max has two vectors, and
- * there is no any: Oclgrind 21.10 gets the shorter forms wrong.) */
+/* The loads of four bodies that move, or of what doesn't: x, y and torque side by side. (Here and below results are handed out by pointers, max has two vectors,
+ * and there is no any, nor a choice between comparisons: Oclgrind 21.10 gets the shorter forms wrong.) */
 typedef struct moves {
 	float4 x, y, torque;
 } moves;
@@ -221,7 +221,8 @@ int4 grips_iterate(RECORD_OUT(grips), int s, int four, float4 force, const ways 
 	at[GRIP_START] = held + beta * (held - at[GRIP_FORCE]);
 	at[GRIP_FORCE] = held;
 	tolerance *= done == 0 ? GRIP_BEGUN : (float)(1 << done / GRIP_PATIENCE);
-	return fabs(held) < most ? fabs(slip) > GRIP_CREEP * tolerance : fabs(allowed - most) > (GRIP_SLIDE * tolerance) * step;
+	float4 left = fabs(held) < most ? slip : allowed - most, few = fabs(held) < most ? GRIP_CREEP * tolerance : (GRIP_SLIDE * tolerance) * step;
+	return fabs(left) > few;
 }
 
 /* One iteration of a body's points, after so many, from the loads of one parity to the other. True if another is wanted. */
