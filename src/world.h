@@ -69,7 +69,7 @@ typedef struct carom_events {
 	uint32_t iterations;      /* handed over a pass of the step contacts */
 	uint32_t since;           /* steps handed over since the last making, */
 	float list_step;          /* s: the time step that the world had then */
-	bool sleeps;              /* most bodies do not look for hits in each step */
+	bool looks_ahead;         /* most bodies do not look for hits in each step */
 	uint32_t good;            /* makings since one died before its time */
 	int32_t round, iteration; /* numbers of the last ones handed over */
 	bool in_batch;            /* where one begins: the one before broke off, and left the lists as they were */

@@ -50,7 +50,7 @@ carom_status carom_events_adapt(carom_world *world, const int32_t *status, carom
 	carom_events *events = &world->events;
 	const int32_t steps = status[STATUS_STEPS], builds = status[STATUS_BUILDS];
 	events->idle = steps > 0 ? 0 : events->idle + 1;
-	events->sleeps = status[STATUS_AHEAD] > 0;
+	events->looks_ahead = status[STATUS_AHEAD] > 0;
 	adapt_reach(world, status);
 	if (events->idle > MOST_IDLE)
 		return carom_fail(error, CAROM_DEVICE, "'%s' ends no step of events any more", world->device->info.name);

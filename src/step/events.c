@@ -95,7 +95,8 @@ carom_status carom_events_mend(carom_world *world, carom_error *error)
 static carom_status run_rounds(carom_world *world, int32_t count, carom_error *error)
 {
 	const int32_t share = carom_events_share(world);
-	TRY(carom_run(world, STAGE_SEEK, world->events.sleeps ? (count + SEEK_EACH - 1) / SEEK_EACH : count, 1, world->events.round + 1, count, error));
+	TRY(carom_run(world, STAGE_SEEK, world->events.looks_ahead ? (count + SEEK_EACH - 1) / SEEK_EACH : count, 1, world->events.round + 1, count,
+		error));
 	for (uint32_t i = 0; i < world->events.rounds; i++) {
 		const int32_t round = ++world->events.round;
 		if (world->events.slices > 1) {
