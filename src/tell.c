@@ -81,7 +81,6 @@ static carom_status tell_indices(carom_world *world, carom_error *error)
 {
 	if (!(world->unsent & UNSENT_INDICES))
 		return CAROM_OK;
-	TRY(wake(world, 0, error));
 	TRY(carom_friction_send(world, error));
 	TRY(carom_filters_send(world, error));
 	world->unsent &= ~(unsigned)UNSENT_INDICES;
@@ -160,7 +159,7 @@ static void fill_added(const carom_world *world, uint32_t first, float *texels)
 }
 
 /* Others may come to lie on it where it is. */
-static bool has_static(const carom_world *world, uint32_t first)
+static bool has_immovable(const carom_world *world, uint32_t first)
 {
 	for (size_t i = first; i < world->body_count; i++)
 		if (!carom_is_dynamic(&carom_world_bodies(world)[i]))
@@ -174,7 +173,7 @@ static carom_status tell_added(carom_world *world, carom_error *error)
 	float *texels;
 	if (count == 0)
 		return CAROM_OK;
-	if (has_static(world, first))
+	if (has_immovable(world, first))
 		TRY(wake(world, 0, error));
 	if (world->events.outlines < world->vertices.used)
 		TRY(carom_outlines_send(world, error));

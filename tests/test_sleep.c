@@ -24,6 +24,15 @@ static uint32_t sleepers(carom_world *world)
 	return count;
 }
 
+/* How many were looked at in the last step, as touching others. */
+static int32_t touched(carom_world *world)
+{
+	int32_t status[STATUS_WIDTH];
+	carom_error error;
+	scenery_check(world->device->kind->download(world->device, world->textures[ROLE_STATUS].front, 1, status, &error), &error);
+	return status[STATUS_TOUCHING];
+}
+
 static carom_world_def ground(void)
 {
 	carom_world_def def = runs_resting("contacts", 200.0f, 100.0f);
@@ -103,6 +112,11 @@ static void what_is_disturbed_wakes(void **unused)
 		assert_true(runs_state(world, 2 * STACK + 1).position.y < 1.4f || runs_state(world, 2 * STACK).position.x < 19.9f);
 		runs_step(world, 400);
 		assert_int_equal(sleepers(world), COUNT - 1);
+		/* what comes far away wakes nobody */
+		const carom_body_def newcomer = scenery_circle(-100.0f, 50.0f, 0.0f, 0.0f, 0.5f);
+		scenery_check(carom_world_add(world, &newcomer, 1, NULL, &error), &error);
+		runs_step(world, 1);
+		assert_int_equal(touched(world), 0);
 		/* what lay on something static falls where that goes */
 		state = runs_state(world, SHELF);
 		state.position.y = 50.0f;
