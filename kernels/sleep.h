@@ -11,6 +11,13 @@ bool island_is_disturbed(LIST_IN(touching), LIST_IN(islands), int s)
 	return touching[TOUCH(islands[s], TOUCHING_RESTLESS)] != 0;
 }
 
+/* A slot that sleeps no more. */
+void sleeper_rouse(LIST_OUT(status), LIST_OUT(touching), int s)
+{
+	touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
+	atomic_dec(&status[STATUS_SLEEPERS]);
+}
+
 /* Is a slot one of those that are awake; or else that slept, and wake? */
 bool is_due(LIST_IN(status), LIST_IN(touching), LIST_IN(islands), int s, bool wakes)
 {
@@ -34,7 +41,7 @@ body body_awake(RECORD_IN(slots), LIST_IN(touching), RECORD_IN(pushes), int s, f
 	body b = body_of(slots, s, trajectory_start(slots, s), length);
 	if (touching[TOUCH(s, TOUCHING_ASLEEP)]) {
 		float4 push = pushes[PUSHES_WIDTH * s];
-		b.a = (float2)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length);
+		b.a = push_way(push, length);
 		b.b = (CHANNEL(push, PUSH_TORQUE) * length) * length;
 	}
 	return b;

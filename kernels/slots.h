@@ -68,6 +68,12 @@ int slot_body(RECORD_IN(slots), int s)
 	return (int)((__global const float *)(slots + SLOT_WIDTH * s + SLOT_PUSH))[PUSH_BODY];
 }
 
+/* What a push makes of a way in a step of that length. */
+INLINE float2 push_way(float4 push, float length)
+{
+	return (float2)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length);
+}
+
 /* The body in step units, as if the step began at the trajectory's time. */
 body body_of(RECORD_IN(slots), int s, trajectory k, float length)
 {
@@ -91,7 +97,7 @@ body body_of(RECORD_IN(slots), int s, trajectory k, float length)
 	b.v = (float2)(CHANNEL(k.place, LINEAR_VX) * length, CHANNEL(k.place, LINEAR_VY) * length);
 	b.w = k.velocity * length;
 	if (b.inverse_mass > 0.0f) {
-		b.a = (float2)((CHANNEL(push, PUSH_X) * length) * length, (CHANNEL(push, PUSH_Y) * length) * length);
+		b.a = push_way(push, length);
 		b.b = (CHANNEL(push, PUSH_TORQUE) * length) * length;
 	}
 	return b;
@@ -125,7 +131,7 @@ disc disc_of(RECORD_IN(slots), int s, float4 place_record, float time, bool held
 	float unit = held ? 0.0f : length;
 	d.x = (float2)(CHANNEL(place_record, LINEAR_X), CHANNEL(place_record, LINEAR_Y));
 	d.v = (float2)(CHANNEL(place_record, LINEAR_VX) * unit, CHANNEL(place_record, LINEAR_VY) * unit);
-	d.a = (float2)((CHANNEL(push, PUSH_X) * unit) * unit, (CHANNEL(push, PUSH_Y) * unit) * unit);
+	d.a = push_way(push, unit);
 	d.radius = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS);
 	d.time = time;
 	return d;

@@ -115,8 +115,7 @@ void slot_wake(RECORD_OUT(slots), LIST_OUT(status), LIST_OUT(touching), RECORD_I
 	if (!touching[TOUCH(s, TOUCHING_ASLEEP)])
 		return;
 	slot_restore(slots, pushes, s, false);
-	touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
-	atomic_dec(&status[STATUS_SLEEPERS]);
+	sleeper_rouse(status, touching, s);
 }
 
 /* Does what SLEEP_... says with a slot; true if it fell asleep, or woke. */

@@ -20,8 +20,7 @@ __kernel void sleep_end(RECORD_IN(changes), LIST_IN(places), RECORD_IN(slots), L
 		return;
 	int s = places[(int)CHANNEL(changes[CHANGES_WIDTH * k + CHANGES_TURN], CHANGE_BODY)];
 	if (touching[TOUCH(s, TOUCHING_ASLEEP)]) {
-		touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
-		atomic_dec(&status[STATUS_SLEEPERS]);
+		sleeper_rouse(status, touching, s);
 		island_disturb(touching, islands, s);
 	} else if (slot_is_static(slots, s))
 		atomic_or(&status[STATUS_ROUSED], 1);

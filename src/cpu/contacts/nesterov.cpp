@@ -23,7 +23,8 @@ template <typename T> static void begin(const Job<T> &job)
 	const bool waits = iterations_are_wanted(status);
 	if (status[STATUS_PASS] == 0)
 		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
-	if (!(step_length(job.texels(1), job.texels(0)) > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
+	const T length = whole_length(step_length(job.texels(1), job.texels(0)), job.texels(0));
+	if (!(length > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
 	if (!waits && status[STATUS_PASS] == PASS_FORCES)
 		return; /* the forces are found: with iterations that were handed over for the impulses */
@@ -31,9 +32,9 @@ template <typename T> static void begin(const Job<T> &job)
 	if (waits)
 		return;
 	status[STATUS_MOST] = std::max(status[STATUS_MOST], status[STATUS_WANTED] - status[STATUS_FIRST] + 1);
-	const int32_t length = as_bits(static_cast<float>(whole_length(step_length(job.texels(1), job.texels(0)), job.texels(0))));
-	status[STATUS_ROUSED] = status[STATUS_PASS] == 0 && (status[STATUS_ROUSED] || length != status[STATUS_SLEPT]);
-	status[STATUS_SLEPT] = length;
+	const int32_t bits = as_bits(static_cast<float>(length));
+	status[STATUS_ROUSED] = status[STATUS_PASS] == 0 && (status[STATUS_ROUSED] || bits != status[STATUS_SLEPT]);
+	status[STATUS_SLEPT] = bits;
 	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
 	status[STATUS_PASS]++;
 }
