@@ -44,6 +44,18 @@ void carom_events_adapt_slices(carom_events *events, int32_t *status)
 	status[STATUS_SLICES] = events->saves ? (int32_t)events->slices : 1;
 }
 
+/* A step that waits for more begins again where lists are made for each: then there are to be enough at once, and not fewer soon. */
+static void adapt_iterations(carom_events *events, const int32_t *status)
+{
+	const int32_t steps = status[STATUS_STEPS], waits = status[STATUS_WAITS];
+	if (waits > steps)
+		events->iterations = CONTACT_ITERATIONS;
+	else if (waits > steps / 8 && events->iterations < CONTACT_ITERATIONS)
+		events->iterations *= 2;
+	else if (waits == 0 && 4 * (uint32_t)status[STATUS_MOST] <= events->iterations && events->iterations > LEAST_ITERATIONS && events->steps_a_list > 1)
+		events->iterations /= 2;
+}
+
 /* How many steps are handed over to one making of the lists, and with how many rounds, follows from how it went. */
 carom_status carom_events_adapt(carom_world *world, const int32_t *status, carom_error *error)
 {
@@ -58,10 +70,7 @@ carom_status carom_events_adapt(carom_world *world, const int32_t *status, carom
 		events->rounds++;
 	else if (status[STATUS_AGAIN] == 0 && events->rounds > EVENTS_ROUNDS)
 		events->rounds--;
-	if (status[STATUS_WAITS] > steps / 8 && events->iterations < CONTACT_ITERATIONS)
-		events->iterations *= 2;
-	else if (status[STATUS_WAITS] == 0 && 4 * (uint32_t)status[STATUS_MOST] <= events->iterations && events->iterations > LEAST_ITERATIONS)
-		events->iterations /= 2;
+	adapt_iterations(events, status);
 	events->good += (uint32_t)builds;
 	if (status[STATUS_IDLE] > 0) {
 		/* being idle cost little, but the lists had died before their time */
