@@ -320,8 +320,6 @@ CAROM_API carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gr
  * more than a fourth longer. */
 CAROM_API carom_status carom_world_set_time_step(carom_world *world, float time_step, carom_error *error);
 
-#define CAROM_MAX_CONTACTS 12 /**< of a body that moves, in the step contacts; one with more is not borne, but hit */
-
 /** A wall of the room, where a contact has a body's index. */
 typedef enum carom_wall {
 	CAROM_WALL_TOP = -4,    /**< y = room_max.y */
@@ -346,8 +344,7 @@ CAROM_API carom_status carom_world_contact_count(carom_world *world, size_t *cou
 CAROM_API carom_status carom_world_get_contacts(carom_world *world, size_t first, size_t count, carom_contact *contacts, carom_error *error);
 /** Replaces them, all or none. The next step of contacts finds who rests on whom by itself, and its forces sooner when it begins with these: with the
  * states they are what another world needs to go on with the same bits. Other steps take no notice, and forget them. Bodies that are added later change none of them. CAROM_INVALID_ARGUMENT names the contact
- * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a number that is not finite; or the body: a pair that is there twice, more than
- * CAROM_MAX_CONTACTS of a body. */
+ * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a number that is not finite; or the body: a pair that is there twice. */
 CAROM_API carom_status carom_world_set_contacts(carom_world *world, size_t count, const carom_contact *contacts, carom_error *error);
 
 /** What a call of carom_world_step or carom_world_advance did. */

@@ -99,12 +99,6 @@ bool can_change(RECORD_IN(slots), int s, trajectory k)
 	return !(k.held > 0.0f) && slot_is_dynamic(slots, s);
 }
 
-/* Would forces bear what lies in the slot, and on the other body or a wall, -1? They do by the step contacts, but not where there are too many. */
-bool is_borne(LIST_IN(status), LIST_IN(touching), int s, int other)
-{
-	return status[STATUS_BORNE] && touching[TOUCH(s, TOUCHING_COUNT)] >= 0 && (other < 0 || touching[TOUCH(other, TOUCHING_COUNT)] >= 0);
-}
-
 rules_of_hit event_rules(float restitution, float friction, bool rapid, int events, bool borne, float weight)
 {
 	rules_of_hit rules;
@@ -154,10 +148,10 @@ float weight_of(TEX_IN(uniforms), float length)
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. True if it is a shock. If a body leaves its reach the step begins again, but
  * goes on as long as it tells what others need, too. */
 bool answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_OUT(work), LIST_OUT(need), LIST_IN(touching), RECORD_OUT(hits), float4 rules, int s, int id, int other_id, float4 next, float length)
+	RECORD_OUT(work), LIST_OUT(need), RECORD_OUT(hits), float4 rules, int s, int id, int other_id, float4 next, float length)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
-	bool borne = is_borne(status, touching, s, other);
+	bool borne = status[STATUS_BORNE]; /* do forces bear what rests? */
 	float u = CHANNEL(next, NEXT_TIME), weight = weight_of(TEX(uniforms), length);
 	bool shocks = borne && weight > 0.0f, enough = false; /* what is rapid again and again */
 	impact hit = {0.0f, false, false, false, (float4)(0.0f, 0.0f, 0.0f, 0.0f)};

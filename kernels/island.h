@@ -7,8 +7,8 @@
 /* The body in a slot and those that it touches are of one island. */
 void island_join(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), LIST_OUT(islands), int s)
 {
-	for (int point = 0, before = PARTNER_NONE; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		int other = (int)POINT_IN(contacts, FOUR_WIDTH, s, point)[4 * FOUR_PARTNER];
+	for (int point = 0, before = PARTNER_NONE, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
 		if (other > s && other != before && slot_is_dynamic(slots, other)) /* of two bodies one says so, once */
 			unite(islands, s, other);
 		before = other;

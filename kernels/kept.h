@@ -1,26 +1,38 @@
 /* What is kept of forces from step to step: the last ones, with which a step begins, and what it leaves to the next: CONTRACT.md, "contacts", Begin. */
 
-/* What a point's forces were, in N, and the records of its contact. */
+/* The record of contact k of those that begin in Warm at one, and a field of a body's span. */
+#define WARM(start, k, rub) (((start) + (k)) * WARM_WIDTH(rub))
+#define WARM_SPAN(body, field) (WARM_SPAN_WIDTH * ((body) + 1) + (field))
+
+/* Of how many contacts of a slot's body forces are kept. */
+int warm_count(RECORD_IN(slots), LIST_IN(warm_spans), int s)
+{
+	return warm_spans[WARM_SPAN(slot_body(slots, s), WARM_SPAN_COUNT)];
+}
+
+/* What a point's forces were, in N, and the records of its contact; contacts are asked for in order. */
 typedef struct last_forces {
-	int partner;
+	int partner, k;
 	float4 forces, held;
 	float force, friction;
 } last_forces;
 
 /* Of a slot's next point, with that partner: zeros if the last step had no such contact. False if it is none. */
-bool last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_counts), int s, int partner, bool rub, last_forces *last)
+bool last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_spans), int s, int partner, bool rub, last_forces *last)
 {
 	if (partner == PARTNER_NONE)
 		return false;
 	bool second = partner == last->partner;
 	if (!second) {
-		int body = slot_body(slots, s), key = partner_key(slots, partner), k = 0;
-		while (k < warm_counts[body] && (int)CHANNEL(warm[WARM(body, k, rub)], WARM_PARTNER) != key)
-			k++;
-		bool found = k < warm_counts[body];
+		int key = partner_key(slots, partner), count = warm_count(slots, warm_spans, s);
+		int start = warm_spans[WARM_SPAN(slot_body(slots, s), WARM_SPAN_START)];
+		while (last->k < count && (int)CHANNEL(warm[WARM(start, last->k, rub)], WARM_PARTNER) < key)
+			last->k++;
+		int at = WARM(start, last->k, rub);
+		bool found = last->k < count && (int)CHANNEL(warm[at], WARM_PARTNER) == key;
 		last->partner = partner;
-		last->forces = found ? warm[WARM(body, k, rub)] : (float4)(0.0f);
-		last->held = found && rub ? warm[WARM(body, k, true) + 1] : (float4)(0.0f);
+		last->forces = found ? warm[at] : (float4)(0.0f);
+		last->held = found && rub ? warm[at + 1] : (float4)(0.0f);
 	}
 	last->force = second ? last->forces.z : last->forces.y;
 	last->friction = second ? last->held.y : last->held.x;
@@ -36,15 +48,38 @@ float force_begun(RECORD_IN(slots), int s, int partner, float force, float lengt
 	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
 }
 
+/* Sees to it that there is room for the forces of as many contacts as a slot has now; what is kept goes along. */
+void warm_take(RECORD_IN(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub)
+{
+	int contacts_now = 0, before = PARTNER_NONE;
+	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
+		contacts_now += other != before;
+		before = other;
+	}
+	__global int *span = warm_spans + WARM_SPAN(slot_body(slots, s), 0);
+	if (contacts_now <= span[WARM_SPAN_ROOM])
+		return;
+	int room = contacts_now + contacts_now / 2, start = atomic_add(&warm_spans[WARM_TAKEN], room);
+	if (start > warm_spans[WARM_ROOM] - room) {
+		atomic_or(&status[STATUS_SMALL], 1);
+		return;
+	}
+	for (int i = 0; i < WARM(0, span[WARM_SPAN_COUNT], rub); i++)
+		warm[WARM(start, 0, rub) + i] = warm[WARM(span[WARM_SPAN_START], 0, rub) + i];
+	span[WARM_SPAN_START] = start;
+	span[WARM_SPAN_ROOM] = room;
+}
+
 /* Once impulses have stopped what comes together forces let it come nearer by less, and begin with those of the last steps. */
-void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_counts), int s, bool rub,
+void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(warm), LIST_IN(warm_spans), int s, bool rub,
 	float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
-	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
+	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (!last_forces_of(slots, warm, warm_counts, s, other, rub, &last))
+		if (!last_forces_of(slots, warm, warm_spans, s, other, rub, &last))
 			continue;
 		at[4 * FOUR_LEAST] = EASE * at[4 * FOUR_LEAST] - (0.5f / CONTACT_PART) * at[4 * FOUR_TOLERANCE];
 		float friction = rub ? grip[4 * GRIP_FRICTION] : 0.0f, part = friction > 0.0f ? 1.0f : WARM_PART;
@@ -66,14 +101,14 @@ float force_mean(float force, float before, bool lasts, float follow, float leng
 
 /* In the place of a body's forces, where such began this step. True if they are what it began with. */
 bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(pushes), RECORD_IN(warm),
-	LIST_IN(warm_counts), int s, bool rub, bool bears, float length)
+	LIST_IN(warm_spans), int s, bool rub, bool bears, float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
 	bool same = true;
-	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
+	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (!last_forces_of(slots, warm, warm_counts, s, other, rub, &last))
+		if (!last_forces_of(slots, warm, warm_spans, s, other, rub, &last))
 			continue;
 		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, rubs = rub && grip[4 * GRIP_FRICTION] > 0.0f;
 		float follow = rubs ? (bears && was_at_rest(pushes, s) && (other < 0 || was_at_rest(pushes, other)) ? 0.0f : GRIP_WARM_FOLLOW) : WARM_FOLLOW;
@@ -87,17 +122,17 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 
 /* Keeps the forces on a body, in such a step, for the next one. If this one did not begin with them its island is not to fall asleep. */
 void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(pushes),
-	RECORD_OUT(warm), LIST_OUT(warm_counts), int s, bool rub, float length)
+	RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub, float length)
 {
-	int body = slot_body(slots, s), count = 0, before = PARTNER_NONE;
-	if (!forces_mean(slots, contacts, grips, touching, pushes, warm, warm_counts, s, rub, island_bears(status, touching, islands, s), length))
+	int body = slot_body(slots, s), start = warm_spans[WARM_SPAN(body, WARM_SPAN_START)], count = 0, before = PARTNER_NONE;
+	if (!forces_mean(slots, contacts, grips, touching, pushes, warm, warm_spans, s, rub, island_bears(status, touching, islands, s), length))
 		island_disturb(touching, islands, s);
-	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? s : 0, point);
+	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;
-		int second = other == before, to = WARM(body, count - second, rub);
+		int second = other == before, to = WARM(start, count - second, rub);
 		float force = at[4 * FOUR_FORCE], held = grip[4 * GRIP_FORCE];
 		warm[to] = second ? (float4)(warm[to].x, warm[to].y, force, 0.0f) : (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
 		if (rub)
@@ -105,5 +140,5 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 		before = other;
 		count += !second;
 	}
-	warm_counts[body] = count;
+	warm_spans[WARM_SPAN(body, WARM_SPAN_COUNT)] = count;
 }

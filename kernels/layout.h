@@ -325,9 +325,7 @@
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
 /* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first, one or two points
- * each. Ten records for four points side by side; where there are no more, or the other body has too many contacts, points of zeros. */
-#define CONTACTS_MOST 12 /* a slot; a body with more has none */
-#define FOURS_MOST (2 * CONTACTS_MOST / 4)
+ * each. Ten records for four points side by side; where there are no more, points of zeros. A slot's fours follow each other; Touching tells where they begin. */
 #define FOUR_WIDTH 10
 #define FOUR_PARTNER 0  /* as below */
 #define FOUR_NORMAL_X 1 /* from the partner to this body, 1 long */
@@ -355,8 +353,8 @@
 #define GRIP_START 6
 
 /* Warm: the forces that the last steps ended with, as means that follow the last one by WARM_FOLLOW: what a step ends with makes up for what the one before
- * left within its tolerance, and so differs from what bears. So many contacts a body, by its index, in the order of Contacts: a record each, or where bodies
- * rub two. WarmCount: an int a body, how many there are. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations
+ * left within its tolerance, and so differs from what bears. A body's contacts are in the order of Contacts: a record each, or where bodies
+ * rub two. The next step begins with them, where the two do not rub with a WARM_PART: from more on iterations
  * end, within their tolerance, with forces that part what they ought to bear, and heaps slosh on. Where they rub they follow by GRIP_WARM_FOLLOW, for what stops them is no more what bears them; and what bears bodies at rest without another
  * iteration is kept as it is. */
 #define WARM_WIDTH(rub) ((rub) ? 2 : 1)
@@ -368,9 +366,17 @@
 #define GRIP_WARM_FOLLOW 0.125f
 #define WARM_MOST 1e6f /* m/step^2, of either body: a larger force is not begun with */
 
+/* WarmSpans: three ints a body, by its index: where its contacts are in Warm; and before them three for all */
+#define WARM_SPAN_WIDTH 3
+#define WARM_SPAN_START 0
+#define WARM_SPAN_COUNT 1
+#define WARM_SPAN_ROOM 2 /* contacts that there is room for */
+#define WARM_TAKEN 0     /* for all: contacts that there has been asked room for, */
+#define WARM_ROOM 1      /* and that there is room for in Warm */
+
 /* Touching: ints of each slot */
-#define TOUCHING_WIDTH 6
-#define TOUCHING_COUNT 0    /* of its points; -1: too many contacts */
+#define TOUCHING_WIDTH 9
+#define TOUCHING_COUNT 0    /* of its points */
 #define TOUCHING_SLOT 1     /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
 #define TOUCHING_WANTED 2   /* of a root: the last iteration that its island wants */
 #define TOUCHING_RESTLESS 3 /* of a root: 1: not all of its island is as the step began; of one that sleeps: it is to wake */
@@ -379,6 +385,9 @@
 #define FOOTING_FIRM 1      /* something static, where it does not slide; */
 #define FOOTING_LOOSE 2     /* something static, on which it slides, or kinematic; and of each slot, root or not: */
 #define FOOTING_SLIDES 4    /* its body slides somewhere */
+#define TOUCHING_FIRST 6    /* of its fours in Contacts and Grips; there is room for */
+#define TOUCHING_ROOM 7     /* so many, */
+#define TOUCHING_MADE 8     /* as long as this is STATUS_MADE */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
@@ -426,7 +435,7 @@
 /* Status: ints, and some floats in their bits */
 #define STATUS_WIDTH 64
 #define STATUS_STALE 0     /* 1: the lists of neighbours are to be made anew before the next step */
-#define STATUS_SMALL 1     /* 1: Neighbours, Nodes or Hits has too little room */
+#define STATUS_SMALL 1     /* 1: Neighbours, Nodes, Hits, Contacts or Warm has too little room */
 #define STATUS_UNDER_WAY 2 /* 1: a step is, with clusters to do again */
 #define STATUS_COMMIT 3    /* 1: the step is done */
 #define STATUS_LEFT 4      /* 1: a body would leave its reach: the step begins again, with other lists */
@@ -460,10 +469,11 @@
 #define STATUS_PASS 30     /* of the step: 0: not begun yet, */
 #define PASS_IMPULSES 1    /* what comes together is stopped, */
 #define PASS_FORCES 2      /* and borne */
-#define STATUS_ROUSED 47   /* 1: all wake in the next step */
+#define STATUS_ROUSED 58   /* 1: all wake in the next step */
 #define STATUS_SLEPT 54    /* float bits, s: the step in which those that sleep would stay as they are */
 #define STATUS_SLEEPERS 55 /* bodies that sleep */
 #define STATUS_MOST 56     /* since the host asked: the most iterations of a pass that is done */
+#define STATUS_MADE 57     /* how often lists of neighbours were made since the slots were loaded: each time Contacts is empty again */
 /* What many count at the same time is no neighbour of what they all read. */
 #define STATUS_ACTIVE 32     /* numbers given */
 #define STATUS_FOUND 33      /* hits in Found */
@@ -482,11 +492,13 @@
 #define STATUS_RULED 42        /* of the step's hits */
 #define STATUS_KEPT 44 /* hits wanted in Hits since the host asked; above the room the step begins again, and none begins until the host made room */
 #define STATUS_KEPT_BEFORE 45 /* of these, when the last step was done: those behind are of one that is under way, or began again */
+#define STATUS_FOURS 47       /* fours of points wanted in Contacts since the lists were made */
 #define STATUS_LOST 46        /* since the host asked: events of bodies in clusters that were given up, or done again */
 /* What nobody changes but the host. */
-#define STATUS_KEPT_ROOM 48 /* hits there are room for in Hits; 0: none are kept */
-#define STATUS_HEADS 49     /* ints of Extra before the first node: one for each slot that there may be */
-#define STATUS_SLICES 50    /* of a step */
+#define STATUS_KEPT_ROOM 48  /* hits there are room for in Hits; 0: none are kept */
+#define STATUS_HEADS 49      /* ints of Extra before the first node: one for each slot that there may be */
+#define STATUS_SLICES 50     /* of a step */
+#define STATUS_FOURS_ROOM 59 /* fours there are in Contacts */
 /* Of these: */
 #define STATUS_SLICE 51    /* the one that clusters are run in, 0 for the first */
 #define STATUS_SAVED 52    /* numbers that had been given when it began, if it is a later one; 0 in the first */
@@ -500,7 +512,7 @@
  * stillness, doubled after each CROWD_DOUBLING events up to CROWD_DOUBLINGS times, for what turning bodies press together. A body that is in more than HOLD_LIMIT events of one step is held until its end;
  * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step.
  * Unless it was in a hit that was not slow, it is no faster then than when the step began: what holds it may not make it faster from step to step.
- * Where forces bear what rests, on bodies that have not too many contacts for them, the next step's impulses stop what a crowd does: there it is one from CROWD_BORNE events on, and parts sooner and faster, slow is
+ * Where forces bear what rests, the next step's impulses stop what a crowd does: there it is one from CROWD_BORNE events on, and parts sooner and faster, slow is
  * what they stop, and STUCK_BORNE events are enough.
  *
  * There what would be elastic is a shock instead, under gravity: the hit passes on at once to what is nearer than what gravity makes in a step (or CONTACT_NEAR of the smaller radius),

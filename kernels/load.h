@@ -6,25 +6,32 @@ typedef struct ways {
 	float4 x, y, arm, other_arm;
 } ways;
 
-void ways_of_normals(ways *w, RECORD_IN(contacts), int s, int four)
+void ways_of_normals(ways *w, RECORD_IN(contacts), int four)
 {
-	w->x = contacts[FOUR(s, four, FOUR_NORMAL_X)];
-	w->y = contacts[FOUR(s, four, FOUR_NORMAL_Y)];
-	w->arm = contacts[FOUR(s, four, FOUR_ARM)];
-	w->other_arm = contacts[FOUR(s, four, FOUR_OTHER_ARM)];
+	w->x = contacts[FOUR(four, FOUR_NORMAL_X)];
+	w->y = contacts[FOUR(four, FOUR_NORMAL_Y)];
+	w->arm = contacts[FOUR(four, FOUR_ARM)];
+	w->other_arm = contacts[FOUR(four, FOUR_OTHER_ARM)];
 }
 
-void ways_of_grips(ways *w, RECORD_IN(grips), int s, int four, const ways *normals)
+void ways_of_grips(ways *w, RECORD_IN(grips), int four, const ways *normals)
 {
 	w->x = -normals->y;
 	w->y = normals->x;
-	w->arm = grips[GRIP(s, four, GRIP_ARM)];
-	w->other_arm = grips[GRIP(s, four, GRIP_OTHER_ARM)];
+	w->arm = grips[GRIP(four, GRIP_ARM)];
+	w->other_arm = grips[GRIP(four, GRIP_OTHER_ARM)];
 }
 
-int fours_of(LIST_IN(touching), int s)
+/* A slot's first four points, in Contacts and in Grips, */
+int first_four(LIST_IN(touching), int s)
 {
-	return (touching[TOUCH(s, TOUCHING_COUNT)] + 3) / 4;
+	return touching[TOUCH(s, TOUCHING_FIRST)];
+}
+
+/* and the end of its fours. */
+int end_four(LIST_IN(touching), int s)
+{
+	return touching[TOUCH(s, TOUCHING_FIRST)] + (touching[TOUCH(s, TOUCHING_COUNT)] + 3) / 4;
 }
 
 /* What forces add to a load, x, y and torque: a sum each of every fourth point, and then of those. */
@@ -101,15 +108,15 @@ float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
 	response all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-	for (int four = 0; four < fours_of(touching, s); four++) {
+	for (int four = first_four(touching, s); four < end_four(touching, s); four++) {
 		ways normals;
-		ways_of_normals(&normals, contacts, s, four);
+		ways_of_normals(&normals, contacts, four);
 		responses n, g = {none, none, none, none, none, none};
 		responses_of(&n, &normals, mass);
 		if (rub) {
-			int4 rubs = grips[GRIP(s, four, GRIP_FRICTION)] > 0.0f;
+			int4 rubs = grips[GRIP(four, GRIP_FRICTION)] > 0.0f;
 			ways along;
-			ways_of_grips(&along, grips, s, four, &normals);
+			ways_of_grips(&along, grips, four, &normals);
 			responses_of(&g, &along, mass);
 			g.xx = rubs ? g.xx : none, g.xy = rubs ? g.xy : none, g.yy = rubs ? g.yy : none;
 			g.xt = rubs ? g.xt : none, g.yt = rubs ? g.yt : none, g.tt = rubs ? g.tt : none;
@@ -141,27 +148,17 @@ float4 rests_add(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_I
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
 	sums all = {none, none, none};
-	for (int four = 0; four < fours_of(touching, s); four++) {
+	for (int four = first_four(touching, s); four < end_four(touching, s); four++) {
 		ways normals;
-		ways_of_normals(&normals, contacts, s, four);
-		sums_add(&all, contacts[FOUR(s, four, FOUR_FORCE)], &normals, mass);
+		ways_of_normals(&normals, contacts, four);
+		sums_add(&all, contacts[FOUR(four, FOUR_FORCE)], &normals, mass);
 		if (rub) {
 			ways along;
-			ways_of_grips(&along, grips, s, four, &normals);
-			sums_add(&all, grips[GRIP(s, four, GRIP_FORCE)], &along, mass);
+			ways_of_grips(&along, grips, four, &normals);
+			sums_add(&all, grips[GRIP(four, GRIP_FORCE)], &along, mass);
 		}
 	}
 	return sums_with(&all, load);
-}
-
-/* Points of which the other body has too many contacts are none. */
-void rests_drop(RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), int s, bool rub)
-{
-	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		int other = (int)POINT_OUT(contacts, FOUR_WIDTH, s, point)[4 * FOUR_PARTNER];
-		if (other >= 0 && touching[TOUCH(other, TOUCHING_COUNT)] < 0)
-			point_drop(contacts, grips, s, point, rub);
-	}
 }
 
 /* How much a force at a point parts it. */
@@ -175,8 +172,8 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	float share = CHANNEL(loads[LOADS_OF(s) + now], LOAD_SHARE);
-	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? s : 0, point);
+	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		for (int i = 0; other != PARTNER_NONE && i < (rub ? 2 : 1); i++) {
 			float arm = i ? grip[4 * GRIP_ARM] : at[4 * FOUR_ARM], other_arm = i ? grip[4 * GRIP_OTHER_ARM] : at[4 * FOUR_OTHER_ARM];
@@ -210,10 +207,9 @@ float4 rates_of(const ways *w, float4 load, const moves *others)
 }
 
 /* What four points' friction does in an iteration, once they have new forces. Returns where another one is wanted. */
-int4 grips_iterate(RECORD_OUT(grips), int s, int four, float4 force, const ways *w, float4 load, const moves *others, float4 tolerance, int done,
-	float beta)
+int4 grips_iterate(RECORD_OUT(grips), int four, float4 force, const ways *w, float4 load, const moves *others, float4 tolerance, int done, float beta)
 {
-	__global float4 *at = grips + GRIP(s, four, 0);
+	__global float4 *at = grips + GRIP(four, 0);
 	float4 allowed = at[GRIP_FRICTION] * force, bound = at[GRIP_BOUND], step = at[GRIP_STEP], slip = rates_of(w, load, others);
 	float4 most = done < GRIP_FOLLOW ? allowed : bound + GRIP_BLEND * (allowed - bound), pushed = at[GRIP_START] - slip * step;
 	float4 below = most < pushed ? most : pushed, held = -most > below ? -most : below;
@@ -236,10 +232,10 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 	int4 wanted = (int4)(0);
 	if (done == 0)
 		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
-	for (int four = 0; four < fours_of(touching, s); four++) {
-		__global float4 *at = contacts + FOUR(s, four, 0);
+	for (int four = first_four(touching, s); four < end_four(touching, s); four++) {
+		__global float4 *at = contacts + FOUR(four, 0);
 		ways normals;
-		ways_of_normals(&normals, contacts, s, four);
+		ways_of_normals(&normals, contacts, four);
 		moves others;
 		moves_of(&others, loads, at[FOUR_PARTNER], now);
 		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
@@ -250,9 +246,9 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		sums_add(&next, start, &normals, mass);
 		if (rub) {
 			ways along;
-			ways_of_grips(&along, grips, s, four, &normals);
-			wanted |= grips_iterate(grips, s, four, force, &along, load, &others, tolerance, done, smaller(beta, GRIP_MOMENTUM));
-			sums_add(&next, grips[GRIP(s, four, GRIP_START)], &along, mass);
+			ways_of_grips(&along, grips, four, &normals);
+			wanted |= grips_iterate(grips, four, force, &along, load, &others, tolerance, done, smaller(beta, GRIP_MOMENTUM));
+			sums_add(&next, grips[GRIP(four, GRIP_START)], &along, mass);
 		}
 	}
 	loads[LOADS_OF(s) + 1 - now] = sums_with(&next, loads[LOADS_OF(s) + LOADS_ALONE]);

@@ -183,8 +183,8 @@ bool goes_on(RECORD_OUT(work), int first, float until)
 /* Answers the first event of a cluster. Who is to look then: both parties, whom it changed, or the one whose event was not known, or two of a shock's, and others from *party
  * on; nobody where the cluster is given up. */
 int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), RECORD_OUT(shocks), float4 rules, int leader, int head, int round,
-	float length, int *first, int *party)
+	LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), float4 rules, int leader, int head, int round, float length,
+	int *first, int *party)
 {
 	int id = *first, other_id = -1;
 	float4 next = work[WORK_WIDTH * id + WORK_NEXT];
@@ -198,8 +198,8 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	}
 	if (!is_known)
 		return (int2)(id, LOOKS_NOT);
-	if (!answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, touching, hits, rules, active[id], id, other_id,
-			next, length))
+	if (!answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, hits, rules, active[id], id, other_id, next,
+			length))
 		return (int2)(id, other_id);
 	shock all;
 	shock_begin(TEX(uniforms), CHANNEL(next, NEXT_TIME), leader, head, round, length, &all);
@@ -214,8 +214,7 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 
 /* Runs the clusters of `all`. A team's first lane does what is done one after the other; all look. */
 void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), LIST_IN(touching), RECORD_OUT(hits), RECORD_OUT(shocks), int round, int lanes, float length,
-	SHARED crew *all)
+	LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), int round, int lanes, float length, SHARED crew *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	float until = slice_end(status, status[STATUS_SLICE]);
@@ -248,8 +247,8 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 			if (party >= 0)
 				who = parties_take(members, &party);
 			else if (first >= 0)
-				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, touching, hits, shocks,
-					rules, leader, head, round, length, &first, &party);
+				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, hits, shocks, rules,
+					leader, head, round, length, &first, &party);
 			if (who.x == LOOKS_LATER)
 				first = -1;
 			looks[0] = who.x;

@@ -17,6 +17,8 @@ void status_begin(LIST_OUT(status))
 	status[STATUS_SMALL] = status[STATUS_KEPT] > status[STATUS_KEPT_ROOM];
 	status[STATUS_STALE] = status[STATUS_UNDER_WAY] = status[STATUS_LEFT] = status[STATUS_AGE] = status[STATUS_MENDED] = 0;
 	status[STATUS_WANTED] = status[STATUS_BORNE] = status[STATUS_TOUCHING] = status[STATUS_PASS] = status[STATUS_RULED] = status[STATUS_THRONGS] = 0;
+	status[STATUS_FOURS] = 0;
+	status[STATUS_MADE]++;
 	status[STATUS_LITTERED] = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;

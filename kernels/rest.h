@@ -1,14 +1,14 @@
 /* What bodies rest on, of the step contacts: CONTRACT.md, "contacts". */
 
-#define FOUR(s, four, record) (FOUR_WIDTH * (FOURS_MOST * (s) + (four)) + (record))
-#define GRIP(s, four, record) (GRIP_WIDTH * (FOURS_MOST * (s) + (four)) + (record))
-#define WARM(body, k, rub) ((CONTACTS_MOST * (body) + (k)) * WARM_WIDTH(rub))
-#define CONTACTS_ALONE 512 /* bodies for which one group iterates alone */
+#define FOUR(four, record) (FOUR_WIDTH * (four) + (record))
+#define GRIP(four, record) (GRIP_WIDTH * (four) + (record))
+#define CONTACTS_ALONE 512  /* bodies for which one group iterates alone */
+#define CONTACTS_AT_ONCE 12 /* of a body, that are found with one look at its neighbours; no fewer than SHOCK_POINTS */
 
-/* A point alone, in Contacts or in Grips: its number in a record, from which on each record's is 4 farther. */
-#define POINT_AT(width, s, point) (4 * (width) * (FOURS_MOST * (s) + (point) / 4) + (point) % 4)
-#define POINT_IN(records, width, s, point) ((__global const float *)(records) + POINT_AT(width, s, point))
-#define POINT_OUT(records, width, s, point) ((__global float *)(records) + POINT_AT(width, s, point))
+/* A point alone of those from a four on, in Contacts or in Grips: its number in a record, from which on each record's is 4 farther. */
+#define POINT_AT(width, first, point) (4 * (width) * ((first) + (point) / 4) + (point) % 4)
+#define POINT_IN(records, width, first, point) ((__global const float *)(records) + POINT_AT(width, first, point))
+#define POINT_OUT(records, width, first, point) ((__global float *)(records) + POINT_AT(width, first, point))
 
 typedef struct rest_point {
 	float arm, other_arm, least, grip_arm, grip_other_arm;
@@ -22,10 +22,13 @@ typedef struct rest {
 	rest_point points[2];
 } rest;
 
-/* The contacts of one slot, while they are found. */
+/* The contacts of one slot, while they are found: the first ones, by their keys, after one. */
 typedef struct rests {
-	int count;
-	rest of[CONTACTS_MOST];
+	int after;  /* a key */
+	int count;  /* of those here */
+	int points; /* of all that were found, or more */
+	bool left;  /* there are more than there is room for */
+	rest of[CONTACTS_AT_ONCE];
 } rests;
 
 /* Who a partner is: its index, or -1 - wall. */
@@ -88,17 +91,27 @@ typedef struct nearness {
 	float fast;   /* so much of that */
 } nearness;
 
-/* Where its key says, but once: a neighbour may be noted twice. The count is more than CONTACTS_MOST once there are too many. */
+void rests_begin(rests *all, int after)
+{
+	all->after = after;
+	all->count = all->points = 0;
+	all->left = false;
+}
+
+/* Where its key says, but once: a neighbour may be noted twice. */
 void rests_insert(rests *all, rest r)
 {
-	if (r.count == 0 || all->count > CONTACTS_MOST)
+	if (r.count == 0 || r.key <= all->after)
 		return;
 	for (int k = 0; k < all->count; k++)
 		if (all->of[k].key == r.key)
 			return;
-	int k = all->count++;
-	if (k == CONTACTS_MOST)
+	bool full = all->count == CONTACTS_AT_ONCE;
+	all->points += r.count;
+	all->left = all->left || full;
+	if (full && r.key > all->of[CONTACTS_AT_ONCE - 1].key)
 		return;
+	int k = full ? CONTACTS_AT_ONCE - 1 : all->count++;
 	for (; k > 0 && all->of[k - 1].key > r.key; k--)
 		all->of[k] = all->of[k - 1];
 	all->of[k] = r;
@@ -117,10 +130,10 @@ float near_force(body own, body partner, nearness near)
 void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, body own, int other, body partner, nearness near,
 	rests *all)
 {
-	float force = near_force(own, partner, near);
-	if (!(force > 0.0f))
-		return;
 	int key = slot_body(slots, other);
+	float force = near_force(own, partner, near);
+	if (!(force > 0.0f) || key <= all->after)
+		return;
 	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key);
 	if (!is_lossy(larger(own.restitution, partner.restitution), rub))
 		return;
@@ -179,24 +192,23 @@ void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, ne
 }
 
 /* A point that pushes nothing. */
-void point_drop(RECORD_OUT(contacts), RECORD_OUT(grips), int s, int point, bool rub)
+void point_drop(RECORD_OUT(contacts), RECORD_OUT(grips), int first, int point, bool rub)
 {
-	__global float *at = POINT_OUT(contacts, FOUR_WIDTH, s, point);
+	__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 	for (int record = 0; record < FOUR_WIDTH; record++)
 		at[4 * record] = record == FOUR_PARTNER ? (float)PARTNER_NONE : 0.0f;
 	for (int record = 0; rub && record < GRIP_WIDTH; record++)
-		POINT_OUT(grips, GRIP_WIDTH, s, point)[4 * record] = 0.0f;
+		POINT_OUT(grips, GRIP_WIDTH, first, point)[4 * record] = 0.0f;
 }
 
-/* Writes the points side by side, and how they slide where bodies rub; how many there are. */
-int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s, bool rub)
+/* Writes the points side by side, behind so many others, and how they slide where bodies rub; how many there are then. */
+int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int first, int count, bool rub)
 {
-	int count = 0;
 	for (int k = 0; k < all->count; k++) {
 		const rest *r = &all->of[k];
 		for (int i = 0; i < r->count; i++, count++) {
-			__global float *to = POINT_OUT(contacts, FOUR_WIDTH, s, count);
-			point_drop(contacts, grips, s, count, rub);
+			__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, count);
+			point_drop(contacts, grips, first, count, rub);
 			to[4 * FOUR_PARTNER] = (float)r->partner;
 			to[4 * FOUR_NORMAL_X] = r->n.x;
 			to[4 * FOUR_NORMAL_Y] = r->n.y;
@@ -206,15 +218,34 @@ int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int s
 			to[4 * FOUR_TOLERANCE] = CONTACT_PART * (EASE * r->cushion);
 			if (!rub)
 				continue;
-			to = POINT_OUT(grips, GRIP_WIDTH, s, count);
+			to = POINT_OUT(grips, GRIP_WIDTH, first, count);
 			to[4 * GRIP_FRICTION] = r->friction;
 			to[4 * GRIP_ARM] = r->points[i].grip_arm;
 			to[4 * GRIP_OTHER_ARM] = r->points[i].grip_other_arm;
 		}
 	}
 	for (int point = count; point % 4 > 0; point++)
-		point_drop(contacts, grips, s, point, rub);
+		point_drop(contacts, grips, first, point, rub);
 	return count;
+}
+
+/* Sees to it that a slot has room for so many points: what it has, or more. False: there is none. */
+bool fours_take(LIST_OUT(status), LIST_OUT(touching), int s, int points)
+{
+	int fours = (points + 3) / 4;
+	bool any = touching[TOUCH(s, TOUCHING_MADE)] == status[STATUS_MADE];
+	if (fours == 0 || (any && fours <= touching[TOUCH(s, TOUCHING_ROOM)]))
+		return true;
+	int room = any ? fours + fours / 2 : fours; /* of what grows, little is left behind */
+	int first = atomic_add(&status[STATUS_FOURS], room);
+	if (first > status[STATUS_FOURS_ROOM] - room) {
+		atomic_or(&status[STATUS_SMALL], 1);
+		return false;
+	}
+	touching[TOUCH(s, TOUCHING_FIRST)] = first;
+	touching[TOUCH(s, TOUCHING_ROOM)] = room;
+	touching[TOUCH(s, TOUCHING_MADE)] = status[STATUS_MADE];
+	return true;
 }
 
 /* Of the body k in slot s on the room's walls. */
@@ -230,27 +261,34 @@ void rest_on_walls(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(sl
 		rest_on_wall(VERTICES, room, k, wall, rub, near, all);
 }
 
-/* How many points the body in a slot rests on; -1: it has too many contacts. If it is awake, all that sleep near it are disturbed. */
+/* How many points the body in a slot rests on. If it is awake, all that sleep near it are disturbed. */
 int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_IN(pushes), LIST_OUT(touching), LIST_IN(islands),
 	RECORD_OUT(contacts), RECORD_OUT(grips), int s, float length)
 {
 	rests all;
 	nearness near = {0.0f, CONTACT_FAST};
-	all.count = 0;
+	int count = 0, after = INT_MIN;
 	if (slot_is_static(slots, s))
 		return 0;
 	bool awake = !touching[TOUCH(s, TOUCHING_ASLEEP)], dynamic = slot_is_dynamic(slots, s);
 	body k = body_awake(slots, touching, pushes, s, length);
-	if (dynamic)
-		rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, near, &all);
-	int end = spans[SPAN(s, SPAN_END)];
-	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
-		int other = neighbour_of(neighbours, extra, i);
-		body partner = body_awake(slots, touching, pushes, other, length);
-		if (awake && touching[TOUCH(other, TOUCHING_ASLEEP)] && (!dynamic || near_force(k, partner, near) > 0.0f))
-			island_disturb(touching, islands, other);
+	do {
+		rests_begin(&all, after);
 		if (dynamic)
-			rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, other, partner, near, &all);
-	}
-	return all.count > CONTACTS_MOST ? -1 : rests_write(&all, contacts, grips, s, anything_rubs(TEX(uniforms)));
+			rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, near, &all);
+		int end = spans[SPAN(s, SPAN_END)];
+		for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
+			int other = neighbour_of(neighbours, extra, i);
+			body partner = body_awake(slots, touching, pushes, other, length);
+			if (awake && touching[TOUCH(other, TOUCHING_ASLEEP)] && (!dynamic || near_force(k, partner, near) > 0.0f))
+				island_disturb(touching, islands, other);
+			if (dynamic)
+				rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, other, partner, near, &all);
+		}
+		if (count == 0 && !fours_take(status, touching, s, all.points))
+			return 0;
+		count = rests_write(&all, contacts, grips, touching[TOUCH(s, TOUCHING_FIRST)], count, anything_rubs(TEX(uniforms)));
+		after = all.count > 0 ? all.of[all.count - 1].key : after;
+	} while (all.left);
+	return count;
 }

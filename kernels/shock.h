@@ -82,61 +82,61 @@ float point_rate(RECORD_IN(slots), RECORD_OUT(work), int id, float4 normal, floa
 	return parting(slots, work, id, push, n, CHANNEL(normal, SHOCK_ARM), CHANNEL(normal, SHOCK_OTHER_ARM));
 }
 
-bool is_party(LIST_OUT(members), LIST_IN(owners), int s, const shock *all)
+/* The number of the body in a slot as a party, else -1. */
+int party_of(LIST_OUT(members), LIST_IN(owners), int s, const shock *all)
 {
 	int id = number_of_own(members, owners, s, all->leader);
-	return id >= 0 && members[MEMBER(id, MEMBER_SEEN)] < 0;
+	return id >= 0 && members[MEMBER(id, MEMBER_SEEN)] < 0 ? id : -1;
 }
 
-/* A party's points, from those of its contacts with others. */
+/* Has a party, if it is one, a point with slot s? */
+bool has_point_with(RECORD_OUT(shocks), int party, int s)
+{
+	bool has = false;
+	for (int point = 0; party >= 0 && point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++)
+		has = has || CHANNEL(shocks[SHOCK(party, point) + SHOCK_PUSH], SHOCK_PARTNER) == (float)s;
+	return has;
+}
+
+/* A party's points, from those of its contacts. */
 void points_write(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int id,
 	const rests *found, const shock *all)
 {
 	int point = 0;
 	for (int k = 0; k < found->count; k++) {
 		const rest *r = &found->of[k];
-		if (r->partner >= 0 && is_party(members, owners, r->partner, all))
-			continue; /* which has them */
+		int party = r->partner >= 0 ? party_of(members, owners, r->partner, all) : -1;
 		float part = ((SHOCK_PARTING * r->force) * (1.0f - all->time)) / all->length;
 		for (int i = 0; i < r->count && point < SHOCK_POINTS; i++, point++) {
 			rest_point at = r->points[i];
 			__global float4 *to = shocks + SHOCK(id, point);
-			float coming = r->partner >= 0 && slot_is_dynamic(slots, r->partner)
+			float coming = r->partner >= 0 && party < 0 && slot_is_dynamic(slots, r->partner)
 				? way_speed(shock_way(slots, status, members, work, owners, r->partner, all), r->n, at.other_arm)
 				: 0.0f;
 			to[SHOCK_NORMAL] = (float4)(r->n.x, r->n.y, at.arm, at.other_arm);
 			to[SHOCK_GRIP] = (float4)(at.grip_arm, at.grip_other_arm, r->friction, part);
-			to[SHOCK_PUSH] = (float4)((float)r->partner, -1.0f, coming, 0.0f);
+			to[SHOCK_PUSH] = (float4)((float)r->partner, (float)party, coming, 0.0f);
 		}
 	}
 	if (point < SHOCK_POINTS)
 		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
 }
 
-/* What the body in slot s rests on. Parties have the points that they share with it: they are left out, but counted, and looked at only where there may be too
- * many. */
-void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), int s, body own,
-	const shock *all, rests *contacts)
+/* What the body in slot s rests on, but for what a party has a point for. */
+void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
+	int s, body own, const shock *all, rests *contacts)
 {
 	int end = spans[SPAN(s, SPAN_END)];
 	nearness near = {all->weight, INFINITY};
-	for (int look = 0; look < 2; look++) {
-		int left_out = 0;
-		contacts->count = 0;
-		rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, contacts);
-		for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
-			int other = neighbour_of(neighbours, extra, i);
-			body partner = body_of(slots, other, shock_way(slots, status, members, work, owners, other, all), all->length);
-			if (look > 0 || !is_party(members, owners, other, all))
-				rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, contacts);
-			else if (near_force(own, partner, near) > 0.0f)
-				left_out++;
-		}
-		if (left_out == 0 || contacts->count + left_out <= CONTACTS_MOST)
-			break;
+	rests_begin(contacts, INT_MIN);
+	rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, contacts);
+	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
+		int other = neighbour_of(neighbours, extra, i);
+		if (has_point_with(shocks, party_of(members, owners, other, all), s))
+			continue;
+		body partner = body_of(slots, other, shock_way(slots, status, members, work, owners, other, all), all->length);
+		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, contacts);
 	}
-	if (contacts->count > CONTACTS_MOST)
-		contacts->count = 0;
 }
 
 /* A party more: it is moved to the time, and where it may be pushed, or push, is found. */
@@ -147,7 +147,7 @@ void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots
 	rests contacts;
 	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
 	work_store(work, id, k);
-	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, s, body_of(slots, s, k, all->length), all, &contacts);
+	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, s, body_of(slots, s, k, all->length), all, &contacts);
 	points_write(slots, status, members, work, owners, shocks, id, &contacts, all);
 	for (int party = all->first; party >= 0; party = party_next(members, party))
 		for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {

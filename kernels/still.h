@@ -6,12 +6,12 @@ float still_within(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST
 {
 	float within = 0.0f;
 	int points = 0;
-	for (int point = 0; rub && point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point);
+	for (int point = 0, first = first_four(touching, s); rub && point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;
-		if (!(POINT_IN(grips, GRIP_WIDTH, s, point)[4 * GRIP_FRICTION] > 0.0f) || (other >= 0 && !slot_is_dynamic(slots, other)))
+		if (!(POINT_IN(grips, GRIP_WIDTH, first, point)[4 * GRIP_FRICTION] > 0.0f) || (other >= 0 && !slot_is_dynamic(slots, other)))
 			return 0.0f;
 		within = points++ == 0 ? at[4 * FOUR_TOLERANCE] : smaller(within, at[4 * FOUR_TOLERANCE]);
 	}
@@ -51,8 +51,8 @@ void slot_take(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_I
 /* Was any that a body touches at rest as the step began? */
 bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int s)
 {
-	for (int point = 0; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		int other = (int)POINT_IN(contacts, FOUR_WIDTH, s, point)[4 * FOUR_PARTNER];
+	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE)
 			continue;
 		if (other < 0 || was_at_rest(pushes, other))
@@ -65,8 +65,9 @@ bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int
 void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_OUT(touching), LIST_IN(islands), int s, bool rub)
 {
 	int own = 0, all = 0;
-	for (int point = 0; rub && status[STATUS_PASS] == PASS_FORCES && point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, s, point), *grip = POINT_IN(grips, GRIP_WIDTH, s, point);
+	for (int point = 0, first = first_four(touching, s); rub && status[STATUS_PASS] == PASS_FORCES && point < touching[TOUCH(s, TOUCHING_COUNT)];
+		 point++) {
+		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (other == PARTNER_NONE || !(at[4 * FOUR_FORCE] > 0.0f))
 			continue;
@@ -124,7 +125,7 @@ bool slot_sleep(RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_O
 {
 	bool asleep = touching[TOUCH(s, TOUCHING_ASLEEP)];
 	if (what == SLEEP_FORGOTTEN)
-		touching[TOUCH(s, TOUCHING_ASLEEP)] = 0;
+		touching[TOUCH(s, TOUCHING_ASLEEP)] = touching[TOUCH(s, TOUCHING_MADE)] = 0;
 	else if (asleep && (what == SLEEP_ENDS || !slot_stayed(slots, pushes, s))) {
 		slot_wake(slots, status, touching, pushes, s);
 		island_disturb(touching, islands, s);

@@ -5,9 +5,7 @@
 
 #include "layout.h"
 #include "status.h"
-#include "world.h"
-
-_Static_assert(CAROM_MAX_CONTACTS == CONTACTS_MOST, "the header tells it");
+#include "step/events.h"
 
 static bool is_dynamic(const carom_world *world, int32_t body)
 {
@@ -30,36 +28,51 @@ static int compare(const void *left, const void *right)
 
 /* ---- The device's copy ---- */
 
-/* Records of Warm and ints of WarmCount, of all bodies, in whole rows. */
+/* Records of Warm, and WarmSpans, in whole rows. */
 typedef struct warm {
 	float *records;
-	int32_t *counts;
-	size_t width;  /* records a contact */
-	uint32_t rows; /* of records */
-	size_t count_rows;
+	int32_t *spans;
+	uint32_t width;           /* records a contact */
+	uint32_t rows, span_rows; /* of those that are moved */
 } warm;
-
-static carom_status warm_create(const carom_world *world, warm *w, carom_error *error)
-{
-	const uint32_t width = WARM_WIDTH(world->rubs), records = CONTACTS_MOST * width, n = (uint32_t)world->body_count;
-	*w = (warm){.width = width, .rows = carom_row_count(records * n), .count_rows = carom_row_count(world->capacity)};
-	w->records = calloc((size_t)w->rows * carom_row_width(records * world->capacity), 4 * sizeof *w->records);
-	w->counts = calloc(w->count_rows * carom_row_width(world->capacity), sizeof *w->counts);
-	if (w->records && w->counts)
-		return CAROM_OK;
-	return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to move the contacts of %zu bodies", world->body_count);
-}
 
 static void warm_destroy(warm *w)
 {
 	free(w->records);
-	free(w->counts);
+	free(w->spans);
+}
+
+static carom_status no_memory(const carom_world *world, carom_error *error)
+{
+	return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to move the contacts of %zu bodies", world->body_count);
+}
+
+static carom_status warm_create(const carom_world *world, warm *w, carom_error *error)
+{
+	const uint32_t spans = WARM_SPAN_WIDTH * (world->capacity + 1);
+	*w = (warm){.width = WARM_WIDTH(world->rubs), .span_rows = carom_row_count(spans)};
+	w->spans = calloc((size_t)w->span_rows * carom_row_width(spans), sizeof *w->spans);
+	return w->spans ? CAROM_OK : no_memory(world, error);
+}
+
+/* Of the first so many contacts that there is room for. */
+static carom_status warm_create_records(const carom_world *world, warm *w, uint32_t contacts, carom_error *error)
+{
+	const uint32_t row = carom_row_width(w->width * world->events.warm_room);
+	w->rows = (w->width * contacts + row - 1) / row;
+	w->records = calloc((size_t)w->rows * row + 1, 4 * sizeof *w->records);
+	return w->records ? CAROM_OK : no_memory(world, error);
+}
+
+static int32_t *span_of(const warm *w, uint32_t body)
+{
+	return w->spans + WARM_SPAN_WIDTH * ((size_t)body + 1);
 }
 
 /* Contact k of a body: its record, and where bodies rub another one behind that. */
 static float *warm_at(const warm *w, uint32_t body, int32_t k)
 {
-	return w->records + 4 * w->width * (CONTACTS_MOST * (size_t)body + (size_t)k);
+	return w->records + 4 * (size_t)w->width * (size_t)(span_of(w, body)[WARM_SPAN_START] + k);
 }
 
 static void put_side(const carom_world *world, warm *w, uint32_t body, int32_t other, const carom_contact *contact)
@@ -67,32 +80,72 @@ static void put_side(const carom_world *world, warm *w, uint32_t body, int32_t o
 	float *record;
 	if (!is_dynamic(world, (int32_t)body))
 		return;
-	record = warm_at(w, body, w->counts[body]++);
+	record = warm_at(w, body, span_of(w, body)[WARM_SPAN_COUNT]++);
 	record[WARM_PARTNER] = (float)other;
 	memcpy(record + WARM_FORCES, contact->normal, sizeof contact->normal);
 	if (world->rubs)
 		memcpy(record + 4 + WARM_FRICTION, contact->friction, sizeof contact->friction);
 }
 
-carom_status carom_contacts_send(carom_world *world, carom_error *error)
+/* Gives each body room for its contacts, and half as many more. */
+static uint64_t give_room(const carom_world *world, warm *w)
+{
+	const carom_contact *contacts = world->contacts.items;
+	uint64_t taken = 0;
+	for (size_t i = 0; i < contact_count(world); i++)
+		for (int side = 0; side < 2; side++) {
+			const int32_t body = side ? contacts[i].other : (int32_t)contacts[i].body;
+			if (is_dynamic(world, body))
+				span_of(w, (uint32_t)body)[WARM_SPAN_ROOM]++;
+		}
+	for (uint32_t body = 0; body < world->body_count; body++) {
+		int32_t *span = span_of(w, body);
+		span[WARM_SPAN_START] = (int32_t)taken;
+		span[WARM_SPAN_ROOM] += span[WARM_SPAN_ROOM] / 2;
+		taken += (uint64_t)span[WARM_SPAN_ROOM];
+	}
+	return taken;
+}
+
+static carom_status make_room(carom_world *world, uint64_t contacts, carom_error *error)
+{
+	if (contacts > INT32_MAX / 2)
+		return carom_fail(error, CAROM_LIMIT, "the %zu bodies have %llu contacts: more than any device holds", world->body_count,
+			(unsigned long long)contacts);
+	world->events.warm_room = carom_events_enough((int32_t)contacts);
+	return carom_events_create_list(world, ROLE_WARM, false, WARM_WIDTH(world->rubs) * (uint64_t)world->events.warm_room, error);
+}
+
+static carom_status send(carom_world *world, warm *w, carom_error *error)
 {
 	const carom_contact *contacts = world->contacts.items;
 	const size_t count = contact_count(world);
 	const carom_device_class *kind = world->device->kind;
+	const uint64_t taken = give_room(world, w);
+	if (taken > world->events.warm_room)
+		TRY(make_room(world, taken, error));
+	TRY(warm_create_records(world, w, (uint32_t)taken, error));
+	for (size_t i = 0; i < count; i++)
+		put_side(world, w, contacts[i].body, contacts[i].other, &contacts[i]);
+	for (size_t i = 0; i < count; i++)
+		if (contacts[i].other >= 0)
+			put_side(world, w, (uint32_t)contacts[i].other, (int32_t)contacts[i].body, &contacts[i]);
+	w->spans[WARM_TAKEN] = (int32_t)taken;
+	w->spans[WARM_ROOM] = (int32_t)world->events.warm_room;
+	if (w->rows > 0)
+		TRY(kind->upload(world->device, world->textures[ROLE_WARM].front, w->rows, w->records, error));
+	return kind->upload(world->device, world->textures[ROLE_WARM_SPANS].front, w->span_rows, w->spans, error);
+}
+
+carom_status carom_contacts_send(carom_world *world, carom_error *error)
+{
 	warm w;
 	carom_status status;
 	if (world->contacts_sent)
 		return CAROM_OK;
 	status = warm_create(world, &w, error);
-	for (size_t i = 0; !status && i < count; i++)
-		put_side(world, &w, contacts[i].body, contacts[i].other, &contacts[i]);
-	for (size_t i = 0; !status && i < count; i++)
-		if (contacts[i].other >= 0)
-			put_side(world, &w, (uint32_t)contacts[i].other, (int32_t)contacts[i].body, &contacts[i]);
-	if (!status && count > 0)
-		status = kind->upload(world->device, world->textures[ROLE_WARM].front, w.rows, w.records, error);
 	if (!status)
-		status = kind->upload(world->device, world->textures[ROLE_WARM_COUNT].front, (uint32_t)w.count_rows, w.counts, error);
+		status = send(world, &w, error);
 	warm_destroy(&w);
 	world->contacts_sent = !status;
 	return status;
@@ -101,7 +154,7 @@ carom_status carom_contacts_send(carom_world *world, carom_error *error)
 /* Two bodies that move both have the contact: the one of the larger index tells of it. */
 static bool take_body(carom_world *world, const warm *w, uint32_t body)
 {
-	for (int32_t k = 0; k < w->counts[body]; k++) {
+	for (int32_t k = 0; k < span_of(w, body)[WARM_SPAN_COUNT]; k++) {
 		const float *record = warm_at(w, body, k);
 		const int32_t other = (int32_t)record[WARM_PARTNER];
 		carom_contact *contact;
@@ -119,18 +172,27 @@ static bool take_body(carom_world *world, const warm *w, uint32_t body)
 	return true;
 }
 
-static carom_status download(carom_world *world, carom_error *error)
+static carom_status take(carom_world *world, warm *w, carom_error *error)
 {
 	const carom_device_class *kind = world->device->kind;
+	int32_t taken;
+	TRY(kind->download(world->device, world->textures[ROLE_WARM_SPANS].front, w->span_rows, w->spans, error));
+	taken = w->spans[WARM_TAKEN] < w->spans[WARM_ROOM] ? w->spans[WARM_TAKEN] : w->spans[WARM_ROOM];
+	TRY(warm_create_records(world, w, (uint32_t)taken, error));
+	if (w->rows > 0)
+		TRY(kind->download(world->device, world->textures[ROLE_WARM].front, w->rows, w->records, error));
+	for (uint32_t body = 0; body < world->body_count; body++)
+		if (!take_body(world, w, body))
+			return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for the contacts of %zu bodies", world->body_count);
+	return CAROM_OK;
+}
+
+static carom_status download(carom_world *world, carom_error *error)
+{
 	warm w;
 	carom_status status = warm_create(world, &w, error);
 	if (!status)
-		status = kind->download(world->device, world->textures[ROLE_WARM].front, w.rows, w.records, error);
-	if (!status)
-		status = kind->download(world->device, world->textures[ROLE_WARM_COUNT].front, (uint32_t)w.count_rows, w.counts, error);
-	for (uint32_t body = 0; !status && body < world->body_count; body++)
-		if (!take_body(world, &w, body))
-			status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for the contacts of %zu bodies", world->body_count);
+		status = take(world, &w, error);
 	warm_destroy(&w);
 	return status;
 }
@@ -149,6 +211,23 @@ carom_status carom_contacts_fetch(carom_world *world, carom_error *error)
 		qsort(world->contacts.items, contact_count(world), sizeof(carom_contact), compare);
 	world->contacts_current = true;
 	return CAROM_OK;
+}
+
+carom_status carom_contacts_grow(carom_world *world, carom_error *error)
+{
+	int32_t wanted = 0;
+	warm w;
+	carom_status status = warm_create(world, &w, error);
+	if (!status)
+		status = world->device->kind->download(world->device, world->textures[ROLE_WARM_SPANS].front, w.span_rows, w.spans, error);
+	if (!status)
+		wanted = w.spans[WARM_TAKEN];
+	warm_destroy(&w);
+	if (status || (uint32_t)wanted <= world->events.warm_room)
+		return status;
+	TRY(carom_contacts_fetch(world, error)); /* what it has is a part of the state */
+	world->contacts_sent = false;
+	return make_room(world, (uint64_t)wanted, error);
 }
 
 /* ---- The interface ---- */
@@ -203,25 +282,19 @@ static carom_status check_contact(const carom_world *world, size_t k, const caro
 	return CAROM_OK;
 }
 
-/* Of contacts in order: each pair once, and no more than Warm holds. `counts` has a 0 for each body. */
-static carom_status check_together(const carom_world *world, size_t count, const carom_contact *contacts, uint8_t *counts, carom_error *error)
+/* Of contacts in order: each pair once. */
+static carom_status check_together(size_t count, const carom_contact *contacts, carom_error *error)
 {
-	for (size_t k = 0; k < count; k++) {
-		const int32_t parties[2] = {(int32_t)contacts[k].body, contacts[k].other};
-		if (k > 0 && compare(&contacts[k - 1], &contacts[k]) == 0)
+	for (size_t k = 1; k < count; k++)
+		if (compare(&contacts[k - 1], &contacts[k]) == 0)
 			return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts: body %u has more than one with %s %d", contacts[k].body,
 				contacts[k].other < 0 ? "wall" : "body", (int)contacts[k].other);
-		for (int i = 0; i < 2; i++)
-			if (is_dynamic(world, parties[i]) && ++counts[parties[i]] > CONTACTS_MOST)
-				return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts: body %d has more than %d", (int)parties[i], CONTACTS_MOST);
-	}
 	return CAROM_OK;
 }
 
 carom_status carom_world_set_contacts(carom_world *world, size_t count, const carom_contact *contacts, carom_error *error)
 {
 	carom_array sorted = {0};
-	uint8_t *counts = NULL;
 	carom_status status = CAROM_OK;
 	GIVEN(world, error);
 	TRY(carom_check_idle(world, error));
@@ -230,16 +303,14 @@ carom_status carom_world_set_contacts(carom_world *world, size_t count, const ca
 	for (size_t k = 0; k < count; k++)
 		TRY(check_contact(world, k, &contacts[k], error));
 	if (count > 0) {
-		counts = calloc(world->body_count, sizeof *counts);
-		if (!counts || !carom_array_grow(&sorted, count * sizeof *contacts)) {
+		if (!carom_array_grow(&sorted, count * sizeof *contacts)) {
 			status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu contacts", count);
 		} else {
 			memcpy(sorted.items, contacts, count * sizeof *contacts);
 			qsort(sorted.items, count, sizeof *contacts, compare);
-			status = check_together(world, count, sorted.items, counts, error);
+			status = check_together(count, sorted.items, error);
 		}
 	}
-	free(counts);
 	if (status) {
 		free(sorted.items);
 		return status;

@@ -51,15 +51,15 @@ typedef enum carom_role {
 	ROLE_STATUS,     /* list, STATUS_WIDTH */
 	ROLE_HITS,       /* records, HITS_WIDTH a hit; one alone where none are kept */
 	/* of the step contacts, likewise */
-	ROLE_GRIPS,      /* records, CONTACTS_MOST of GRIP_WIDTH a slot; of one alone where nothing rubs */
-	ROLE_CONTACTS,   /* records, CONTACTS_MOST of CONTACT_WIDTH a slot */
+	ROLE_GRIPS,      /* records, GRIP_WIDTH a four of points; of one alone where nothing rubs */
+	ROLE_CONTACTS,   /* records, FOUR_WIDTH a four of points */
 	ROLE_TOUCHING,   /* list, TOUCHING_WIDTH a slot; of one int by events */
 	ROLE_ISLANDS,    /* list, one a slot */
 	ROLE_SHOCKS,     /* records, SHOCK_POINTS of SHOCK_WIDTH a number; one alone by events; the CPU keeps its own */
 	ROLE_LOADS,      /* records, LOADS_WIDTH a slot */
 	ROLE_PUSHES,     /* records, PUSHES_WIDTH a slot */
-	ROLE_WARM,       /* records, CONTACTS_MOST a body, or twice as many where something rubs: part of the state */
-	ROLE_WARM_COUNT, /* list, one a body */
+	ROLE_WARM,       /* records, one a contact of a body, or two where something rubs: part of the state */
+	ROLE_WARM_SPANS, /* list, WARM_SPAN_WIDTH a body, and before them as many for all */
 	/* of pictures, made when the first is drawn; lists are those of ints */
 	ROLE_STREAM,      /* one texel a vertex */
 	ROLE_TRANSFORMS,  /* one texel a body */

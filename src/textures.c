@@ -27,7 +27,7 @@ uint32_t carom_capacity(size_t items)
 static carom_texel_format format_of(carom_role role)
 {
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED
-		|| role == ROLE_FILTERS || role == ROLE_TOUCHING || role == ROLE_ISLANDS || role == ROLE_WARM_COUNT)
+		|| role == ROLE_FILTERS || role == ROLE_TOUCHING || role == ROLE_ISLANDS || role == ROLE_WARM_SPANS)
 		return TEXELS_LIST;
 	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_CHANGES || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES
 		|| role == ROLE_SHAPES || role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS
@@ -83,7 +83,7 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_LOADS] = "Loads",
 	[ROLE_PUSHES] = "Pushes",
 	[ROLE_WARM] = "Warm",
-	[ROLE_WARM_COUNT] = "WarmCount",
+	[ROLE_WARM_SPANS] = "WarmSpans",
 	[ROLE_STREAM] = "Stream",
 	[ROLE_TRANSFORMS] = "Transforms",
 	[ROLE_VIEW] = "View",

@@ -60,6 +60,8 @@ typedef struct carom_note {
 typedef struct carom_events {
 	uint32_t room, node_room; /* ints of Neighbours, nodes of Nodes */
 	uint32_t hit_room;        /* hits of Hits; 0: none are kept */
+	uint32_t fours_room;      /* fours of points in Contacts */
+	uint32_t warm_room;       /* contacts in Warm */
 	uint32_t hits_taken;      /* of those in Hits, which has some of a step that is under way */
 	uint32_t columns, rows;   /* of cells */
 	uint32_t steps_a_list;    /* steps handed over between two makings of the lists */
@@ -242,6 +244,8 @@ uint32_t carom_friction_texels(uint32_t capacity);
 /* contacts.c: what the step contacts keeps of the last step, to the device before a batch, and back */
 carom_status carom_contacts_send(carom_world *world, carom_error *error);
 carom_status carom_contacts_fetch(carom_world *world, carom_error *error);
+/* Where Warm is too small, a larger one, which is to be sent. */
+carom_status carom_contacts_grow(carom_world *world, carom_error *error);
 /* hits.c: takes those of Hits from number `first` on, in order */
 carom_status carom_hits_take(carom_world *world, uint32_t first, uint32_t end, carom_error *error);
 /* One more. */

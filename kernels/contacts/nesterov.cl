@@ -17,7 +17,7 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 
 /* First of those that are awake; then of those that they wake. */
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
-	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_counts), LIST_OUT(islands), int4 domain)
+	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_spans), LIST_OUT(islands), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || status[STATUS_FIRST] != domain.z || status[STATUS_PASS] != PASS_IMPULSES || !is_due(status, touching, islands, s, domain.w))
@@ -28,11 +28,11 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s,
 		whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock))));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
-	if (count > 0 || warm_counts[slot_body(slots, s)] > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
+	if (count > 0 || warm_count(slots, warm_spans, s) > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
-__kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_IN(warm_counts), RECORD_IN(pushes), int4 domain)
+__kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_OUT(warm_spans), RECORD_IN(pushes), int4 domain)
 {
 	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
@@ -44,10 +44,10 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_IN(warm), LIST_I
 		if (impulses) {
 			slot_wake(slots, status, touching, pushes, s);
 			touching[TOUCH(s, TOUCHING_RESTLESS)] = touching[TOUCH(s, TOUCHING_FOOTING)] = 0;
-			rests_drop(contacts, grips, touching, s, rub);
+			warm_take(slots, status, contacts, touching, warm, warm_spans, s, rub);
 			island_join(slots, contacts, touching, islands, s);
 		} else
-			rests_warm(slots, contacts, grips, touching, warm, warm_counts, s, rub, length);
+			rests_warm(slots, contacts, grips, touching, warm, warm_spans, s, rub, length);
 		float4 load = load_alone(slots, impulses, s, length);
 		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 		loads[LOADS_OF(s) + LOADS_ALONE] = load;
@@ -101,7 +101,7 @@ __kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_
 
 /* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
 __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm),
-	LIST_OUT(warm_counts), int4 domain)
+	LIST_OUT(warm_spans), int4 domain)
 {
 	bool again = domain.w, rub = anything_rubs(TEX(uniforms)), due = status[STATUS_BORNE] && (status[STATUS_PASS] > 0) == again;
 	float length = whole_length(TEX(uniforms), CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH)); /* of the step that is done */
@@ -111,7 +111,7 @@ __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), L
 		slot_restore(slots, pushes, s, again);
 		if (!again) {
 			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, length);
-			forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_counts, s, rub, length);
+			forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_spans, s, rub, length);
 			if (!borne || !slot_stayed(slots, pushes, s))
 				island_disturb(touching, islands, s);
 		}

@@ -19,9 +19,10 @@ template <typename T> void warm_up(const Rests<T> &rests, const Warm<T> &warm, i
 {
 	const Slot<T> &slot = rests.slots[s];
 	WarmForces<T> last;
+	int32_t k = 0;
 	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
-			last = warm.of(slot.body(), partner.key(rests.slots));
+			last = warm.of(slot.body(), partner.key(rests.slots), k);
 		const T friction = rests.rubs ? grips.friction[i] : T(0), part = friction > 0 ? T(1) : T(WARM_PART);
 		points.least[i] = T(EASE) * points.least[i] - T(0.5f / CONTACT_PART) * points.tolerance[i];
 		points.force[i] = points.start[i] = part * begun(rests, slot, partner, last.normal[point], rests.length);
@@ -39,10 +40,11 @@ template <typename T> bool find_means(const Rests<T> &rests, const Kept<T> *kept
 	const Slot<T> &slot = rests.slots[s];
 	const bool bears = rests.touching[rests.islands.parents[s]].wanted == rests.status[STATUS_FIRST]; /* what the second pass began with */
 	WarmForces<T> last;
+	int32_t k = 0;
 	bool are_same = true;
 	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
-			last = warm.of(slot.body(), partner.key(rests.slots));
+			last = warm.of(slot.body(), partner.key(rests.slots), k);
 		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
 		const bool rub = rests.rubs && grips.friction[i] > 0;
 		const bool stays = bears && rub && kept[s].is_at_rest() && (!partner.moves() || kept[partner.slot()].is_at_rest());

@@ -19,11 +19,10 @@ namespace carom::cpu {
 template <typename T> class Queue
 {
 public:
-	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Ways<T> &all_ways, const int32_t *touching_counts,
-		const Hits<T> &kept, int32_t number, int32_t in_round, std::vector<int32_t> &room)
+	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Ways<T> &all_ways, const Hits<T> &kept, int32_t number,
+		int32_t in_round, std::vector<int32_t> &room)
 		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), ways(all_ways),
-		  heap(all.members, work_of, room), membership(all, work_of, number, in_round),
-		  touching(all.status[STATUS_BORNE] > 0 ? touching_counts : nullptr), until(all.until())
+		  heap(all.members, work_of, room), membership(all, work_of, number, in_round), is_borne(all.status[STATUS_BORNE] > 0), until(all.until())
 	{
 	}
 
@@ -185,9 +184,6 @@ private:
 
 	bool had_enough(int32_t id) const { return members[id].rapid >= RAPID_MOST; }
 
-	/* Not where there are too many contacts for forces. */
-	bool is_borne(int32_t s) const { return touching && touching[TOUCHING_WIDTH * s + TOUCHING_COUNT] >= 0; }
-
 	/* Answers the member's event; true if it is a shock. */
 	bool answer(int32_t id, int32_t other_id)
 	{
@@ -197,7 +193,7 @@ private:
 		const bool changes = !(way.held > 0), pause = work[id].next[NEXT_PARTNER] != static_cast<T>(other);
 		const bool rapid = !pause && is_rapid(id, way, u);
 		bool other_rapid = false;
-		Past<T> past{rapid && had_enough(id), members[id].events, is_borne(s) && (other < 0 || is_borne(other)), false};
+		Past<T> past{rapid && had_enough(id), members[id].events, is_borne, false};
 		past.shock = past.borne && clusters.weight() > 0;
 		clusters.move(slots[s], way, u);
 		Impact<T> hit{};
@@ -327,8 +323,8 @@ private:
 	const Ways<T> &ways;
 	Heap<T> heap;
 	Membership<T> membership;
-	const int32_t *const touching; /* where forces bear what rests: the step contacts */
-	const T until;                 /* the slice's end */
+	const bool is_borne; /* forces bear what rests: the step contacts */
+	const T until;       /* the slice's end */
 	bool finished = false;
 	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };

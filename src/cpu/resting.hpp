@@ -6,6 +6,7 @@
 #include "cpu/warm.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace carom::cpu {
 
@@ -96,23 +97,28 @@ template <typename T> struct Nearness {
 	T force(T push, T radius) const { return smaller(weight > 0 ? weight : push, T(CONTACT_NEAR) * radius); }
 };
 
+/* A slot, and which of the contacts that were found are its body's. */
+struct RestingBody {
+	int32_t s, points;
+	size_t first, end;
+};
+
 /* Finds the contacts of one body after the other. */
 template <typename T> class RestFinder
 {
 public:
 	RestFinder(const Clusters<T> &all, const Rubs<T> &friction) : clusters(all), rubs(friction) {}
 
-	/* How many points the body rests on, which are written in order, and how they slide, where anything rubs; -1 if it has too many contacts. If it does not sleep
-	 * itself, what sleeps near it is disturbed. */
-	int32_t find(int32_t s, const Sleepers<T> &sleepers, Points<T> *to, Grips<T> *grips)
+	/* What the body rests on. If it does not sleep itself, what sleeps near it is disturbed. */
+	RestingBody find(int32_t s, const Sleepers<T> &sleepers)
 	{
 		Slot<T> room, other_room;
 		const Slot<T> &slot = sleepers.awake(clusters.slots[s], s, room);
 		const bool is_awake = !sleepers.sleeps(s), is_dynamic = slot.is_dynamic();
 		const Nearness<T> nearness;
-		count = 0;
+		first = found.size();
 		if (slot.is_static())
-			return 0;
+			return {s, 0, first, first};
 		if (is_dynamic && !(is_awake && clusters.stays_inside(s, Trajectory<T>(slot), T(1))))
 			walls(slot, Trajectory<T>(slot), nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
@@ -124,36 +130,57 @@ public:
 			if (is_near && is_dynamic)
 				pair(slot, Trajectory<T>(slot), other, other_slot, Trajectory<T>(other_slot), nearness);
 		});
-		return count > CONTACTS_MOST ? -1 : write(to, grips);
+		RestingBody body{s, 0, first, found.size()};
+		for (size_t k = first; k < found.size(); k++)
+			body.points += found[k].points;
+		return body;
 	}
 
-	/* Calls `visit(contact)` for each that a moving body has, by the partners' indices; for none, if there are too many. `way` is where it is, `way_of(slot)` where
-	 * another one is then. Those with a slot that `is_known(slot)` are left out, but count: they are looked at only where there may be too many. */
+	/* Writes a body's points in order, and how they slide, where anything rubs. */
+	void write(const RestingBody &body, Points<T> *to, Grips<T> *grips) const
+	{
+		int32_t written = 0;
+		for (size_t k = body.first; k < body.end; k++) {
+			const Resting<T> &rest = found[k];
+			for (int32_t point = 0; point < rest.points; point++, written++) {
+				Points<T> &points = to[written / lane_count];
+				const int32_t i = written % lane_count;
+				points.drop(i);
+				points.partner[i] = static_cast<T>(rest.partner.code);
+				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
+				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
+				points.least[i] = rest.at[point].least, points.tolerance[i] = rest.tolerance;
+				if (!rubs.any)
+					continue;
+				Grips<T> &gripping = grips[written / lane_count];
+				gripping.drop(i);
+				gripping.friction[i] = rest.friction;
+				gripping.arm[i] = rest.at[point].slip.arm, gripping.other_arm[i] = rest.at[point].slip.other_arm;
+			}
+		}
+		for (; written % lane_count > 0; written++) {
+			to[written / lane_count].drop(written % lane_count);
+			if (rubs.any)
+				grips[written / lane_count].drop(written % lane_count);
+		}
+	}
+
+	/* Calls `visit(contact)` for each that a moving body has, by the partners' indices, but for those with a slot that `is_known(slot)`. `way` is where it is, `way_of(slot)` where
+	 * another one is then. */
 	template <typename WayOf, typename IsKnown, typename Visit>
 	void each(int32_t s, const Trajectory<T> &way, const Nearness<T> &nearness, const WayOf &way_of, const IsKnown &is_known, const Visit &visit)
 	{
-		const auto look = [&](bool at_known) {
-			int32_t left_out = 0;
-			count = 0;
-			walls(clusters.slots[s], way, nearness);
-			clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
-				const Trajectory<T> other_way = way_of(other);
-				if (!may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place))
-					return;
-				if (!at_known && is_known(other))
-					left_out++;
-				else
-					pair(clusters.slots[s], way, other, clusters.slots[other], other_way, nearness);
-			});
-			return left_out;
-		};
-		const int32_t left_out = look(false);
-		const bool has_known = left_out > 0 && count + left_out > CONTACTS_MOST;
-		if (has_known)
-			look(true);
-		for (int32_t k = 0; k < count && count <= CONTACTS_MOST; k++)
-			if (!has_known || !found[k].partner.moves() || !is_known(found[k].partner.slot()))
-				visit(found[k]);
+		found.clear();
+		first = 0;
+		walls(clusters.slots[s], way, nearness);
+		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
+			const Trajectory<T> other_way = way_of(other);
+			if (may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place)
+				&& !is_known(other))
+				pair(clusters.slots[s], way, other, clusters.slots[other], other_way, nearness);
+		});
+		for (const Resting<T> &rest : found)
+			visit(rest);
 	}
 
 private:
@@ -182,48 +209,18 @@ private:
 			rest.at[rest.points++] = {arm, other_arm, larger(gap, T(0)) - T(0.5) * rules.cushion(), slip};
 	}
 
-	/* By the partner's index; only so many that it is seen that there are too many. */
+	/* By the partner's index. */
 	void insert(const Resting<T> &rest)
 	{
-		if (rest.points == 0 || count > CONTACTS_MOST)
+		if (rest.points == 0)
 			return;
-		int32_t place = count;
-		while (place > 0 && found[place - 1].key > rest.key)
-			place--;
-		if (place > 0 && found[place - 1].key == rest.key)
+		auto place = found.end();
+		const auto begin = place - static_cast<ptrdiff_t>(found.size() - first);
+		while (place != begin && (place - 1)->key > rest.key)
+			--place;
+		if (place != begin && (place - 1)->key == rest.key)
 			return; /* two that became neighbours at the same time may have noted each other twice */
-		std::move_backward(found + place, found + count, found + count + 1);
-		found[place] = rest;
-		count++;
-	}
-
-	int32_t write(Points<T> *to, Grips<T> *grips) const
-	{
-		int32_t written = 0;
-		for (int32_t k = 0; k < count; k++) {
-			const Resting<T> &rest = found[k];
-			for (int32_t point = 0; point < rest.points; point++, written++) {
-				Points<T> &points = to[written / lane_count];
-				const int32_t i = written % lane_count;
-				points.drop(i);
-				points.partner[i] = static_cast<T>(rest.partner.code);
-				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
-				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
-				points.least[i] = rest.at[point].least, points.tolerance[i] = rest.tolerance;
-				if (!rubs.any)
-					continue;
-				Grips<T> &gripping = grips[written / lane_count];
-				gripping.drop(i);
-				gripping.friction[i] = rest.friction;
-				gripping.arm[i] = rest.at[point].slip.arm, gripping.other_arm[i] = rest.at[point].slip.other_arm;
-			}
-		}
-		for (int32_t k = written; k % lane_count > 0; k++) {
-			to[k / lane_count].drop(k % lane_count);
-			if (rubs.any)
-				grips[k / lane_count].drop(k % lane_count);
-		}
-		return written;
+		found.insert(place, rest);
 	}
 
 	static Resting<T> begin(int32_t key, Partner partner, const Vec<T> &n, const Rules &rules, T friction)
@@ -306,8 +303,8 @@ private:
 
 	const Clusters<T> &clusters;
 	const Rubs<T> &rubs;
-	int32_t count = 0;
-	Resting<T> found[CONTACTS_MOST + 1]{};
+	std::vector<Resting<T>> found;
+	size_t first = 0; /* of the body */
 };
 
 }

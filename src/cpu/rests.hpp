@@ -59,7 +59,7 @@ template <typename T> struct Rests {
 	/* Calls `visit(points, grips)` for all the points of a slot, in order; where nothing rubs there are no grips. */
 	template <typename Visit> void each(int32_t s, const Visit &visit) const
 	{
-		int32_t four = FOURS_MOST * s;
+		int32_t four = touching[s].first;
 		for (int32_t left = touching[s].count; left > 0; left -= lane_count, four++)
 			visit(points[four], grips[rubs ? four : 0]);
 	}

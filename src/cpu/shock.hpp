@@ -124,7 +124,20 @@ private:
 		return party.speed(way, arm) - (p.other >= 0 ? parties[p.other].speed(way, other_arm) : partners);
 	}
 
-	bool is_party(int32_t id) const { return id >= 0 && members[id].seen < 0; }
+	/* Which party the member with a number is, else -1; `id` may be none, -1. */
+	int32_t party_of(int32_t id) const
+	{
+		for (int32_t k = 0; id >= 0 && members[id].seen < 0 && k < count; k++)
+			if (parties[k].id == id)
+				return k;
+		return -1;
+	}
+
+	/* Has a party, if it is one, a point with slot s? */
+	bool has_point_with(int32_t party, int32_t s) const
+	{
+		return party >= 0 && std::any_of(points[party], points[party] + parties[party].points, [s](const Point &p) { return p.partner.code == s; });
+	}
 
 	/* Moves a body to the time, and finds where it may be pushed, or push. */
 	void open(int32_t id, const Membership<T> &own)
@@ -144,16 +157,21 @@ private:
 			clusters.move(clusters.slots[other], other_way, time);
 			return other_way;
 		};
-		const auto has_points = [&](int32_t other) { return is_party(own.own_number(other)); };
-		finder.each(s, way, nearness, way_of, has_points, [&](const Resting<T> &rest) {
+		const auto partys = [&](int32_t other) { return party_of(own.own_number(other)); };
+		const auto has_point = [&](int32_t other) { return has_point_with(partys(other), s); };
+		finder.each(s, way, nearness, way_of, has_point, [&](const Resting<T> &rest) {
 			const bool moves = rest.partner.moves();
+			const int32_t party = moves ? partys(rest.partner.slot()) : -1;
 			const T part = ((T(SHOCK_PARTING) * rest.force) * (1 - time)) / clusters.length;
 			const Trajectory<T> other_way = moves ? way_of(rest.partner.slot()) : way;
 			for (int32_t i = 0; i < rest.points && parties[k].points < SHOCK_POINTS; i++) {
 				const auto &at = rest.at[i];
 				Point &p = points[k][parties[k].points++];
-				p = {rest.partner, moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed : fixed, 0, rest.n, at.arm, at.other_arm,
-					at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
+				p = {rest.partner,
+					party >= 0                                                      ? party
+						: moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed
+																					: fixed,
+					0, rest.n, at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
 				if (moves)
 					p.coming = speed(other_way, p.n, p.other_arm), p.slipping = speed(other_way, p.along(), p.other_grip_arm);
 			}

@@ -8,9 +8,9 @@
 
 namespace carom::cpu {
 
-/* In Touching, how many points, -1: there are too many contacts; a list; and what layout.h says of each island, at its root, and of sleep. */
+/* In Touching, how many points; a list; what layout.h says of each island, at its root, and of sleep; and where the points are. */
 struct Touching {
-	int32_t count, slot, wanted, restless, asleep, footing;
+	int32_t count, slot, wanted, restless, asleep, footing, first, room, made;
 };
 
 static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");

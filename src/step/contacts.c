@@ -10,6 +10,8 @@
 #include "step/events.h"
 
 #define FIRST_ITERATIONS 16 /* handed over a pass */
+#define FIRST_FOURS 2       /* of points a body, and */
+#define FIRST_WARM 6        /* contacts, of which the forces are kept; more are made when they are needed */
 
 /* What it was, after a step, or before one that begins `again`. */
 static carom_status release(carom_world *world, int32_t again, carom_error *error)
@@ -90,10 +92,28 @@ static uint64_t folded(uint64_t items)
 static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count)
 {
 	const uint64_t n = carom_capacity(body_count),
-				   records = folded(FOURS_MOST * FOUR_WIDTH * n) + folded(FOURS_MOST * GRIP_WIDTH * n) + folded(LOADS_OF(n))
-		+ folded(PUSHES_WIDTH * n) + folded(SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n))
-		+ folded(CONTACTS_MOST * n * (uint64_t)WARM_WIDTH(true));
-	return carom_events_memory(pipeline, def, body_count, vertex_count) + 16 * records + 4 * (folded(TOUCHING_WIDTH * n) + 2 * folded(n));
+				   records = folded(FIRST_FOURS * FOUR_WIDTH * n) + folded(FIRST_FOURS * GRIP_WIDTH * n) + folded(LOADS_OF(n))
+		+ folded(PUSHES_WIDTH * n) + folded(SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n)) + folded(FIRST_WARM * n * WARM_WIDTH(true));
+	return carom_events_memory(pipeline, def, body_count, vertex_count) + 16 * records
+		+ 4 * (folded(TOUCHING_WIDTH * n) + folded(WARM_SPAN_WIDTH * (n + 1)) + folded(n));
+}
+
+static carom_status create_contacts(carom_world *world, carom_error *error)
+{
+	const uint64_t fours = world->events.fours_room;
+	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, FOUR_WIDTH * fours, error));
+	return carom_events_create_list(world, ROLE_GRIPS, false, GRIP_WIDTH * (world->rubs ? fours : 1), error);
+}
+
+/* Points, and forces that are kept, for which there was no room. What Contacts has is found anew with new lists; what Warm has the host sends. */
+static carom_status grow(carom_world *world, int32_t *status, carom_error *error)
+{
+	if (status[STATUS_FOURS] > status[STATUS_FOURS_ROOM]) {
+		world->events.fours_room = carom_events_enough(status[STATUS_FOURS]);
+		TRY(create_contacts(world, error));
+		status[STATUS_FOURS_ROOM] = (int32_t)world->events.fours_room;
+	}
+	return carom_contacts_grow(world, error);
 }
 
 static carom_status prepare(carom_world *world, carom_error *error)
@@ -102,16 +122,17 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_prepare(world, error));
 	world->events.iterations = FIRST_ITERATIONS;
 	world->contacts_sent = false;
-	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, FOURS_MOST * FOUR_WIDTH * n, error));
-	TRY(carom_events_create_list(world, ROLE_GRIPS, false, FOURS_MOST * GRIP_WIDTH * (world->rubs ? n : 1), error));
+	world->events.fours_room = FIRST_FOURS * world->capacity;
+	world->events.warm_room = FIRST_WARM * world->capacity;
+	TRY(create_contacts(world, error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_ISLANDS, false, n, error));
 	TRY(carom_events_create_list(world, ROLE_SHOCKS, false, SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n), error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_OF(n), error));
 	TRY(carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error));
-	TRY(carom_events_create_list(world, ROLE_WARM, false, CONTACTS_MOST * n * (uint64_t)WARM_WIDTH(world->rubs), error));
-	return carom_events_create_list(world, ROLE_WARM_COUNT, false, n, error);
+	TRY(carom_events_create_list(world, ROLE_WARM, false, WARM_WIDTH(world->rubs) * (uint64_t)world->events.warm_room, error));
+	return carom_events_create_list(world, ROLE_WARM_SPANS, false, WARM_SPAN_WIDTH * (n + 1), error);
 }
 
 const carom_step carom_step_contacts = {
-	"contacts", false, prepare, run, begin, carom_events_finish, unload, carom_events_take_hits, false, memory, wake};
+	"contacts", false, prepare, run, begin, carom_events_finish, unload, carom_events_take_hits, false, memory, grow, wake};

@@ -206,6 +206,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
 	status[STATUS_HEADS] = (int32_t)world->capacity;
 	status[STATUS_SLICES] = (int32_t)world->events.slices;
+	status[STATUS_FOURS_ROOM] = (int32_t)world->events.fours_room;
 	world->events.hits_taken = 0;
 	status[STATUS_KEPT_ROOM] = (int32_t)world->events.hit_room;
 	status[STATUS_NUMBERS] = status[STATUS_ACTIVE] = (int32_t)carom_events_numbers(world->capacity); /* all are to be reset */
@@ -221,7 +222,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	return CAROM_OK;
 }
 
-static uint32_t enough(int32_t wanted)
+uint32_t carom_events_enough(int32_t wanted)
 {
 	return (uint32_t)wanted + (uint32_t)wanted / 4;
 }
@@ -234,7 +235,7 @@ static carom_status grow_hits(carom_world *world, int32_t *status, carom_error *
 		return CAROM_OK;
 	if (events->hit_room >= HITS_MOST)
 		return carom_fail(error, CAROM_LIMIT, "a step has more than %d hits, which are not kept all at once", HITS_MOST);
-	events->hit_room = enough(status[STATUS_KEPT]) < HITS_MOST / 2 ? 2 * enough(status[STATUS_KEPT]) : HITS_MOST;
+	events->hit_room = carom_events_enough(status[STATUS_KEPT]) < HITS_MOST / 2 ? 2 * carom_events_enough(status[STATUS_KEPT]) : HITS_MOST;
 	TRY(carom_events_create_list(world, ROLE_HITS, false, HITS_WIDTH * (uint64_t)events->hit_room, error));
 	status[STATUS_KEPT_ROOM] = (int32_t)events->hit_room;
 	return CAROM_OK;
@@ -250,16 +251,18 @@ static carom_status grow(carom_world *world, int32_t *status, carom_error *error
 			"more than %d million pairs of the %zu bodies are so near that they might hit: too many lie in one place",
 			THRONGS_MOST / 1000 * THRONG / 2000, world->body_count);
 	if (status[STATUS_NEIGHBOURS] > status[STATUS_ROOM]) {
-		events->room = enough(status[STATUS_NEIGHBOURS]);
+		events->room = carom_events_enough(status[STATUS_NEIGHBOURS]);
 		TRY(carom_events_create_list(world, ROLE_NEIGHBOURS, false, events->room, error));
 		status[STATUS_ROOM] = (int32_t)events->room;
 	}
 	if (status[STATUS_NODES] > status[STATUS_NODE_ROOM]) {
-		events->node_room = enough(status[STATUS_NODES]);
+		events->node_room = carom_events_enough(status[STATUS_NODES]);
 		TRY(carom_events_create_list(world, ROLE_NODES, false, NODE_WIDTH * (uint64_t)events->node_room, error));
 		status[STATUS_NODE_ROOM] = (int32_t)events->node_room;
 	}
 	TRY(grow_hits(world, status, error));
+	if (world->step->grow)
+		TRY(world->step->grow(world, status, error));
 	carom_events_drop_lists(world);
 	world->prepared = true;
 	return CAROM_OK;
@@ -361,4 +364,4 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 }
 
 const carom_step carom_step_events = {"events", false, carom_events_prepare, run, carom_events_begin, carom_events_finish, carom_events_unload,
-	carom_events_take_hits, false, carom_events_memory, NULL};
+	carom_events_take_hits, false, carom_events_memory, NULL, NULL};

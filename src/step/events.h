@@ -32,5 +32,6 @@ carom_status carom_events_create_list(carom_world *world, carom_role role, bool 
 int32_t carom_events_share(const carom_world *world);  /* work-items that share what is active */
 uint64_t carom_events_numbers(uint64_t capacity);      /* of members: a cluster may lose one to another, so there are some more than bodies */
 int32_t carom_events_movers(const carom_world *world); /* room in Movers */
+uint32_t carom_events_enough(int32_t wanted);          /* room for so many items that were wanted, and some more */
 
 #endif

@@ -187,4 +187,4 @@ static carom_status take_hits(carom_world *world, carom_error *error)
 	return carom_hits_add(world, &found, error);
 }
 
-const carom_step carom_step_first_impact = {"first_impact", true, prepare, run, NULL, NULL, NULL, take_hits, true, memory, NULL};
+const carom_step carom_step_first_impact = {"first_impact", true, prepare, run, NULL, NULL, NULL, take_hits, true, memory, NULL, NULL};

@@ -23,6 +23,8 @@ typedef struct carom_step {
 	bool keeps_last_hit; /* and no other one: each run is a batch of its own then */
 	/* Bytes of what prepare creates. */
 	uint64_t (*memory)(const carom_pipeline *pipeline, const carom_world_def *def, size_t body_count, size_t vertex_count);
+	/* May be NULL. By finish, of what `status` says is too small, and is the step's own. */
+	carom_status (*grow)(struct carom_world *world, int32_t *status, carom_error *error);
 	/* May be NULL. Where slots go on: so many of Changes are going to be changed; 0: what holds for all, or who there is. */
 	carom_status (*wake)(struct carom_world *world, uint32_t changes, carom_error *error);
 } carom_step;

@@ -51,6 +51,33 @@ static void sort_touching(Touching *touching, int32_t count)
 		touching[k].slot = all[static_cast<size_t>(k)];
 }
 
+/* How many more fours a slot needs for so many points; 0 if it has enough. */
+static int32_t fours_wanted(const Touching &touching, int32_t points, const int32_t *status)
+{
+	const int32_t fours = (points + lane_count - 1) / lane_count, own = touching.made == status[STATUS_MADE] ? touching.room : 0;
+	return fours <= own ? 0 : own > 0 ? fours + fours / 2 : fours;
+}
+
+/* Room for the points of bodies that lie side by side, side by side: what two threads change is not to be in one line of a cache. Where there is none they have no points. */
+static void take_fours(std::vector<RestingBody> &bodies, Touching *touching, int32_t *status)
+{
+	int32_t wanted = 0;
+	for (const RestingBody &body : bodies)
+		wanted += fours_wanted(touching[body.s], body.points, status);
+	int32_t first = wanted > 0 ? fetch_add(&status[STATUS_FOURS], wanted) : 0;
+	const bool has_room = first <= status[STATUS_FOURS_ROOM] - wanted;
+	if (!has_room)
+		__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
+	for (RestingBody &body : bodies) {
+		Touching &own = touching[body.s];
+		const int32_t room = fours_wanted(own, body.points, status);
+		if (room > 0 && has_room)
+			own.first = first, own.room = room, own.made = status[STATUS_MADE];
+		own.count = room > 0 && !has_room ? 0 : body.points;
+		first += room;
+	}
+}
+
 /* First those that are awake; then those that they wake. */
 template <typename T> static void find(const Job<T> &job)
 {
@@ -60,24 +87,32 @@ template <typename T> static void find(const Job<T> &job)
 		reinterpret_cast<Touching *>(job.list(13)), reinterpret_cast<Kept<T> *>(job.records(16)), job.list(20), clusters.status};
 	const Rubs<T> rubs(job.texels(1), job.texels(17));
 	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
-	const int32_t *last_counts = job.list(19);
+	const Warm<T> warm(nullptr, job.list(19), rubs.any);
 	Touching *touching = sleepers.touching;
 	int32_t *status = clusters.status;
 	const bool is_second = job.domain[3];
 	if (status[STATUS_FIRST] != job.domain[2] || status[STATUS_PASS] != PASS_IMPULSES)
 		return;
 	job.pool.run(job.domain[0], 256, [&](int32_t from, int32_t to) {
+		static thread_local std::vector<RestingBody> bodies;
 		RestFinder<T> finder(clusters, rubs);
+		bodies.clear();
 		for (int32_t s = from; s < to; s++) {
 			if (sleepers.sleeps(s) != is_second || (is_second && !status[STATUS_ROUSED] && !sleepers.is_disturbed(s)))
 				continue;
 			if (!is_second)
 				sleepers.kept[s].keep(clusters.slots[s]);
 			sleepers.islands[s] = s;
-			touching[s].count = finder.find(s, sleepers, points + FOURS_MOST * s, grips + FOURS_MOST * s);
+			bodies.push_back(finder.find(s, sleepers));
+		}
+		take_fours(bodies, touching, status);
+		for (const RestingBody &body : bodies) {
+			const Touching &own = touching[body.s];
+			if (own.count > 0)
+				finder.write(body, points + own.first, grips + (rubs.any ? own.first : 0));
 			/* what rests on a kinematic body goes by that one's load */
-			if (touching[s].count > 0 || last_counts[clusters.slots[s].body()] > 0 || clusters.slots[s].is_kinematic())
-				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = s;
+			if (own.count > 0 || warm.has_any(clusters.slots[body.s].body()) || clusters.slots[body.s].is_kinematic())
+				touching[fetch_add(&status[STATUS_TOUCHING], 1)].slot = body.s;
 		}
 	});
 	if (is_second)
@@ -107,16 +142,13 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 	return all.bound();
 }
 
-/* Contacts of which one body has too many are none. */
-template <typename T> static void drop(const Rests<T> &rests, int32_t s)
+/* Room for the forces that a slot's contacts are going to leave. */
+template <typename T> static void take_warm(const Rests<T> &rests, const Warm<T> &warm, int32_t s)
 {
-	rests.each_point(s, [&](Points<T> &points, Grips<T> &grips, int32_t i, Partner partner, int32_t) {
-		if (!partner.moves() || rests.touching[partner.slot()].count >= 0)
-			return;
-		points.drop(i);
-		if (rests.rubs)
-			grips.drop(i);
-	});
+	int32_t contacts = 0;
+	rests.each_point(s, [&](const Points<T> &, const Grips<T> &, int32_t, Partner, int32_t point) { contacts += point == 0; });
+	if (!warm.take(rests.slots[s].body(), contacts))
+		__atomic_store_n(&rests.status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
 }
 
 /* A body and those that it touches are of one island. */
@@ -146,7 +178,7 @@ template <typename T> static void join(const Job<T> &job)
 				if (sleepers.sleeps(s))
 					sleepers.wake(slots[s], s);
 				rests.touching[s].restless = rests.touching[s].footing = 0;
-				drop(rests, s);
+				take_warm(rests, warm, s);
 				unite(rests, s);
 			} else
 				warm_up(rests, warm, s);

@@ -42,11 +42,12 @@ template <typename T> static void pace(const Job<T> &job)
 	const float side = 1.01f * (radius + std::max(distance, cell_part * way));
 	for (int field : {STATUS_STALE, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS, STATUS_PLACED,
 			 STATUS_HITS, STATUS_RULED, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING, STATUS_WANTED,
-			 STATUS_BORNE, STATUS_PASS, STATUS_THRONGS})
+			 STATUS_BORNE, STATUS_PASS, STATUS_THRONGS, STATUS_FOURS})
 		status[field] = 0;
 	status[STATUS_SMALL] = status[STATUS_KEPT] > status[STATUS_KEPT_ROOM];
 	status[STATUS_EXTRA] = status[STATUS_HEADS];
 	status[STATUS_BUILDS]++;
+	status[STATUS_MADE]++;
 	status[STATUS_PACE] = as_bits(distance);
 	status[STATUS_BRIEF] = as_bits(least_steps * step_time);
 	status[STATUS_CELL] = as_bits(side > 0 && side < 1e30f ? side : 1.0f);

@@ -19,7 +19,7 @@ template <typename T> static void begin(const Job<T> &job)
 		for (int32_t s = from; s < to; s++) {
 			const bool is_asleep = sleepers.sleeps(s);
 			if (what == SLEEP_FORGOTTEN) {
-				rests.touching[s].asleep = 0;
+				rests.touching[s].asleep = rests.touching[s].made = 0;
 				continue;
 			}
 			if (is_asleep && (what == SLEEP_ENDS || !kept[s].stays(slots[s]))) {
