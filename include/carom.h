@@ -406,7 +406,7 @@ CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 /** The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
 /** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes at most on its device, unless they crowd: a body of events and contacts with more than
- * 16 others within its reach takes 4 more for each; and unless many hits are kept at once: there is room for 4096, or as many as bodies, then each takes 64 more. One that is changed between
+ * 16 others within its reach takes 4 more for each, and one of contacts that touches more than six about 100 more for each; and unless many hits are kept at once: there is room for 4096, or as many as bodies, then each takes 64 more. One that is changed between
  * two steps by events or contacts takes 48 to 96 more. Pictures come on top
  * from the first one on: 4 bytes a pixel, and about 300 bytes a circle, or 100 a polygon and 50 a vertex of it, for as many bodies as are drawn
  * at once (less than 2 GiB). 0 for a def, or so many, that no world is made from. */

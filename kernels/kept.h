@@ -17,11 +17,9 @@ typedef struct last_forces {
 	float force, friction;
 } last_forces;
 
-/* Of a slot's next point, with that partner: zeros if the last step had no such contact. False if it is none. */
-bool last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_spans), int s, int partner, bool rub, last_forces *last)
+/* Of a slot's next point, with that partner: zeros if the last step had no such contact. */
+void last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_spans), int s, int partner, bool rub, last_forces *last)
 {
-	if (partner == PARTNER_NONE)
-		return false;
 	bool second = partner == last->partner;
 	if (!second) {
 		int key = partner_key(slots, partner), count = warm_count(slots, warm_spans, s);
@@ -36,7 +34,6 @@ bool last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_spans), int 
 	}
 	last->force = second ? last->forces.z : last->forces.y;
 	last->friction = second ? last->held.y : last->held.x;
-	return true;
 }
 
 /* A force between a slot and a partner in a step's units; 0 if it is too large for either to begin with. */
@@ -79,8 +76,7 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (!last_forces_of(slots, warm, warm_spans, s, other, rub, &last))
-			continue;
+		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
 		at[4 * FOUR_LEAST] = EASE * at[4 * FOUR_LEAST] - (0.5f / CONTACT_PART) * at[4 * FOUR_TOLERANCE];
 		float friction = rub ? grip[4 * GRIP_FRICTION] : 0.0f, part = friction > 0.0f ? 1.0f : WARM_PART;
 		float force = part * force_begun(slots, s, other, last.force, length);
@@ -108,8 +104,7 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (!last_forces_of(slots, warm, warm_spans, s, other, rub, &last))
-			continue;
+		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
 		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, rubs = rub && grip[4 * GRIP_FRICTION] > 0.0f;
 		float follow = rubs ? (bears && was_at_rest(pushes, s) && (other < 0 || was_at_rest(pushes, other)) ? 0.0f : GRIP_WARM_FOLLOW) : WARM_FOLLOW;
 		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, follow, length);
@@ -130,10 +125,8 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (other == PARTNER_NONE)
-			continue;
 		int second = other == before, to = WARM(start, count - second, rub);
-		float force = at[4 * FOUR_FORCE], held = grip[4 * GRIP_FORCE];
+		float force = at[4 * FOUR_FORCE], held = rub ? grip[4 * GRIP_FORCE] : 0.0f;
 		warm[to] = second ? (float4)(warm[to].x, warm[to].y, force, 0.0f) : (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
 		if (rub)
 			warm[to + 1] = second ? (float4)(warm[to + 1].x, held, 0.0f, 0.0f) : (float4)(held, 0.0f, 0.0f, 0.0f);

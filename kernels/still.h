@@ -5,17 +5,15 @@
 float still_within(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
 {
 	float within = 0.0f;
-	int points = 0;
-	for (int point = 0, first = first_four(touching, s); rub && point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	int count = touching[TOUCH(s, TOUCHING_COUNT)];
+	for (int point = 0, first = first_four(touching, s); rub && point < count; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (other == PARTNER_NONE)
-			continue;
 		if (!(POINT_IN(grips, GRIP_WIDTH, first, point)[4 * GRIP_FRICTION] > 0.0f) || (other >= 0 && !slot_is_dynamic(slots, other)))
 			return 0.0f;
-		within = points++ == 0 ? at[4 * FOUR_TOLERANCE] : smaller(within, at[4 * FOUR_TOLERANCE]);
+		within = point == 0 ? at[4 * FOUR_TOLERANCE] : smaller(within, at[4 * FOUR_TOLERANCE]);
 	}
-	return points > 1 ? within : 0.0f;
+	return count > 1 ? within : 0.0f;
 }
 
 /* Of a body's velocities, or its push, the most that they are anywhere on it: along an axis, or by turning at its radius. */
@@ -53,8 +51,6 @@ bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int
 {
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
-		if (other == PARTNER_NONE)
-			continue;
 		if (other < 0 || was_at_rest(pushes, other))
 			return true;
 	}
@@ -69,7 +65,7 @@ void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN
 		 point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (other == PARTNER_NONE || !(at[4 * FOUR_FORCE] > 0.0f))
+		if (!(at[4 * FOUR_FORCE] > 0.0f))
 			continue;
 		bool slides = !(fabs(grip[4 * GRIP_FORCE]) < grip[4 * GRIP_BOUND]);
 		own |= slides ? FOOTING_SLIDES : 0;
