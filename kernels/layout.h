@@ -552,11 +552,13 @@
  *
  * A body that rubs at all points, two at least, comes to rest where it touches what is at rest, moves in a step by less than STILL_SPEED of what forces are found within, and gets no
  * faster but by less than STILL_PUSH of that. One at rest stays where its forces leave less than STILL_PUSH. One that does not slide, of an island that stands firm,
- * loses STILL_BRAKE of its velocities while it moves by less than STILL_SLOW of that and gets no faster: else a column trembles on within what forces are found within. */
+ * loses STILL_BRAKE of its velocities while it moves by less than STILL_SLOW of that and gets no faster: else a column trembles on within what forces are found within.
+ * Velocities below STILL_LEAST of what touches anything are none: some devices take for 0 what is less still, and others are slow with it. */
 #define STILL_SPEED 0.125f
 #define STILL_SLOW 4.0f
 #define STILL_BRAKE 0.5f
 #define STILL_PUSH 0.015625f
+#define STILL_LEAST 1e-18f /* m/s, rad/s */
 #define GRIP_BEGUN 2.0f
 #define GRIP_FOLLOW 16
 #define GRIP_BLEND 0.0625f

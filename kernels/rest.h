@@ -261,7 +261,15 @@ void rest_on_walls(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(sl
 		rest_on_wall(VERTICES, room, k, wall, rub, near, all);
 }
 
-/* How many points the body in a slot rests on. If it is awake, all that sleep near it are disturbed. */
+/* What an awake body touches is disturbed in its sleep. */
+void rests_disturb(const rests *all, LIST_OUT(touching), LIST_IN(islands))
+{
+	for (int k = 0; k < all->count; k++)
+		if (all->of[k].partner >= 0 && touching[TOUCH(all->of[k].partner, TOUCHING_ASLEEP)])
+			island_disturb(touching, islands, all->of[k].partner);
+}
+
+/* How many points the body in a slot rests on. If it is awake, all that it touches is disturbed in its sleep; what is kinematic, and finds no contacts, disturbs what is near. */
 int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_IN(pushes), LIST_OUT(touching), LIST_IN(islands),
 	RECORD_OUT(contacts), RECORD_OUT(grips), int s, float length)
 {
@@ -280,11 +288,13 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 		for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
 			int other = neighbour_of(neighbours, extra, i);
 			body partner = body_awake(slots, touching, pushes, other, length);
-			if (awake && touching[TOUCH(other, TOUCHING_ASLEEP)] && (!dynamic || near_force(k, partner, near) > 0.0f))
+			if (!dynamic && touching[TOUCH(other, TOUCHING_ASLEEP)] && near_force(k, partner, near) > 0.0f)
 				island_disturb(touching, islands, other);
 			if (dynamic)
 				rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, other, partner, near, &all);
 		}
+		if (awake)
+			rests_disturb(&all, touching, islands);
 		if (count == 0 && !fours_take(status, touching, s, all.points))
 			return 0;
 		count = rests_write(&all, contacts, grips, touching[TOUCH(s, TOUCHING_FIRST)], count, anything_rubs(TEX(uniforms)));

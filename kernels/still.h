@@ -85,18 +85,28 @@ bool slot_is_firm(LIST_IN(touching), LIST_IN(islands), int s)
 	return !(touching[TOUCH(s, TOUCHING_FOOTING)] & FOOTING_SLIDES) && (all & (FOOTING_FIRM | FOOTING_LOOSE)) == FOOTING_FIRM;
 }
 
+float velocity_kept(float velocity)
+{
+	return fabs(velocity) < STILL_LEAST ? 0.0f : velocity;
+}
+
 /* What hardly moves after a step comes to rest, unless it gets faster; what stands firm, and moves little, gets slower. */
 void slot_settle(RECORD_OUT(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), LIST_IN(islands), RECORD_IN(pushes), int s, bool rub,
 	float length)
 {
+	if (touching[TOUCH(s, TOUCHING_COUNT)] == 0)
+		return;
 	float4 before = pushes[PUSHES_WIDTH * s + 1], place = SLOT_LOAD(slots, s, SLOT_PLACE);
+	float turning = velocity_kept(CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
+	place.z = velocity_kept(place.z), place.w = velocity_kept(place.w);
+	velocities_set(slots, s, place.z, place.w, turning);
 	float within = still_within(slots, contacts, grips, touching, s, rub), way = still_speed(slots, s) * length, left = 1.0f - STILL_BRAKE;
 	if (!(way < still_most(slots, s, before.x, before.y, before.z) * length + STILL_PUSH * within))
 		return;
 	if (way < STILL_SPEED * within && still_beside(contacts, touching, pushes, s))
 		velocities_set(slots, s, 0.0f, 0.0f, 0.0f);
 	else if (way < STILL_SLOW * within && slot_is_firm(touching, islands, s))
-		velocities_set(slots, s, left * place.z, left * place.w, left * CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
+		velocities_set(slots, s, left * place.z, left * place.w, left * turning);
 }
 
 /* Is nothing left of its push? */

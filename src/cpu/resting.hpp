@@ -109,7 +109,7 @@ template <typename T> class RestFinder
 public:
 	RestFinder(const Clusters<T> &all, const Rubs<T> &friction) : clusters(all), rubs(friction) {}
 
-	/* What the body rests on. If it does not sleep itself, what sleeps near it is disturbed. */
+	/* What the body rests on. If it does not sleep itself, that is disturbed in its sleep; what is kinematic disturbs what is near. */
 	RestingBody find(int32_t s, const Sleepers<T> &sleepers)
 	{
 		Slot<T> room, other_room;
@@ -123,16 +123,19 @@ public:
 			walls(slot, Trajectory<T>(slot), nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
 			const Slot<T> &other_slot = sleepers.awake(clusters.slots[other], other, other_room);
-			const bool is_near = !is_dynamic
-				|| may_rest(slot.radius() + other_slot.radius() + std::max(strength(slot), strength(other_slot)), slot.place, other_slot.place);
-			if (is_near && is_awake && sleepers.sleeps(other))
-				sleepers.disturb(other);
-			if (is_near && is_dynamic)
+			if (!may_rest(slot.radius() + other_slot.radius() + std::max(strength(slot), strength(other_slot)), slot.place, other_slot.place))
+				return;
+			if (is_dynamic)
 				pair(slot, Trajectory<T>(slot), other, other_slot, Trajectory<T>(other_slot), nearness);
+			else if (sleepers.sleeps(other))
+				sleepers.disturb(other);
 		});
 		RestingBody body{s, 0, first, found.size()};
-		for (size_t k = first; k < found.size(); k++)
+		for (size_t k = first; k < found.size(); k++) {
 			body.points += found[k].points;
+			if (const Partner partner = found[k].partner; is_awake && partner.moves() && sleepers.sleeps(partner.slot()))
+				sleepers.disturb(partner.slot());
+		}
 		return body;
 	}
 

@@ -91,6 +91,11 @@ template <typename T> bool stands_firm(const Rests<T> &rests, int32_t s)
 /* After a step that took so long a body comes to rest that hardly moves and gets no faster; one that stands firm is slowed. */
 template <typename T> void settle(const Rests<T> &rests, Slot<T> &slot, int32_t s, const Kept<T> *kept, T length)
 {
+	if (rests.touching[s].count == 0)
+		return;
+	for (T *velocity : {&slot.place[LINEAR_VX], &slot.place[LINEAR_VY], &slot.turn[TURN_VELOCITY]})
+		if (std::abs(*velocity) < T(STILL_LEAST))
+			*velocity = 0;
 	const T *const before = kept[s].velocities;
 	const T within = nearly_still(rests, s), now = speed(slot) * length, was = largest(slot, before[0], before[1], before[2]) * length;
 	if (!(now < was + T(STILL_PUSH) * within))
