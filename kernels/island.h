@@ -4,23 +4,31 @@
 	TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(contacts), LIST_OUT(touching), RECORD_OUT(grips), \
 		LIST_OUT(islands)
 
-/* The body in a slot and those that it touches are of one island. */
-void island_join(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), LIST_OUT(islands), int s)
+/* The body in a slot and those that it touches are of one island; and what it touches that is not dynamic. */
+void island_join(RECORD_IN(slots), RECORD_IN(contacts), LIST_OUT(touching), LIST_OUT(islands), int s)
 {
+	int carrier = -1;
 	for (int point = 0, before = PARTNER_NONE, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
 		if (other > s && other != before && slot_is_dynamic(slots, other)) /* of two bodies one says so, once */
 			unite(islands, s, other);
+		if (other < 0)
+			carrier = CARRIER_STATIC;
+		else if (!slot_is_dynamic(slots, other))
+			carrier = max(carrier, slot_body(slots, other));
 		before = other;
 	}
+	touching[TOUCH(s, TOUCHING_CARRIER)] = carrier;
 }
 
-/* All are joined: the root of a slot's island, which is its parent from now on. */
-int island_root(LIST_OUT(islands), int s)
+/* All are joined: the root of a slot's island, which is its parent from now on, and has the largest of the island's carriers. */
+int island_root(LIST_OUT(touching), LIST_OUT(islands), int s)
 {
-	int root = find_root(islands, s);
+	int root = find_root(islands, s), carrier = touching[TOUCH(s, TOUCHING_CARRIER)];
 	if (root != int_load(islands, s))
 		atomic_xchg(&islands[s], root);
+	if (root != s && carrier >= 0)
+		atomic_max(&touching[TOUCH(root, TOUCHING_CARRIER)], carrier);
 	return root;
 }
 
@@ -30,7 +38,7 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 {
 	bool impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	int number = status[STATUS_FIRST] + done, most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
-	int wants = TOUCH(done == 0 ? island_root(islands, s) : islands[s], TOUCHING_WANTED);
+	int wants = TOUCH(done == 0 ? island_root(touching, islands, s) : islands[s], TOUCHING_WANTED);
 	if (PEEK(touching, wants) < number || !rests_iterate(slots, contacts, grips, touching, loads, s, number & 1, done, rub, impulses)
 		|| done + 1 >= most)
 		return false;

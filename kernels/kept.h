@@ -97,7 +97,7 @@ float force_mean(float force, float before, bool lasts, float follow, float leng
 
 /* In the place of a body's forces, where such began this step. True if they are what it began with. */
 bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(pushes), RECORD_IN(warm),
-	LIST_IN(warm_spans), int s, bool rub, bool bears, float length)
+	LIST_IN(warm_spans), int s, bool rub, bool bears, float2 ground, float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
 	bool same = true;
@@ -106,7 +106,8 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 		int other = (int)at[4 * FOUR_PARTNER];
 		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
 		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, rubs = rub && grip[4 * GRIP_FRICTION] > 0.0f;
-		float follow = rubs ? (bears && was_at_rest(pushes, s) && (other < 0 || was_at_rest(pushes, other)) ? 0.0f : GRIP_WARM_FOLLOW) : WARM_FOLLOW;
+		bool rests = bears && was_moving_at(pushes, s, ground) && (other < 0 ? is_zero(ground) : was_moving_at(pushes, other, ground));
+		float follow = rubs ? (rests ? 0.0f : GRIP_WARM_FOLLOW) : WARM_FOLLOW;
 		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, follow, length);
 		if (rub)
 			grip[4 * GRIP_FORCE] = force_mean(grip[4 * GRIP_FORCE], last.friction, lasts, follow, length);
@@ -117,10 +118,10 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 
 /* Keeps the forces on a body, in such a step, for the next one. If this one did not begin with them its island is not to fall asleep. */
 void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(pushes),
-	RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub, float length)
+	RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub, float2 ground, float length)
 {
 	int body = slot_body(slots, s), start = warm_spans[WARM_SPAN(body, WARM_SPAN_START)], count = 0, before = PARTNER_NONE;
-	if (!forces_mean(slots, contacts, grips, touching, pushes, warm, warm_spans, s, rub, island_bears(status, touching, islands, s), length))
+	if (!forces_mean(slots, contacts, grips, touching, pushes, warm, warm_spans, s, rub, island_bears(status, touching, islands, s), ground, length))
 		island_disturb(touching, islands, s);
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? first : 0, point);

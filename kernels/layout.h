@@ -375,19 +375,21 @@
 #define WARM_ROOM 1      /* and that there is room for in Warm */
 
 /* Touching: ints of each slot */
-#define TOUCHING_WIDTH 9
-#define TOUCHING_COUNT 0    /* of its points */
-#define TOUCHING_SLOT 1     /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
-#define TOUCHING_WANTED 2   /* of a root: the last iteration that its island wants */
-#define TOUCHING_RESTLESS 3 /* of a root: 1: not all of its island is as the step began; of one that sleeps: it is to wake */
-#define TOUCHING_ASLEEP 4   /* 1: each step would leave it, and all of its island, as it is: its push is kept, and 0 in the slot */
-#define TOUCHING_FOOTING 5  /* bits: of a root, what its island is on: */
-#define FOOTING_FIRM 1      /* something static, where it does not slide; */
-#define FOOTING_LOOSE 2     /* something static, on which it slides, or kinematic; and of each slot, root or not: */
-#define FOOTING_SLIDES 4    /* its body slides somewhere */
-#define TOUCHING_FIRST 6    /* of its fours in Contacts and Grips; there is room for */
-#define TOUCHING_ROOM 7     /* so many, */
-#define TOUCHING_MADE 8     /* as long as this is STATUS_MADE */
+#define TOUCHING_WIDTH 10
+#define TOUCHING_COUNT 0          /* of its points */
+#define TOUCHING_SLOT 1           /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
+#define TOUCHING_WANTED 2         /* of a root: the last iteration that its island wants */
+#define TOUCHING_RESTLESS 3       /* of a root: 1: not all of its island is as the step began; of one that sleeps: it is to wake */
+#define TOUCHING_ASLEEP 4         /* 1: each step would leave it, and all of its island, as it is: its push is kept, and 0 in the slot */
+#define TOUCHING_FOOTING 5        /* bits: of a root, what its island is on: */
+#define FOOTING_FIRM 1            /* its ground, on which it does not slide; */
+#define FOOTING_LOOSE 2           /* something else, or on which it slides; and of each slot, root or not: */
+#define FOOTING_SLIDES 4          /* its body slides somewhere */
+#define TOUCHING_FIRST 6          /* of its fours in Contacts and Grips; there is room for */
+#define TOUCHING_ROOM 7           /* so many, */
+#define TOUCHING_MADE 8           /* as long as this is STATUS_MADE */
+#define TOUCHING_CARRIER 9        /* of a root: the largest index of the kinematic bodies that its island touches, -1: none; or: */
+#define CARRIER_STATIC 0x7fffffff /* it touches something static */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */

@@ -272,10 +272,11 @@ void slot_keep(RECORD_IN(slots), RECORD_OUT(pushes), int s)
 	pushes[PUSHES_WIDTH * s + 2] = (float4)(place.x, place.y, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_ANGLE), 0.0f);
 }
 
-bool was_at_rest(RECORD_IN(pushes), int s)
+/* Was that its velocity, and did it not turn? */
+bool was_moving_at(RECORD_IN(pushes), int s, float2 velocity)
 {
 	float4 velocities = pushes[PUSHES_WIDTH * s + 1];
-	return velocities.x == 0.0f && velocities.y == 0.0f && velocities.z == 0.0f;
+	return velocities.x == velocity.x && velocities.y == velocity.y && velocities.z == 0.0f;
 }
 
 /* Is it at rest where it was at rest before the step? */
@@ -283,8 +284,8 @@ bool slot_stayed(RECORD_IN(slots), RECORD_IN(pushes), int s)
 {
 	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE), turn = SLOT_LOAD(slots, s, SLOT_TURN);
 	float4 before = pushes[PUSHES_WIDTH * s + 2];
-	return was_at_rest(pushes, s) && place.z == 0.0f && place.w == 0.0f && CHANNEL(turn, TURN_VELOCITY) == 0.0f && place.x == before.x
-		&& place.y == before.y && CHANNEL(turn, TURN_ANGLE) == before.z;
+	return was_moving_at(pushes, s, (float2)(0.0f, 0.0f)) && place.z == 0.0f && place.w == 0.0f && CHANNEL(turn, TURN_VELOCITY) == 0.0f
+		&& place.x == before.x && place.y == before.y && CHANNEL(turn, TURN_ANGLE) == before.z;
 }
 
 /* But for which body it is, which others look at meanwhile. */

@@ -17,6 +17,11 @@
 #endif
 
 /* Whether one of four is the case: any() is not the same on every device. */
+INLINE bool is_zero(float2 v)
+{
+	return v.x == 0.0f && v.y == 0.0f;
+}
+
 INLINE bool is_any(int4 flags)
 {
 	return flags.x | flags.y | flags.z | flags.w;

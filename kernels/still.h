@@ -1,15 +1,35 @@
 /* What lies still, of the step contacts: CONTRACT.md, "contacts", Stillness. */
 
+/* What stillness is judged by: the velocity of what carries a slot's island, if that is kinematic, does not turn, and the island touches nothing static; else 0. */
+float2 ground_velocity(RECORD_IN(slots), LIST_IN(touching), LIST_IN(islands), LIST_IN(places), int s)
+{
+	int carrier = touching[TOUCH(islands[s], TOUCHING_CARRIER)];
+	if (carrier < 0 || carrier == CARRIER_STATIC || CHANNEL(SLOT_LOAD(slots, places[carrier], SLOT_TURN), TURN_VELOCITY) != 0.0f)
+		return (float2)(0.0f, 0.0f);
+	float4 place = SLOT_LOAD(slots, places[carrier], SLOT_PLACE);
+	return (float2)(place.z, place.w);
+}
+
+/* Is a partner that is not dynamic at rest there? */
+bool is_ground(RECORD_IN(slots), int partner, float2 ground)
+{
+	if (partner < 0)
+		return is_zero(ground);
+	float4 place = SLOT_LOAD(slots, partner, SLOT_PLACE);
+	return place.z == ground.x && place.w == ground.y && CHANNEL(SLOT_LOAD(slots, partner, SLOT_TURN), TURN_VELOCITY) == 0.0f;
+}
+
 /* The part of a step's way that a body may go and count as still: the least that forces on it are found within. 0: it touches at less than two points, or what doesn't rub, or
- * what is kinematic. */
-float still_within(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
+ * what is not dynamic and not at rest. */
+float still_within(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float2 ground)
 {
 	float within = 0.0f;
 	int count = touching[TOUCH(s, TOUCHING_COUNT)];
 	for (int point = 0, first = first_four(touching, s); rub && point < count; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		if (!(POINT_IN(grips, GRIP_WIDTH, first, point)[4 * GRIP_FRICTION] > 0.0f) || (other >= 0 && !slot_is_dynamic(slots, other)))
+		bool rubs = POINT_IN(grips, GRIP_WIDTH, first, point)[4 * GRIP_FRICTION] > 0.0f;
+		if (!rubs || ((other < 0 || !slot_is_dynamic(slots, other)) && !is_ground(slots, other, ground)))
 			return 0.0f;
 		within = point == 0 ? at[4 * FOUR_TOLERANCE] : smaller(within, at[4 * FOUR_TOLERANCE]);
 	}
@@ -22,24 +42,26 @@ float still_most(RECORD_IN(slots), int s, float x, float y, float turning)
 	return larger(larger(fabs(x), fabs(y)), CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS) * fabs(turning));
 }
 
-float still_speed(RECORD_IN(slots), int s)
+/* How fast it is, seen from the ground. */
+float still_speed(RECORD_IN(slots), int s, float2 ground)
 {
 	float4 place = SLOT_LOAD(slots, s, SLOT_PLACE);
-	return still_most(slots, s, place.z, place.w, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
+	return still_most(slots, s, place.z - ground.x, place.w - ground.y, CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
 }
 
 /* What a body's forces come to, in such a step, changes its velocities at once, or its push. What is at rest stays so if all that moves it comes to hardly anything. */
 void slot_take(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float4 sum,
-	float length)
+	float2 ground, float length)
 {
 	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH), place = SLOT_LOAD(slots, s, SLOT_PLACE);
 	float x = sum.x / length, y = sum.y / length, torque = sum.z / length, turning = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) + torque;
-	bool impulses = status[STATUS_PASS] == PASS_IMPULSES, at_rest = still_speed(slots, s) == 0.0f;
+	bool impulses = status[STATUS_PASS] == PASS_IMPULSES, at_rest = still_speed(slots, s, ground) == 0.0f;
 	float4 moves = impulses ? (float4)(place.z + x, place.w + y, turning, 0.0f)
 							: (float4)(push.x + x / length, push.y + y / length, push.z + torque / length, 0.0f);
-	float way = still_most(slots, s, moves.x, moves.y, moves.z) * length;
-	if (at_rest && (impulses ? way : way * length) < STILL_PUSH * still_within(slots, contacts, grips, touching, s, rub))
-		moves = (float4)(0.0f);
+	float2 still = impulses ? ground : (float2)(0.0f, 0.0f);
+	float way = still_most(slots, s, moves.x - still.x, moves.y - still.y, moves.z) * length;
+	if (at_rest && (impulses ? way : way * length) < STILL_PUSH * still_within(slots, contacts, grips, touching, s, rub, ground))
+		moves = (float4)(still.x, still.y, 0.0f, 0.0f);
 	if (impulses)
 		velocities_set(slots, s, moves.x, moves.y, moves.z);
 	else
@@ -47,18 +69,19 @@ void slot_take(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_I
 }
 
 /* Was any that a body touches at rest as the step began? */
-bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int s)
+bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int s, float2 ground)
 {
+	bool beside = false;
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
-		if (other < 0 || was_at_rest(pushes, other))
-			return true;
+		beside = beside || (other < 0 ? is_zero(ground) : was_moving_at(pushes, other, ground));
 	}
-	return false;
+	return beside;
 }
 
 /* What the island of a slot is on, once its forces are found: bits for its root, and for the slot itself. */
-void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_OUT(touching), LIST_IN(islands), int s, bool rub)
+void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_OUT(touching), LIST_IN(islands), int s, bool rub,
+	float2 ground)
 {
 	int own = 0, all = 0;
 	for (int point = 0, first = first_four(touching, s); rub && status[STATUS_PASS] == PASS_FORCES && point < touching[TOUCH(s, TOUCHING_COUNT)];
@@ -70,12 +93,21 @@ void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN
 		bool slides = !(fabs(grip[4 * GRIP_FORCE]) < grip[4 * GRIP_BOUND]);
 		own |= slides ? FOOTING_SLIDES : 0;
 		if (other < 0 || !slot_is_dynamic(slots, other))
-			all |= other < 0 && !slides ? FOOTING_FIRM : FOOTING_LOOSE;
+			all |= is_ground(slots, other, ground) && !slides ? FOOTING_FIRM : FOOTING_LOOSE;
 	}
 	if (own)
 		atomic_or(&touching[TOUCH(s, TOUCHING_FOOTING)], own);
 	if (all)
 		atomic_or(&touching[TOUCH(islands[s], TOUCHING_FOOTING)], all);
+}
+
+/* Gives a body what forces on it come to. */
+void slot_bear(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_OUT(touching), LIST_IN(islands), LIST_IN(places),
+	int s, bool rub, float length)
+{
+	float2 ground = ground_velocity(slots, touching, islands, places, s);
+	slot_take(slots, status, contacts, grips, touching, s, rub, rests_add(slots, contacts, grips, touching, s, rub, (float4)(0.0f)), ground, length);
+	slot_foot(slots, status, contacts, grips, touching, islands, s, rub, ground);
 }
 
 /* Does a body slide nowhere, and stand, by its island, on something static? */
@@ -92,7 +124,7 @@ float velocity_kept(float velocity)
 
 /* What hardly moves after a step comes to rest, unless it gets faster; what stands firm, and moves little, gets slower. */
 void slot_settle(RECORD_OUT(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), LIST_IN(islands), RECORD_IN(pushes), int s, bool rub,
-	float length)
+	float2 ground, float length)
 {
 	if (touching[TOUCH(s, TOUCHING_COUNT)] == 0)
 		return;
@@ -100,13 +132,14 @@ void slot_settle(RECORD_OUT(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_
 	float turning = velocity_kept(CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
 	place.z = velocity_kept(place.z), place.w = velocity_kept(place.w);
 	velocities_set(slots, s, place.z, place.w, turning);
-	float within = still_within(slots, contacts, grips, touching, s, rub), way = still_speed(slots, s) * length, left = 1.0f - STILL_BRAKE;
-	if (!(way < still_most(slots, s, before.x, before.y, before.z) * length + STILL_PUSH * within))
+	float within = still_within(slots, contacts, grips, touching, s, rub, ground), way = still_speed(slots, s, ground) * length;
+	if (!(way < still_most(slots, s, before.x - ground.x, before.y - ground.y, before.z) * length + STILL_PUSH * within))
 		return;
-	if (way < STILL_SPEED * within && still_beside(contacts, touching, pushes, s))
-		velocities_set(slots, s, 0.0f, 0.0f, 0.0f);
+	if (way < STILL_SPEED * within && still_beside(contacts, touching, pushes, s, ground))
+		velocities_set(slots, s, ground.x, ground.y, 0.0f);
 	else if (way < STILL_SLOW * within && slot_is_firm(touching, islands, s))
-		velocities_set(slots, s, left * place.z, left * place.w, left * turning);
+		velocities_set(slots, s, place.z - STILL_BRAKE * (place.z - ground.x), place.w - STILL_BRAKE * (place.w - ground.y),
+			turning - STILL_BRAKE * turning);
 }
 
 /* Is nothing left of its push? */
@@ -127,7 +160,7 @@ void slot_wake(RECORD_OUT(slots), LIST_OUT(status), LIST_OUT(touching), RECORD_I
 
 /* Does what SLEEP_... says with a slot; true if it fell asleep, or woke. */
 bool slot_sleep(RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_OUT(touching), RECORD_IN(grips), LIST_IN(islands), RECORD_IN(pushes),
-	int s, int what, bool rub, float length)
+	LIST_IN(places), int s, int what, bool rub, float length)
 {
 	bool asleep = touching[TOUCH(s, TOUCHING_ASLEEP)];
 	if (what == SLEEP_FORGOTTEN)
@@ -136,7 +169,7 @@ bool slot_sleep(RECORD_OUT(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_O
 		slot_wake(slots, status, touching, pushes, s);
 		island_disturb(touching, islands, s);
 		if (what == SLEEP_BEGINS)
-			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, length);
+			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, ground_velocity(slots, touching, islands, places, s), length);
 		return true;
 	} else if (!asleep && what == SLEEP_BEGINS && touching[TOUCH(s, TOUCHING_COUNT)] > 0 && !island_is_disturbed(touching, islands, s)) {
 		float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);

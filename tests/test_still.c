@@ -202,6 +202,81 @@ static void what_rides_goes_with_it(void **unused)
 	}
 }
 
+/* ---- On what moves */
+
+#define STORIES 5
+
+/* A column on two kinematic boxes side by side, which meet at `seam`, and of which the second is so much faster than the first. */
+static carom_world *column_on_lift(const scenery_device *device, float seam, carom_vec2 velocity, float faster)
+{
+	carom_world_def def = ground(0.5f);
+	carom_body_def bodies[2 + STORIES];
+	for (int k = 0; k < 2; k++) {
+		bodies[k] = scenery_box(k ? seam + 2.0f : seam - 2.0f, 2.0f, velocity.x, velocity.y + (k ? faster : 0.0f), 4.0f, 1.0f);
+		bodies[k].is_kinematic = true;
+	}
+	for (int k = 0; k < STORIES; k++) {
+		bodies[2 + k] = box_at(0.02f * (float)(k % 2), 3.0005f + 1.0005f * (float)k);
+		bodies[2 + k].velocity = velocity;
+	}
+	return runs_world(&def, device, bodies, 2 + STORIES);
+}
+
+static double farthest_from_lift(carom_world *world)
+{
+	const carom_vec2 lift = runs_state(world, 0).velocity;
+	double most = 0.0;
+	for (uint32_t k = 2; k < 2 + STORIES; k++) {
+		const carom_body_state state = runs_state(world, k);
+		most = fmax(most, fmax(fabs((double)state.velocity.x - (double)lift.x), fabs((double)state.velocity.y - (double)lift.y)));
+		most = fmax(most, fabs((double)state.angular_velocity));
+	}
+	return most;
+}
+
+/* What stands on a lift goes with it, as still as on the ground but for what rounding makes, and comes to rest when it stops, or is carried on when that goes elsewhere. */
+static void what_is_carried_is_still(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = column_on_lift(device, 0.0f, (carom_vec2){0.5f, 2.0f}, 0.0f);
+		carom_body_state lift;
+		carom_error error;
+		if (!world)
+			continue;
+		runs_step(world, runs_affordable(180));
+		runs_same_hash(&first, runs_hash(world), device);
+		assert_true(runs_step(world, 30).hits == 0);
+		runs_enough(farthest_from_lift(world) < 5e-3);
+		for (uint32_t k = 0; k < 2; k++) {
+			lift = runs_state(world, k);
+			lift.velocity = (carom_vec2){0.0f, 0.0f};
+			scenery_check(carom_world_set_states(world, k, 1, &lift, &error), &error);
+		}
+		runs_step(world, runs_affordable(240));
+		runs_enough(farthest_from_lift(world) == 0.0);
+		const uint64_t hash = runs_hash(world);
+		runs_step(world, 10);
+		runs_enough(runs_hash(world) == hash);
+		carom_world_destroy(world);
+	}
+}
+
+/* What one of the two lifts up while the other does not is not held. */
+static void what_two_carry_apart_is_not_still(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = column_on_lift(device, 0.25f, (carom_vec2){0.0f, 0.0f}, 0.02f);
+		if (!world)
+			continue;
+		runs_step(world, 60);
+		assert_true(runs_state(world, 2).angle > 0.01f);
+		carom_world_destroy(world);
+	}
+}
+
 /* A ball alone rolls on, but not so slowly that devices differ in whether that is 0. */
 static void what_is_hardly_a_number_is_none(void **unused)
 {
@@ -223,6 +298,6 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_hardly_a_number_is_none), cmocka_unit_test(a_pyramid_comes_to_rest),
 		cmocka_unit_test(columns_come_to_rest), cmocka_unit_test(what_slides_is_not_braked), cmocka_unit_test(what_is_not_held_starts),
-		cmocka_unit_test(what_rides_goes_with_it)};
+		cmocka_unit_test(what_rides_goes_with_it), cmocka_unit_test(what_is_carried_is_still), cmocka_unit_test(what_two_carry_apart_is_not_still)};
 	return cmocka_run_group_tests_name("still", tests, NULL, NULL);
 }

@@ -82,7 +82,7 @@ __kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), int4 domain)
 		atomic_max(&status[STATUS_WANTED], domain.z + 1);
 }
 
-__kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), int4 domain)
+__kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_OUT(need), LIST_IN(places), int4 domain)
 {
 	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	if (status[STATUS_HANDED] != domain.w || iterations_are_wanted(status))
@@ -91,9 +91,7 @@ __kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_
 		status[STATUS_BORNE] = 1;
 	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		float4 sum = rests_add(slots, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), (float4)(0.0f));
-		slot_take(slots, status, contacts, grips, touching, s, anything_rubs(TEX(uniforms)), sum, length);
-		slot_foot(slots, status, contacts, grips, touching, islands, s, anything_rubs(TEX(uniforms)));
+		slot_bear(slots, status, contacts, grips, touching, islands, places, s, anything_rubs(TEX(uniforms)), length);
 		if (slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z)) /* lists made anew for this step know none of this */
 			need[s] = as_int(way_ahead(slots, s, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)));
 	}
@@ -101,7 +99,7 @@ __kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_
 
 /* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
 __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm),
-	LIST_OUT(warm_spans), int4 domain)
+	LIST_OUT(warm_spans), LIST_IN(places), int4 domain)
 {
 	bool again = domain.w, rub = anything_rubs(TEX(uniforms)), due = status[STATUS_BORNE] && (status[STATUS_PASS] > 0) == again;
 	float length = whole_length(TEX(uniforms), CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH)); /* of the step that is done */
@@ -110,8 +108,9 @@ __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), L
 		bool borne = slot_is_unpushed(slots, s) && wakes[WAKE(s, WAKE_CHANGED)] != CHANGED_IN(status[STATUS_AGE]); /* and had no event */
 		slot_restore(slots, pushes, s, again);
 		if (!again) {
-			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, length);
-			forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_spans, s, rub, length);
+			float2 ground = ground_velocity(slots, touching, islands, places, s);
+			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, ground, length);
+			forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_spans, s, rub, ground, length);
 			if (!borne || !slot_stayed(slots, pushes, s))
 				island_disturb(touching, islands, s);
 		}

@@ -1,13 +1,13 @@
 /* Who sleeps after a step, and who wakes since the host is about to change something. */
 
 /* After a step islands fall asleep that it left as they were, and bodies wake that something moved in their sleep; or what else domain.w says. */
-__kernel void sleep_begin(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int4 domain)
+__kernel void sleep_begin(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), LIST_IN(places), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || (domain.w == SLEEP_BEGINS && (!status[STATUS_BORNE] || status[STATUS_PASS] > 0)))
 		return;
 	float length = whole_length(TEX(uniforms), CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH));
-	if (slot_sleep(slots, status, contacts, touching, grips, islands, pushes, s, domain.w, anything_rubs(TEX(uniforms)), length)
+	if (slot_sleep(slots, status, contacts, touching, grips, islands, pushes, places, s, domain.w, anything_rubs(TEX(uniforms)), length)
 		&& !PEEK(status, STATUS_STALE))
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 }

@@ -35,7 +35,7 @@ template <typename T> void warm_up(const Rests<T> &rests, const Warm<T> &warm, i
 
 /* In the place of a slot's forces what the next step begins with, in N: their means, where such began this one. True if that
  * is what began it. */
-template <typename T> bool find_means(const Rests<T> &rests, const Kept<T> *kept, int32_t s, T length, const Warm<T> &warm)
+template <typename T> bool find_means(const Rests<T> &rests, const Kept<T> *kept, int32_t s, const Vec<T> &ground, T length, const Warm<T> &warm)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const bool bears = rests.touching[rests.islands.parents[s]].wanted == rests.status[STATUS_FIRST]; /* what the second pass began with */
@@ -47,7 +47,8 @@ template <typename T> bool find_means(const Rests<T> &rests, const Kept<T> *kept
 			last = warm.of(slot.body(), partner.key(rests.slots), k);
 		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
 		const bool rub = rests.rubs && grips.friction[i] > 0;
-		const bool stays = bears && rub && kept[s].is_at_rest() && (!partner.moves() || kept[partner.slot()].is_at_rest());
+		const bool partner_stays = partner.moves() ? kept[partner.slot()].is_at_rest(ground) : ground.isZero(0);
+		const bool stays = bears && rub && kept[s].is_at_rest(ground) && partner_stays;
 		const T follow = stays ? T(0) : rub ? T(GRIP_WARM_FOLLOW) : T(WARM_FOLLOW);
 		const auto mean = [&](T force, T before) {
 			const T now = (force / length) / length;
@@ -62,11 +63,11 @@ template <typename T> bool find_means(const Rests<T> &rests, const Kept<T> *kept
 }
 
 /* Keeps the forces on a slot for the next step. True if this one began with the same. */
-template <typename T> bool keep_forces(const Rests<T> &rests, const Kept<T> *kept, int32_t s, T length, const Warm<T> &warm)
+template <typename T> bool keep_forces(const Rests<T> &rests, const Kept<T> *kept, int32_t s, const Vec<T> &ground, T length, const Warm<T> &warm)
 {
 	const int32_t body = rests.slots[s].body();
 	int32_t count = 0;
-	const bool are_same = find_means(rests, kept, s, length, warm);
+	const bool are_same = find_means(rests, kept, s, ground, length, warm);
 	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t point) {
 		if (point == 0)
 			warm.begin(body, count++, partner.key(rests.slots));

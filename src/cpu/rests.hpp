@@ -46,7 +46,8 @@ template <typename T> struct Rests {
 	Forest islands; /* dynamic bodies that touch each other, directly or by others */
 	T length;
 	bool rubs;
-	bool impulses; /* of the pass; read once, for in Status it lies beside what an iteration writes */
+	bool impulses;                   /* of the pass; read once, for in Status it lies beside what an iteration writes */
+	const int32_t *places = nullptr; /* of stages that ask for the ground */
 
 	explicit Rests(const Job<T> &job)
 		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
@@ -79,6 +80,16 @@ template <typename T> struct Rests {
 				visit(four, rubbing, i, partner, point);
 			}
 		});
+	}
+
+	/* How fast a slot's island is where it is at rest: as what carries it, if that is kinematic, and does not turn, and nothing static is touched. */
+	Vec<T> ground_of(int32_t s) const
+	{
+		const int32_t carrier = touching[islands.parents[s]].carrier;
+		if (carrier < 0 || carrier == CARRIER_STATIC)
+			return {0, 0};
+		const Slot<T> &slot = slots[places[carrier]];
+		return slot.turn[TURN_VELOCITY] == 0 ? Vec<T>(slot.place[LINEAR_VX], slot.place[LINEAR_VY]) : Vec<T>(0, 0);
 	}
 
 	/* Adds what all forces on a slot come to. */

@@ -10,7 +10,7 @@ namespace carom::cpu {
 
 /* In Touching, how many points; a list; what layout.h says of each island, at its root, and of sleep; and where the points are. */
 struct Touching {
-	int32_t count, slot, wanted, restless, asleep, footing, first, room, made;
+	int32_t count, slot, wanted, restless, asleep, footing, first, room, made, carrier;
 };
 
 static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");
@@ -26,12 +26,13 @@ template <typename T> struct Kept {
 		place[0] = slot.place[LINEAR_X], place[1] = slot.place[LINEAR_Y], place[2] = slot.turn[TURN_ANGLE];
 	}
 
-	bool is_at_rest() const { return velocities[0] == 0 && velocities[1] == 0 && velocities[2] == 0; }
+	/* Was it at rest on a ground of that velocity? */
+	bool is_at_rest(const Vec<T> &ground) const { return velocities[0] == ground.x() && velocities[1] == ground.y() && velocities[2] == 0; }
 
 	/* It was at rest, and still is. */
 	bool stays(const Slot<T> &slot) const
 	{
-		return is_at_rest() && slot.place[LINEAR_VX] == 0 && slot.place[LINEAR_VY] == 0 && slot.turn[TURN_VELOCITY] == 0
+		return is_at_rest({0, 0}) && slot.place[LINEAR_VX] == 0 && slot.place[LINEAR_VY] == 0 && slot.turn[TURN_VELOCITY] == 0
 			&& place[0] == slot.place[LINEAR_X] && place[1] == slot.place[LINEAR_Y] && place[2] == slot.turn[TURN_ANGLE];
 	}
 

@@ -52,7 +52,8 @@ static void adapt_iterations(carom_events *events, const int32_t *status)
 		events->iterations = CONTACT_ITERATIONS;
 	else if (waits > steps / 8 && events->iterations < CONTACT_ITERATIONS)
 		events->iterations *= 2;
-	else if (waits == 0 && 4 * (uint32_t)status[STATUS_MOST] <= events->iterations && events->iterations > LEAST_ITERATIONS && events->steps_a_list > 1)
+	else if (waits == 0 && 4 * (uint32_t)status[STATUS_MOST] <= events->iterations && events->iterations > LEAST_ITERATIONS
+		&& events->steps_a_list > 1)
 		events->iterations /= 2;
 }
 

@@ -1,4 +1,5 @@
 /* The forces between bodies that rest on each other: a projected gradient, accelerated as Nesterov did. */
+#include "cpu/fours.hpp"
 #include "cpu/keep.hpp"
 #include "cpu/response.hpp"
 #include "cpu/still.hpp"
@@ -49,33 +50,6 @@ static void sort_touching(Touching *touching, int32_t count)
 	std::sort(all.begin(), all.end());
 	for (int32_t k = 0; k < count; k++)
 		touching[k].slot = all[static_cast<size_t>(k)];
-}
-
-/* How many more fours a slot needs for so many points; 0 if it has enough. */
-static int32_t fours_wanted(const Touching &touching, int32_t points, const int32_t *status)
-{
-	const int32_t fours = (points + lane_count - 1) / lane_count, own = touching.made == status[STATUS_MADE] ? touching.room : 0;
-	return fours <= own ? 0 : own > 0 ? fours + fours / 2 : fours;
-}
-
-/* Room for the points of bodies that lie side by side, side by side: what two threads change is not to be in one line of a cache. Where there is none they have no points. */
-static void take_fours(std::vector<RestingBody> &bodies, Touching *touching, int32_t *status)
-{
-	int32_t wanted = 0;
-	for (const RestingBody &body : bodies)
-		wanted += fours_wanted(touching[body.s], body.points, status);
-	int32_t first = wanted > 0 ? fetch_add(&status[STATUS_FOURS], wanted) : 0;
-	const bool has_room = first <= status[STATUS_FOURS_ROOM] - wanted;
-	if (!has_room)
-		__atomic_store_n(&status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
-	for (RestingBody &body : bodies) {
-		Touching &own = touching[body.s];
-		const int32_t room = fours_wanted(own, body.points, status);
-		if (room > 0 && has_room)
-			own.first = first, own.room = room, own.made = status[STATUS_MADE];
-		own.count = room > 0 && !has_room ? 0 : body.points;
-		first += room;
-	}
 }
 
 /* First those that are awake; then those that they wake. */
@@ -151,13 +125,19 @@ template <typename T> static void take_warm(const Rests<T> &rests, const Warm<T>
 		__atomic_store_n(&rests.status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
 }
 
-/* A body and those that it touches are of one island. */
+/* A body and those that it touches are of one island; what is not dynamic carries it. */
 template <typename T> static void unite(const Rests<T> &rests, int32_t s)
 {
+	int32_t carrier = -1;
 	rests.each_point(s, [&](const Points<T> &, const Grips<T> &, int32_t, Partner partner, int32_t point) {
 		if (point == 0 && partner.slot() > s && rests.slots[partner.slot()].is_dynamic()) /* of two bodies one says so */
 			rests.islands.unite(s, partner.slot());
+		if (!partner.moves())
+			carrier = CARRIER_STATIC;
+		else if (!rests.slots[partner.slot()].is_dynamic())
+			carrier = std::max(carrier, rests.slots[partner.slot()].body());
 	});
+	rests.touching[s].carrier = carrier;
 }
 
 template <typename T> static void join(const Job<T> &job)
@@ -273,6 +253,16 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
+/* The root of a slot's island, which is its parent from then on; of what carries slots it has the largest index. */
+template <typename T> static int32_t settled_root(const Rests<T> &rests, int32_t s)
+{
+	const int32_t root = rests.islands.flat_root_of(s), carrier = rests.touching[s].carrier;
+	int32_t *const to = &rests.touching[root].carrier;
+	for (int32_t now = __atomic_load_n(to, __ATOMIC_RELAXED); root != s && now < carrier;)
+		__atomic_compare_exchange_n(to, &now, carrier, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+	return root;
+}
+
 /* The same of some of the bodies that touch, where their islands want it. */
 template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests, Lanes<T> *loads, int32_t from, int32_t to, int32_t number)
 {
@@ -281,7 +271,7 @@ template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests,
 	bool wanted = false;
 	for (int32_t k = from; k < to; k++) {
 		const int32_t s = rests.touching[k].slot;
-		int32_t *const island_wants = &rests.touching[done == 0 ? rests.islands.flat_root_of(s) : rests.islands.parents[s]].wanted;
+		int32_t *const island_wants = &rests.touching[done == 0 ? settled_root(rests, s) : rests.islands.parents[s]].wanted;
 		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) < number || !iterate_one<rubs>(rests, loads, s, number & 1, done) || is_last)
 			continue;
 		wanted = true;
@@ -327,7 +317,8 @@ template <typename T> static void iterate(const Job<T> &job)
 
 template <typename T> static void apply(const Job<T> &job)
 {
-	const Rests<T> rests(job);
+	Rests<T> rests(job);
+	rests.places = job.list(12);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	int32_t *need = job.list(11);
 	if (rests.status[STATUS_HANDED] != job.domain[3] || iterations_are_wanted(rests.status))
@@ -339,20 +330,21 @@ template <typename T> static void apply(const Job<T> &job)
 			const int32_t s = rests.touching[k].slot;
 			Lanes<T> sum{};
 			rests.add_forces(s, sum);
-			const bool is_at_rest = speed(slots[s]) == 0;
+			const Vec<T> ground = rests.ground_of(s);
+			const bool is_at_rest = speed(slots[s], ground) == 0;
 			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
 			if (rests.impulses) {
 				slots[s].place[LINEAR_VX] += x;
 				slots[s].place[LINEAR_VY] += y;
 				slots[s].turn[TURN_VELOCITY] += torque;
-				if (is_at_rest && is_slight(rests, s, speed(slots[s]) * rests.length))
-					slots[s].place[LINEAR_VX] = slots[s].place[LINEAR_VY] = slots[s].turn[TURN_VELOCITY] = 0;
+				if (is_at_rest && is_slight(rests, s, ground, speed(slots[s], ground) * rests.length))
+					set_still(slots[s], ground);
 			} else {
 				slots[s].push[PUSH_X] += x / rests.length;
 				slots[s].push[PUSH_Y] += y / rests.length;
 				slots[s].push[PUSH_TORQUE] += torque / rests.length;
-				find_footing(rests, s);
-				if (is_at_rest && is_slight(rests, s, pushed_by(slots[s]) * rests.length * rests.length))
+				find_footing(rests, s, ground);
+				if (is_at_rest && is_slight(rests, s, ground, pushed_by(slots[s]) * rests.length * rests.length))
 					slots[s].push[PUSH_X] = slots[s].push[PUSH_Y] = slots[s].push[PUSH_TORQUE] = 0;
 			}
 			if (keeper.pushed(s)) /* lists that are made anew for this step, without the forces, have to be long enough */
@@ -364,7 +356,8 @@ template <typename T> static void apply(const Job<T> &job)
 /* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
 template <typename T> static void release(const Job<T> &job)
 {
-	const Rests<T> rests(job);
+	Rests<T> rests(job);
+	rests.places = job.list(14);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
 	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents, rests.status};
@@ -381,8 +374,9 @@ template <typename T> static void release(const Job<T> &job)
 			const bool is_borne = is_unpushed(slots[s]), has_event = wakes[s].changed == CHANGED_IN(rests.status[STATUS_AGE]);
 			kept[s].restore(slots[s], again);
 			if (!again) {
-				settle(rests, slots[s], s, kept, length);
-				if (!keep_forces(rests, kept, s, length, warm) || !is_borne || has_event || !kept[s].stays(slots[s]))
+				const Vec<T> ground = rests.ground_of(s);
+				settle(rests, slots[s], s, ground, kept, length);
+				if (!keep_forces(rests, kept, s, ground, length, warm) || !is_borne || has_event || !kept[s].stays(slots[s]))
 					sleepers.disturb(s);
 			}
 			keeper.pushed(s);

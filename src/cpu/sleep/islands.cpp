@@ -6,7 +6,8 @@ namespace carom::cpu {
 /* After a step islands fall asleep that it left as they were, and bodies wake that something moved in their sleep. Or all wake, or it is forgotten that any slept. */
 template <typename T> static void begin(const Job<T> &job)
 {
-	const Rests<T> rests(job);
+	Rests<T> rests(job);
+	rests.places = job.list(12);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
 	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents, rests.status};
@@ -26,7 +27,7 @@ template <typename T> static void begin(const Job<T> &job)
 				sleepers.wake(slots[s], s);
 				sleepers.disturb(s);
 				if (what == SLEEP_BEGINS)
-					settle(rests, slots[s], s, kept, length);
+					settle(rests, slots[s], s, rests.ground_of(s), kept, length);
 			} else if (!is_asleep && what == SLEEP_BEGINS && rests.touching[s].count > 0 && !sleepers.is_disturbed(s))
 				sleepers.fall_asleep(slots[s], s);
 			if (is_asleep != sleepers.sleeps(s) && !rests.status[STATUS_STALE])
