@@ -24,11 +24,11 @@ void island_join(RECORD_IN(slots), RECORD_IN(contacts), LIST_OUT(touching), LIST
 /* All are joined: the root of a slot's island, which is its parent from now on, and has the largest of the island's carriers. */
 int island_root(LIST_OUT(touching), LIST_OUT(islands), int s)
 {
-	int root = find_root(islands, s), carrier = touching[TOUCH(s, TOUCHING_CARRIER)];
+	int root = find_root(islands, s);
 	if (root != int_load(islands, s))
 		atomic_xchg(&islands[s], root);
-	if (root != s && carrier >= 0)
-		atomic_max(&touching[TOUCH(root, TOUCHING_CARRIER)], carrier);
+	if (root != s && touching[TOUCH(s, TOUCHING_CARRIER)] >= 0)
+		atomic_max(&touching[TOUCH(root, TOUCHING_CARRIER)], touching[TOUCH(s, TOUCHING_CARRIER)]);
 	return root;
 }
 

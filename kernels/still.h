@@ -101,10 +101,12 @@ void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN
 		atomic_or(&touching[TOUCH(islands[s], TOUCHING_FOOTING)], all);
 }
 
-/* Gives a body what forces on it come to. */
+/* Gives a body what forces on it come to. What is kinematic gets nothing, and is read meanwhile by those that it carries. */
 void slot_bear(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN(grips), LIST_OUT(touching), LIST_IN(islands), LIST_IN(places),
 	int s, bool rub, float length)
 {
+	if (!slot_is_dynamic(slots, s))
+		return;
 	float2 ground = ground_velocity(slots, touching, islands, places, s);
 	slot_take(slots, status, contacts, grips, touching, s, rub, rests_add(slots, contacts, grips, touching, s, rub, (float4)(0.0f)), ground, length);
 	slot_foot(slots, status, contacts, grips, touching, islands, s, rub, ground);

@@ -1,8 +1,8 @@
-/* Room for the points of bodies, in Contacts and in Grips: CONTRACT.md, "contacts". */
+/* Room for the points of bodies, in Contacts and in Grips, and for the forces that these leave, in Warm: CONTRACT.md, "contacts". */
 #ifndef CAROM_CPU_FOURS_HPP
 #define CAROM_CPU_FOURS_HPP
 
-#include "cpu/resting.hpp"
+#include "cpu/rests.hpp"
 
 #include <vector>
 
@@ -33,6 +33,15 @@ inline void take_fours(const std::vector<RestingBody> &bodies, Touching *touchin
 		own.count = room > 0 && !has_room ? 0 : body.points;
 		first += room;
 	}
+}
+
+/* Room for the forces that a slot's contacts are going to leave. */
+template <typename T> void take_warm(const Rests<T> &rests, const Warm<T> &warm, int32_t s)
+{
+	int32_t contacts = 0;
+	rests.each_point(s, [&](const Points<T> &, const Grips<T> &, int32_t, Partner, int32_t point) { contacts += point == 0; });
+	if (!warm.take(rests.slots[s].body(), contacts))
+		__atomic_store_n(&rests.status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
 }
 
 }

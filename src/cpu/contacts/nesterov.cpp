@@ -116,15 +116,6 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 	return all.bound();
 }
 
-/* Room for the forces that a slot's contacts are going to leave. */
-template <typename T> static void take_warm(const Rests<T> &rests, const Warm<T> &warm, int32_t s)
-{
-	int32_t contacts = 0;
-	rests.each_point(s, [&](const Points<T> &, const Grips<T> &, int32_t, Partner, int32_t point) { contacts += point == 0; });
-	if (!warm.take(rests.slots[s].body(), contacts))
-		__atomic_store_n(&rests.status[STATUS_SMALL], 1, __ATOMIC_RELAXED);
-}
-
 /* A body and those that it touches are of one island; what is not dynamic carries it. */
 template <typename T> static void unite(const Rests<T> &rests, int32_t s)
 {
@@ -315,6 +306,30 @@ template <typename T> static void iterate(const Job<T> &job)
 	});
 }
 
+/* Gives a dynamic body what forces on it come to. */
+template <typename T> static void bear(const Rests<T> &rests, Slot<T> &slot, int32_t s)
+{
+	Lanes<T> sum{};
+	rests.add_forces(s, sum);
+	const Vec<T> ground = rests.ground_of(s);
+	const bool is_at_rest = speed(slot, ground) == 0;
+	const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
+	if (rests.impulses) {
+		slot.place[LINEAR_VX] += x;
+		slot.place[LINEAR_VY] += y;
+		slot.turn[TURN_VELOCITY] += torque;
+		if (is_at_rest && is_slight(rests, s, ground, speed(slot, ground) * rests.length))
+			set_still(slot, ground);
+	} else {
+		slot.push[PUSH_X] += x / rests.length;
+		slot.push[PUSH_Y] += y / rests.length;
+		slot.push[PUSH_TORQUE] += torque / rests.length;
+		find_footing(rests, s, ground);
+		if (is_at_rest && is_slight(rests, s, ground, pushed_by(slot) * rests.length * rests.length))
+			slot.push[PUSH_X] = slot.push[PUSH_Y] = slot.push[PUSH_TORQUE] = 0;
+	}
+}
+
 template <typename T> static void apply(const Job<T> &job)
 {
 	Rests<T> rests(job);
@@ -328,25 +343,8 @@ template <typename T> static void apply(const Job<T> &job)
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
-			Lanes<T> sum{};
-			rests.add_forces(s, sum);
-			const Vec<T> ground = rests.ground_of(s);
-			const bool is_at_rest = speed(slots[s], ground) == 0;
-			const T x = sum[0] / rests.length, y = sum[1] / rests.length, torque = sum[2] / rests.length;
-			if (rests.impulses) {
-				slots[s].place[LINEAR_VX] += x;
-				slots[s].place[LINEAR_VY] += y;
-				slots[s].turn[TURN_VELOCITY] += torque;
-				if (is_at_rest && is_slight(rests, s, ground, speed(slots[s], ground) * rests.length))
-					set_still(slots[s], ground);
-			} else {
-				slots[s].push[PUSH_X] += x / rests.length;
-				slots[s].push[PUSH_Y] += y / rests.length;
-				slots[s].push[PUSH_TORQUE] += torque / rests.length;
-				find_footing(rests, s, ground);
-				if (is_at_rest && is_slight(rests, s, ground, pushed_by(slots[s]) * rests.length * rests.length))
-					slots[s].push[PUSH_X] = slots[s].push[PUSH_Y] = slots[s].push[PUSH_TORQUE] = 0;
-			}
+			if (slots[s].is_dynamic()) /* what is kinematic is read meanwhile */
+				bear(rests, slots[s], s);
 			if (keeper.pushed(s)) /* lists that are made anew for this step, without the forces, have to be long enough */
 				need[s] = as_bits(static_cast<float>(keeper.way_of(slots[s])));
 		}
