@@ -26,8 +26,9 @@ typedef struct rest {
 typedef struct rests {
 	int after;  /* a key */
 	int count;  /* of those here */
-	int points; /* of all that were found, or more */
-	bool left;  /* there are more than there is room for */
+	int points; /* of all, or more, if they are counted */
+	bool left;  /* there may be more than there is room for */
+	bool counts;
 	rest of[CONTACTS_AT_ONCE];
 } rests;
 
@@ -91,11 +92,20 @@ typedef struct nearness {
 	float fast;   /* so much of that */
 } nearness;
 
-void rests_begin(rests *all, int after)
+void rests_begin(rests *all, int after, bool counts)
 {
 	all->after = after;
+	all->counts = counts;
 	all->count = all->points = 0;
 	all->left = false;
+}
+
+/* Is it known of a contact with that key that it is none of these? */
+bool rests_are_others(rests *all, int key)
+{
+	bool beyond = all->count == CONTACTS_AT_ONCE && key > all->of[CONTACTS_AT_ONCE - 1].key;
+	all->left = all->left || beyond;
+	return key <= all->after || (beyond && !all->counts);
 }
 
 /* Where its key says, but once: a neighbour may be noted twice. */
@@ -132,7 +142,7 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 {
 	int key = slot_body(slots, other);
 	float force = near_force(own, partner, near);
-	if (!(force > 0.0f) || key <= all->after)
+	if (!(force > 0.0f) || rests_are_others(all, key))
 		return;
 	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key);
 	if (!is_lossy(larger(own.restitution, partner.restitution), rub))
@@ -281,7 +291,7 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 	bool awake = !touching[TOUCH(s, TOUCHING_ASLEEP)], dynamic = slot_is_dynamic(slots, s);
 	body k = body_awake(slots, touching, pushes, s, length);
 	do {
-		rests_begin(&all, after);
+		rests_begin(&all, after, after == INT_MIN);
 		if (dynamic)
 			rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, k, near, &all);
 		int end = spans[SPAN(s, SPAN_END)];

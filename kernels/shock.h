@@ -128,7 +128,7 @@ void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slot
 {
 	int end = spans[SPAN(s, SPAN_END)];
 	nearness near = {all->weight, INFINITY};
-	rests_begin(contacts, INT_MIN);
+	rests_begin(contacts, INT_MIN, false);
 	rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, contacts);
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
 		int other = neighbour_of(neighbours, extra, i);
