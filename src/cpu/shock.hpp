@@ -91,6 +91,7 @@ private:
 		T vx, vy, w, inverse_mass, inverse_inertia;
 
 		T speed(const Vec<T> &n, T at_arm) const { return inner(n, Vec<T>(vx, vy)) + w * at_arm; }
+		void give(T *place, T &turning) const { place[LINEAR_VX] = vx, place[LINEAR_VY] = vy, turning = w; }
 		T gives(T at_arm) const { return inverse_mass + inverse_inertia * (at_arm * at_arm); }
 	};
 
@@ -152,12 +153,14 @@ private:
 		else
 			parties[k] = {id, 0, ++changes, false, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, slot.mass[MASS_INVERSE],
 				slot.mass[MASS_INVERSE_INERTIA]};
+		const auto partys = [&](int32_t other) { return party_of(own.own_number(other)); };
 		const auto way_of = [&](int32_t other) {
 			Trajectory<T> other_way = own.way_seen(other);
 			clusters.move(clusters.slots[other], other_way, time);
+			if (const int32_t party = partys(other); party >= 0 && !parties[party].is_held) /* which has been pushed since */
+				parties[party].give(other_way.place, other_way.velocity);
 			return other_way;
 		};
-		const auto partys = [&](int32_t other) { return party_of(own.own_number(other)); };
 		const auto has_point = [&](int32_t other) { return has_point_with(partys(other), s); };
 		finder.each(s, way, nearness, way_of, has_point, [&](const Resting<T> &rest) {
 			const bool moves = rest.partner.moves();
@@ -228,10 +231,8 @@ private:
 
 	void put_back(const Party &party) const
 	{
-		if (party.is_held)
-			return;
-		Work<T> &to = work[party.id];
-		to.place[LINEAR_VX] = party.vx, to.place[LINEAR_VY] = party.vy, to.velocity = party.w;
+		if (!party.is_held)
+			party.give(work[party.id].place, work[party.id].velocity);
 	}
 
 	const Clusters<T> &clusters;
