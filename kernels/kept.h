@@ -106,7 +106,7 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 		int other = (int)at[4 * FOUR_PARTNER];
 		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
 		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, rubs = rub && grip[4 * GRIP_FRICTION] > 0.0f;
-		bool rests = bears && was_moving_at(pushes, s, ground) && (other < 0 ? is_zero(ground) : was_moving_at(pushes, other, ground));
+		bool rests = bears && was_moving_at(pushes, s, ground) && partner_was_at_rest(pushes, other, ground);
 		float follow = rubs ? (rests ? 0.0f : GRIP_WARM_FOLLOW) : WARM_FOLLOW;
 		at[4 * FOUR_FORCE] = force_mean(at[4 * FOUR_FORCE], last.force, lasts, follow, length);
 		if (rub)

@@ -279,6 +279,12 @@ bool was_moving_at(RECORD_IN(pushes), int s, float2 velocity)
 	return velocities.x == velocity.x && velocities.y == velocity.y && velocities.z == 0.0f;
 }
 
+/* Was a partner at rest on ground of that velocity? */
+bool partner_was_at_rest(RECORD_IN(pushes), int partner, float2 ground)
+{
+	return partner < 0 ? is_zero(ground) : was_moving_at(pushes, partner, ground);
+}
+
 /* Is it at rest where it was at rest before the step? */
 bool slot_stayed(RECORD_IN(slots), RECORD_IN(pushes), int s)
 {

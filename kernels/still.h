@@ -10,7 +10,12 @@ float2 ground_velocity(RECORD_IN(slots), LIST_IN(touching), LIST_IN(islands), LI
 	return (float2)(place.z, place.w);
 }
 
-/* Is a partner that is not dynamic at rest there? */
+bool partner_gives_way(RECORD_IN(slots), int partner)
+{
+	return partner >= 0 && slot_is_dynamic(slots, partner);
+}
+
+/* Is a partner that does not give way at rest there? */
 bool is_ground(RECORD_IN(slots), int partner, float2 ground)
 {
 	if (partner < 0)
@@ -29,7 +34,7 @@ float still_within(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		bool rubs = POINT_IN(grips, GRIP_WIDTH, first, point)[4 * GRIP_FRICTION] > 0.0f;
-		if (!rubs || ((other < 0 || !slot_is_dynamic(slots, other)) && !is_ground(slots, other, ground)))
+		if (!rubs || !(partner_gives_way(slots, other) || is_ground(slots, other, ground)))
 			return 0.0f;
 		within = point == 0 ? at[4 * FOUR_TOLERANCE] : smaller(within, at[4 * FOUR_TOLERANCE]);
 	}
@@ -74,7 +79,7 @@ bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int
 	bool beside = false;
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
-		beside = beside || (other < 0 ? is_zero(ground) : was_moving_at(pushes, other, ground));
+		beside = beside || partner_was_at_rest(pushes, other, ground);
 	}
 	return beside;
 }
@@ -92,7 +97,7 @@ void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN
 			continue;
 		bool slides = !(fabs(grip[4 * GRIP_FORCE]) < grip[4 * GRIP_BOUND]);
 		own |= slides ? FOOTING_SLIDES : 0;
-		if (other < 0 || !slot_is_dynamic(slots, other))
+		if (!partner_gives_way(slots, other))
 			all |= is_ground(slots, other, ground) && !slides ? FOOTING_FIRM : FOOTING_LOOSE;
 	}
 	if (own)
@@ -131,17 +136,16 @@ void slot_settle(RECORD_OUT(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_
 	if (touching[TOUCH(s, TOUCHING_COUNT)] == 0)
 		return;
 	float4 before = pushes[PUSHES_WIDTH * s + 1], place = SLOT_LOAD(slots, s, SLOT_PLACE);
-	float turning = velocity_kept(CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
-	place.z = velocity_kept(place.z), place.w = velocity_kept(place.w);
-	velocities_set(slots, s, place.z, place.w, turning);
-	float within = still_within(slots, contacts, grips, touching, s, rub, ground), way = still_speed(slots, s, ground) * length;
-	if (!(way < still_most(slots, s, before.x - ground.x, before.y - ground.y, before.z) * length + STILL_PUSH * within))
-		return;
-	if (way < STILL_SPEED * within && still_beside(contacts, touching, pushes, s, ground))
-		velocities_set(slots, s, ground.x, ground.y, 0.0f);
-	else if (way < STILL_SLOW * within && slot_is_firm(touching, islands, s))
-		velocities_set(slots, s, place.z - STILL_BRAKE * (place.z - ground.x), place.w - STILL_BRAKE * (place.w - ground.y),
-			turning - STILL_BRAKE * turning);
+	float x = velocity_kept(place.z), y = velocity_kept(place.w), turning = velocity_kept(CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY));
+	float within = still_within(slots, contacts, grips, touching, s, rub, ground),
+		  way = still_most(slots, s, x - ground.x, y - ground.y, turning) * length;
+	if (way < still_most(slots, s, before.x - ground.x, before.y - ground.y, before.z) * length + STILL_PUSH * within) {
+		if (way < STILL_SPEED * within && still_beside(contacts, touching, pushes, s, ground))
+			x = ground.x, y = ground.y, turning = 0.0f;
+		else if (way < STILL_SLOW * within && slot_is_firm(touching, islands, s))
+			x -= STILL_BRAKE * (x - ground.x), y -= STILL_BRAKE * (y - ground.y), turning -= STILL_BRAKE * turning;
+	}
+	velocities_set(slots, s, x, y, turning);
 }
 
 /* Is nothing left of its push? */

@@ -219,7 +219,7 @@ carom_status carom_contacts_grow(carom_world *world, carom_error *error)
 	warm w;
 	carom_status status = warm_create(world, &w, error);
 	if (!status)
-		status = world->device->kind->download(world->device, world->textures[ROLE_WARM_SPANS].front, w.span_rows, w.spans, error);
+		status = world->device->kind->download(world->device, world->textures[ROLE_WARM_SPANS].front, 1, w.spans, error); /* what is for all */
 	if (!status)
 		wanted = w.spans[WARM_TAKEN];
 	warm_destroy(&w);

@@ -309,6 +309,32 @@ static void without_rest_it_is_events(void **unused)
 	}
 }
 
+/* On a plate lie many balls, without friction: neither it nor they hit anything once they lie. */
+static void many_on_one_are_borne(void **unused)
+{
+	enum { BALLS = 16 };
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		const carom_world_def def = runs_resting("contacts", 12.0f, 8.0f);
+		carom_body_def bodies[BALLS + 1];
+		bodies[0] = scenery_box(0.0f, 0.3f, 0.0f, 0.0f, 20.0f, 0.5f);
+		for (int i = 0; i < BALLS; i++)
+			bodies[i + 1] = body_at(0, 1.1f * ((float)i - 0.5f * (float)(BALLS - 1)), 1.1f);
+		carom_world *world = runs_world(&def, device, bodies, BALLS + 1);
+		if (!world)
+			continue;
+		assert_true(runs_step(world, runs_affordable(SETTLED)).held == 0);
+		runs_enough(runs_step(world, 30).hits == 0);
+		runs_enough(fabs((double)runs_state(world, 0).position.y - 0.25) < 0.001);
+		for (uint32_t i = 1; i <= BALLS; i++)
+			runs_enough(fabs((double)runs_state(world, i).position.y - 1.0) < 0.002);
+		runs_near(runs_measure(world).max_penetration, 0.0, 40.0 * (double)SLOP);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
 /* Made-up worlds that lose energy and that nothing but gravity pushes: whatever is borne, squeezed or thrown, nothing gains any. */
 static void forces_add_no_energy(void **unused)
 {
@@ -348,6 +374,6 @@ int main(void)
 	const struct CMUnitTest tests[] = {cmocka_unit_test(heaps_lie_still), cmocka_unit_test(columns_stand_without_a_hit),
 		cmocka_unit_test(what_is_small_has_to_be_nearer), cmocka_unit_test(slopes_only_turn_gravity), cmocka_unit_test(a_push_is_handed_on),
 		cmocka_unit_test(a_push_is_handed_on_beside_many), cmocka_unit_test(what_falls_bounces), cmocka_unit_test(what_comes_slowly_leaves_no_faster),
-		cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(forces_add_no_energy)};
+		cmocka_unit_test(without_rest_it_is_events), cmocka_unit_test(many_on_one_are_borne), cmocka_unit_test(forces_add_no_energy)};
 	return cmocka_run_group_tests_name("contacts", tests, NULL, NULL);
 }

@@ -47,8 +47,7 @@ template <typename T> bool find_means(const Rests<T> &rests, const Kept<T> *kept
 			last = warm.of(slot.body(), partner.key(rests.slots), k);
 		const bool lasts = begun(rests, slot, partner, last.normal[point], length) > 0;
 		const bool rub = rests.rubs && grips.friction[i] > 0;
-		const bool partner_stays = partner.moves() ? kept[partner.slot()].is_at_rest(ground) : ground.isZero(0);
-		const bool stays = bears && rub && kept[s].is_at_rest(ground) && partner_stays;
+		const bool stays = bears && rub && kept[s].is_at_rest(ground) && was_still(kept, partner, ground);
 		const T follow = stays ? T(0) : rub ? T(GRIP_WARM_FOLLOW) : T(WARM_FOLLOW);
 		const auto mean = [&](T force, T before) {
 			const T now = (force / length) / length;

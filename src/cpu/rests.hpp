@@ -36,6 +36,12 @@ template <typename T> struct Sums {
 	}
 };
 
+/* Was a partner at rest on the ground as the step began? */
+template <typename T> bool was_still(const Kept<T> *kept, Partner partner, const Vec<T> &ground)
+{
+	return partner.moves() ? kept[partner.slot()].is_at_rest(ground) : ground.isZero(0);
+}
+
 /* What the stages begin with: Uniforms, the clock, the slots, Status, Contacts, Touching, Grips, Islands. */
 template <typename T> struct Rests {
 	const Slot<T> *slots;
@@ -91,6 +97,8 @@ template <typename T> struct Rests {
 		const Slot<T> &slot = slots[places[carrier]];
 		return slot.turn[TURN_VELOCITY] == 0 ? Vec<T>(slot.place[LINEAR_VX], slot.place[LINEAR_VY]) : Vec<T>(0, 0);
 	}
+
+	bool gives_way(Partner partner) const { return partner.moves() && slots[partner.slot()].is_dynamic(); }
 
 	/* Adds what all forces on a slot come to. */
 	void add_forces(int32_t s, Lanes<T> &load) const

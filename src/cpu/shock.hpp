@@ -165,16 +165,13 @@ private:
 		finder.each(s, way, nearness, way_of, has_point, [&](const Resting<T> &rest) {
 			const bool moves = rest.partner.moves();
 			const int32_t party = moves ? partys(rest.partner.slot()) : -1;
+			const int32_t partner = party >= 0 ? party : moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed : fixed;
 			const T part = ((T(SHOCK_PARTING) * rest.force) * (1 - time)) / clusters.length;
 			const Trajectory<T> other_way = moves ? way_of(rest.partner.slot()) : way;
 			for (int32_t i = 0; i < rest.points && parties[k].points < SHOCK_POINTS; i++) {
 				const auto &at = rest.at[i];
 				Point &p = points[k][parties[k].points++];
-				p = {rest.partner,
-					party >= 0                                                      ? party
-						: moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed
-																					: fixed,
-					0, rest.n, at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
+				p = {rest.partner, partner, 0, rest.n, at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
 				if (moves)
 					p.coming = speed(other_way, p.n, p.other_arm), p.slipping = speed(other_way, p.along(), p.other_grip_arm);
 			}

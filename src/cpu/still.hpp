@@ -24,8 +24,7 @@ template <typename T> T nearly_still(const Rests<T> &rests, int32_t s, const Vec
 	if (!rests.rubs)
 		return 0;
 	rests.each_point(s, [&](const Points<T> &points, const Grips<T> &grips, int32_t i, Partner partner, int32_t) {
-		const bool gives_way = partner.moves() && rests.slots[partner.slot()].is_dynamic();
-		const bool holds = grips.friction[i] > 0 && (gives_way || is_still(rests, partner, ground));
+		const bool holds = grips.friction[i] > 0 && (rests.gives_way(partner) || is_still(rests, partner, ground));
 		least = holds ? smaller(least, points.tolerance[i]) : T(0);
 		count++;
 	});
@@ -70,9 +69,8 @@ template <typename T> bool is_slight(const Rests<T> &rests, int32_t s, const Vec
 template <typename T> bool leans_on_rest(const Rests<T> &rests, int32_t s, const Vec<T> &ground, const Kept<T> *kept)
 {
 	bool leans = false;
-	rests.each_point(s, [&](const Points<T> &, const Grips<T> &, int32_t, Partner partner, int32_t) {
-		leans = leans || (partner.moves() ? kept[partner.slot()].is_at_rest(ground) : ground.isZero(0));
-	});
+	rests.each_point(s,
+		[&](const Points<T> &, const Grips<T> &, int32_t, Partner partner, int32_t) { leans = leans || was_still(kept, partner, ground); });
 	return leans;
 }
 
@@ -88,7 +86,7 @@ template <typename T> void find_footing(const Rests<T> &rests, int32_t s, const 
 		const bool slides = !(std::abs(grips.force[i]) < grips.bound[i]);
 		if (slides)
 			own = FOOTING_SLIDES;
-		if (!partner.moves() || !rests.slots[partner.slot()].is_dynamic())
+		if (!rests.gives_way(partner))
 			all |= slides || !is_still(rests, partner, ground) ? FOOTING_LOOSE : FOOTING_FIRM;
 	});
 	__atomic_fetch_or(&rests.touching[s].footing, own, __ATOMIC_RELAXED);
