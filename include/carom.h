@@ -123,9 +123,11 @@ typedef struct carom_body_def {
 	                               NaN (the default) takes the world's */
 	float friction;             /**< 0..1000, Coulomb's: what acts along the surfaces is at most so many times what acts along the normal;
 	                               a pair takes the geometric mean of its two; NaN (the default) takes the world's */
-	carom_vec2 force;           /**< N, constant, at the centre of mass; default (0, 0) */
-	float torque;               /**< N m, constant; default 0 */
-	bool is_static;             /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
+	float rolling_friction; /**< 0..1000: of a circle, by the step contacts, the torque against rolling on what it rests on is at most so many times
+	                               its radius (of two circles the smaller one) times what acts along the normal; a pair takes the larger of its two; NaN (the default) takes the world's */
+	carom_vec2 force;       /**< N, constant, at the centre of mass; default (0, 0) */
+	float torque;           /**< N m, constant; default 0 */
+	bool is_static;         /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
 	bool is_kinematic;   /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
 	                               kinematic bodies and out of the room; forces must be 0. carom_world_set_states gives it other velocities */
 	uint32_t categories; /**< bits: what the body is; default CAROM_CATEGORIES. Two bodies hit each other if each is of a category that the
@@ -155,6 +157,7 @@ typedef struct carom_body_info {
 	float density;              /**< kg/m^2, as given; 0 where the mass was given */
 	float restitution;          /**< 0..1 */
 	float friction;             /**< 0..1000 */
+	float rolling_friction;     /**< 0..1000 */
 	carom_vec2 force;           /**< N */
 	float torque;               /**< N m */
 	bool is_static;             /**< never moves */
@@ -250,6 +253,7 @@ typedef struct carom_world_def {
 	carom_vec2 gravity;      /**< m/s^2; default (0, 0) */
 	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
 	float friction;          /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
+	float rolling_friction;  /**< likewise */
 	bool has_room;           /**< four walls that nothing passes; default none. Centres of mass must start inside, or outside by no more than
 	                          a thousandth of it; what of a body is beyond a wall at the start may stay there, but gets no farther */
 	carom_vec2 room_min;     /**< m, the lower left corner */
@@ -332,10 +336,12 @@ typedef enum carom_wall {
  * one counts a quarter, the one before three quarters of that and so on, for what one step does too much the next does too little; of steps that change nothing about
  * what bears they stay as they are. */
 typedef struct carom_contact {
-	uint32_t body;     /**< its index */
-	int32_t other;     /**< the index of a body before it, or a carom_wall */
-	float normal[2];   /**< N, >= 0: what parts the two, at each point, as `other` sees it the left one first; 0 for a second that there is not */
-	float friction[2]; /**< N: what acts on `body` along the surfaces, to the left as `other` sees it */
+	uint32_t body;   /**< its index */
+	int32_t other;   /**< the index of a body before it, or a carom_wall */
+	float normal[2]; /**< N, >= 0: what parts the two, at each point, as `other` sees it the left one first; 0 for a second that there is not */
+	float friction
+		[2]; /**< N: what acts on `body` along the surfaces, to the left as `other` sees it. Where a circle has rolling friction its one point counts as two
+	                    * in the same place, of which the second has this instead: times the radius the torque on `body`, counter-clockwise */
 } carom_contact;
 
 /** How many contacts the last step ended with; 0 for steps other than contacts. Waits for the device. */

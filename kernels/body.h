@@ -62,18 +62,30 @@ bool anything_rubs(TEX_IN(uniforms))
 	return CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RUBS, 0), RUBS_ANY) > 0.0f;
 }
 
+/* A body's coefficients, by its index, or those of the walls: -1. FRICTION_SLIDING comes first. */
+float2 frictions_of(TEX_IN(uniforms), TEX_IN(friction), int index)
+{
+	float4 walls = TEX_LOAD(uniforms, UNIFORMS_RUBS, 0);
+	if (index < 0)
+		return (float2)(CHANNEL(walls, RUBS_WALLS), CHANNEL(walls, RUBS_ROLLING));
+	float4 two = ROW_LOAD(friction, index >> FRICTION_LOG2);
+	return index & (FRICTION_BODIES - 1) ? (float2)(two.z, two.w) : (float2)(two.x, two.y);
+}
+
 /* The coefficient of friction of two bodies, by their indices, or of one and the walls: -1. */
 float friction_of(TEX_IN(uniforms), TEX_IN(friction), int body, int other)
 {
-	float two[2] = {0.0f, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RUBS, 0), RUBS_WALLS)};
 	if (!anything_rubs(TEX(uniforms)))
 		return 0.0f;
-	for (int k = 0; k < (other < 0 ? 1 : 2); k++) {
-		int index = k ? other : body, place = index & (FRICTION_BODIES - 1);
-		float4 four = ROW_LOAD(friction, index >> FRICTION_LOG2);
-		two[k] = place < 2 ? (place ? four.y : four.x) : (place > 2 ? four.w : four.z);
-	}
-	return sqrt(two[0] * two[1]);
+	return sqrt(frictions_of(TEX(uniforms), TEX(friction), body).x * frictions_of(TEX(uniforms), TEX(friction), other).x);
+}
+
+/* Of rolling friction, likewise. */
+float rolling_of(TEX_IN(uniforms), TEX_IN(friction), int body, int other)
+{
+	if (!anything_rubs(TEX(uniforms)))
+		return 0.0f;
+	return larger(frictions_of(TEX(uniforms), TEX(friction), body).y, frictions_of(TEX(uniforms), TEX(friction), other).y);
 }
 
 /* Whether the hits of two bodies take energy: these come to rest in the end. The larger restitution, and the coefficient of friction. */

@@ -37,9 +37,12 @@
 #define FORCES_TORQUE 2 /* N m */
 #define FORCES_RESTITUTION 3
 
-/* Friction: the coefficients of four bodies a texel; a pair takes the geometric mean of its two */
-#define FRICTION_LOG2 2
+/* Friction: the coefficients of two bodies a texel */
+#define FRICTION_LOG2 1
 #define FRICTION_BODIES (1 << FRICTION_LOG2)
+#define FRICTION_WIDTH 2   /* channels a body */
+#define FRICTION_SLIDING 0 /* a pair takes the geometric mean of its two */
+#define FRICTION_ROLLING 1 /* a pair takes the larger */
 
 /* Filters: which pairs may hit each other. A list: whether any may not; only then two ints a body follow. */
 #define FILTERS_ANY 0 /* 0 or 1 */
@@ -68,7 +71,8 @@
 #define RULES_RESTITUTION 3 /* of the walls */
 #define UNIFORMS_RUBS 3     /* texel */
 #define RUBS_WALLS 0        /* their coefficient of friction */
-#define RUBS_ANY 1          /* 0 or 1: something has friction */
+#define RUBS_ANY 1          /* 0 or 1: something has friction, or rolling friction */
+#define RUBS_ROLLING 2      /* the walls' coefficient of rolling friction */
 
 /* Clock: how far the simulation is; five texels in a row, ping-pong */
 #define CLOCK_WIDTH 5
@@ -342,8 +346,9 @@
 #define PARTNER_WALL(wall) (-2 - (wall))
 #define PARTNER_STATIC(index) (-6 - (index))
 
-/* Grips, where bodies rub: how the points of Contacts slide along u = (-n.y, n.x); seven records for four of them */
-#define GRIP_WIDTH 7
+/* Grips, where bodies rub: how the points of Contacts slide along u = (-n.y, n.x); eight records for four of them. Where a circle has rolling friction its one point is there
+ * twice: at the second no force acts along u, but a torque against rolling, as a force with the arms GRIP_ARM. Each has half of the normal force, and so twice the coefficient. */
+#define GRIP_WIDTH 8
 #define GRIP_FRICTION 0  /* the coefficient */
 #define GRIP_ARM 1       /* m: u's arm about this body's centre, */
 #define GRIP_OTHER_ARM 2 /* and about the partner's */
@@ -351,6 +356,7 @@
 #define GRIP_BOUND 4     /* kg m / step^2: what the force may not exceed now */
 #define GRIP_FORCE 5
 #define GRIP_START 6
+#define GRIP_ALONG 7 /* 1; 0 where it is rolling friction */
 
 /* Warm: the forces that the last steps ended with, as means that follow the last one by WARM_FOLLOW: what a step ends with makes up for what the one before
  * left within its tolerance, and so differs from what bears. A body's contacts are in the order of Contacts: a record each, or where bodies

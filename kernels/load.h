@@ -16,8 +16,9 @@ void ways_of_normals(ways *w, RECORD_IN(contacts), int four)
 
 void ways_of_grips(ways *w, RECORD_IN(grips), int four, const ways *normals)
 {
-	w->x = -normals->y;
-	w->y = normals->x;
+	float4 along = grips[GRIP(four, GRIP_ALONG)];
+	w->x = -normals->y * along;
+	w->y = normals->x * along;
 	w->arm = grips[GRIP(four, GRIP_ARM)];
 	w->other_arm = grips[GRIP(four, GRIP_OTHER_ARM)];
 }

@@ -19,8 +19,15 @@ typedef struct rest {
 	int key, partner, count;
 	float2 n;
 	float force, cushion, friction;
+	float rolling, rolling_arm; /* the coefficient of rolling friction, which circles may have, and its force's arm about both centres */
 	rest_point points[2];
 } rest;
+
+/* How many points are written of a contact: that of a circle that has rolling friction twice. */
+int rest_lanes(const rest *r)
+{
+	return r->count == 1 && r->rolling > 0.0f ? 2 : r->count;
+}
 
 /* The contacts of one slot, while they are found: the first ones, by their keys, after one. */
 typedef struct rests {
@@ -56,6 +63,7 @@ rest rest_begin(int key, int partner, float2 n, float force, float slop, float f
 	r.force = force;
 	r.cushion = smaller(CUSHION * slop, 0.5f * force);
 	r.friction = friction;
+	r.rolling = r.rolling_arm = 0.0f;
 	return r;
 }
 
@@ -117,7 +125,7 @@ void rests_insert(rests *all, rest r)
 		if (all->of[k].key == r.key)
 			return;
 	bool full = all->count == CONTACTS_AT_ONCE;
-	all->points += r.count;
+	all->points += rest_lanes(&r);
 	all->left = all->left || full;
 	if (full && r.key > all->of[CONTACTS_AT_ONCE - 1].key)
 		return;
@@ -170,16 +178,23 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 		float2 lever = is_incident ? c.inc[i] : c.ref[i], other_lever = is_incident ? c.ref[i] : c.inc[i];
 		rest_add(&r, near.fast, c.rate[i], gap, lever, other_lever, touch_lever(own, lever, back), touch_lever(partner, other_lever, n));
 	}
+	if (own.count == 1 || partner.count == 1) {
+		float radius = partner.count > 1 ? own.radius : own.count > 1 ? partner.radius : smaller(own.radius, partner.radius);
+		r.rolling = rolling_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key);
+		r.rolling_arm = is_row ? radius : -radius;
+	}
 	rests_insert(all, r);
 }
 
-void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, nearness near, rests *all)
+void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, float rolling, nearness near, rests *all)
 {
 	float offset, force = rest_force(near.weight > 0.0f ? near.weight : norm(k.a), k.radius);
 	float2 n = wall_normal(room, wall, &offset), none = (float2)(0.0f, 0.0f);
 	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
 	rest r = rest_begin(-1 - wall, PARTNER_WALL(wall), n, force, wall_slop(k), friction);
 	if (k.count == 1) {
+		r.rolling = rolling;
+		r.rolling_arm = k.radius;
 		if (height - k.radius <= force)
 			rest_add(&r, near.fast, speed, height - k.radius, none, none, touch_lever(k, none, (float2)(-n.x, -n.y)), none);
 	} else {
@@ -216,22 +231,26 @@ int rests_write(const rests *all, RECORD_OUT(contacts), RECORD_OUT(grips), int f
 {
 	for (int k = 0; k < all->count; k++) {
 		const rest *r = &all->of[k];
-		for (int i = 0; i < r->count; i++, count++) {
+		int lanes = rest_lanes(r);
+		for (int i = 0; i < lanes; i++, count++) {
 			__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, count);
+			bool rolls = i == r->count;
+			rest_point at = r->points[rolls ? 0 : i];
 			point_drop(contacts, grips, first, count, rub);
 			to[4 * FOUR_PARTNER] = (float)r->partner;
 			to[4 * FOUR_NORMAL_X] = r->n.x;
 			to[4 * FOUR_NORMAL_Y] = r->n.y;
-			to[4 * FOUR_ARM] = r->points[i].arm;
-			to[4 * FOUR_OTHER_ARM] = r->points[i].other_arm;
-			to[4 * FOUR_LEAST] = r->points[i].least;
+			to[4 * FOUR_ARM] = at.arm;
+			to[4 * FOUR_OTHER_ARM] = at.other_arm;
+			to[4 * FOUR_LEAST] = at.least;
 			to[4 * FOUR_TOLERANCE] = CONTACT_PART * (EASE * r->cushion);
 			if (!rub)
 				continue;
 			to = POINT_OUT(grips, GRIP_WIDTH, first, count);
-			to[4 * GRIP_FRICTION] = r->friction;
-			to[4 * GRIP_ARM] = r->points[i].grip_arm;
-			to[4 * GRIP_OTHER_ARM] = r->points[i].grip_other_arm;
+			to[4 * GRIP_FRICTION] = (rolls ? r->rolling : r->friction) * (lanes > r->count ? 2.0f : 1.0f);
+			to[4 * GRIP_ARM] = rolls ? r->rolling_arm : at.grip_arm;
+			to[4 * GRIP_OTHER_ARM] = rolls ? r->rolling_arm : at.grip_other_arm;
+			to[4 * GRIP_ALONG] = rolls ? 0.0f : 1.0f;
 		}
 	}
 	for (int point = count; point % 4 > 0; point++)
@@ -264,11 +283,12 @@ void rest_on_walls(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(sl
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || !(near.weight > 0.0f || norm(k.a) > 0.0f))
 		return;
-	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
+	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1),
+		  roll = rolling_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
 	if (!is_lossy(larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub))
 		return;
 	for (int wall = 0; wall < 4; wall++)
-		rest_on_wall(VERTICES, room, k, wall, rub, near, all);
+		rest_on_wall(VERTICES, room, k, wall, rub, roll, near, all);
 }
 
 /* What an awake body touches is disturbed in its sleep. */

@@ -12,6 +12,7 @@ carom_body_def carom_default_body_def(void)
 		.density = 1.0f,
 		.restitution = NAN,
 		.friction = NAN,
+		.rolling_friction = NAN,
 		.categories = CAROM_CATEGORIES,
 		.mask = CAROM_MASK,
 		.color = CAROM_COLOR_AUTO};
@@ -114,6 +115,8 @@ static carom_status check_numbers(const carom_body_def *def, size_t index, carom
 		return fail_number(error, index, "restitution", (double)def->restitution, "from 0 to 1");
 	if (!isnan(def->friction) && !(def->friction >= 0.0f && def->friction <= CAROM_MAX_FRICTION))
 		return fail_number(error, index, "friction", (double)def->friction, "from 0 to 1000");
+	if (!isnan(def->rolling_friction) && !(def->rolling_friction >= 0.0f && def->rolling_friction <= CAROM_MAX_FRICTION))
+		return fail_number(error, index, "rolling_friction", (double)def->rolling_friction, "from 0 to 1000");
 	if (!(def->mass >= 0.0f) || !isfinite(def->mass))
 		return fail_number(error, index, "mass", (double)def->mass, "above 0 (kg), or 0 for the density's");
 	if (def->mass == 0.0f && (!(def->density > 0.0f) || !isfinite(def->density)))
@@ -280,6 +283,7 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world_def *w
 	body->shape = def->shape;
 	body->restitution = isnan(def->restitution) ? world->restitution : def->restitution;
 	body->friction = isnan(def->friction) ? world->friction : def->friction;
+	body->rolling_friction = isnan(def->rolling_friction) ? world->rolling_friction : def->rolling_friction;
 	body->force = def->force;
 	body->torque = def->torque;
 	body->color = def->color;

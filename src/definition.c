@@ -22,6 +22,8 @@ carom_status carom_check_world_def(const carom_world_def *def, carom_error *erro
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "restitution: found %g, must be from 0 to 1", (double)def->restitution);
 	if (!(def->friction >= 0.0f && def->friction <= CAROM_MAX_FRICTION))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "friction: found %g, must be from 0 to 1000", (double)def->friction);
+	if (!(def->rolling_friction >= 0.0f && def->rolling_friction <= CAROM_MAX_FRICTION))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "rolling_friction: found %g, must be from 0 to 1000", (double)def->rolling_friction);
 	if (!(def->epsilon >= 2.384185791015625e-7f && def->epsilon <= 0.5f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "epsilon: found %g, must be from 2^-22 to 0.5 (of a step)", (double)def->epsilon);
 	if (def->storage != CAROM_STORAGE_AUTO && def->storage != CAROM_STORAGE_IMAGE && def->storage != CAROM_STORAGE_BUFFER)

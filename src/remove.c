@@ -160,7 +160,7 @@ static bool will_rub(const carom_world *world, const uint32_t *numbers)
 {
 	bool rub = !world->rubs;
 	for (size_t i = 0; i < world->body_count && !rub; i++)
-		rub = numbers[i] != GONE && carom_world_bodies(world)[i].friction > 0.0f;
+		rub = numbers[i] != GONE && carom_is_rough(&carom_world_bodies(world)[i]);
 	return rub && world->rubs;
 }
 

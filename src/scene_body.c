@@ -141,6 +141,7 @@ static const struct scene_field body_fields[] = {
 	{"mass", scene_read_number, scene_quick_number, offsetof(struct body, mass), &scene_positive, false},
 	{"restitution", scene_read_number, scene_quick_number, offsetof(struct body, def.restitution), &scene_part, false},
 	{"friction", scene_read_number, scene_quick_number, offsetof(struct body, def.friction), &scene_friction, false},
+	{"rolling_friction", scene_read_number, scene_quick_number, offsetof(struct body, def.rolling_friction), &scene_friction, false},
 	{"force", scene_read_pair, scene_quick_pair, offsetof(struct body, def.force), &scene_any, false},
 	{"torque", scene_read_number, scene_quick_number, offsetof(struct body, def.torque), &scene_any, false},
 	{"static", scene_read_flag, scene_quick_flag, offsetof(struct body, def.is_static), NULL, false},

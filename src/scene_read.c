@@ -107,6 +107,7 @@ static const struct scene_field scene_fields[] = {
 	{"gravity", scene_read_pair, NULL, offsetof(carom_scene, world.gravity), &scene_any, false},
 	{"restitution", scene_read_number, NULL, offsetof(carom_scene, world.restitution), &scene_part, false},
 	{"friction", scene_read_number, NULL, offsetof(carom_scene, world.friction), &scene_friction, false},
+	{"rolling_friction", scene_read_number, NULL, offsetof(carom_scene, world.rolling_friction), &scene_friction, false},
 	{"room", read_room, NULL, offsetof(carom_scene, world), NULL, false},
 	{"pipeline", read_pipeline, NULL, offsetof(carom_scene, world), NULL, false},
 	{"camera", read_camera, NULL, 0, NULL, false},

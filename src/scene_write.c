@@ -163,6 +163,7 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 	}
 	put_number_key(stream, "restitution", info->restitution, writer->world->restitution);
 	put_number_key(stream, "friction", info->friction, writer->world->friction);
+	put_number_key(stream, "rolling_friction", info->rolling_friction, writer->world->rolling_friction);
 	put_pair_key(stream, "force", info->force, defaults->force);
 	put_number_key(stream, "torque", info->torque, defaults->torque);
 	if (info->is_static)
@@ -238,6 +239,10 @@ static void put_world(const struct writer *writer, const carom_camera *camera)
 	if (world->friction > 0) {
 		fputs(",\n  \"friction\": ", stream);
 		put_number(stream, world->friction);
+	}
+	if (world->rolling_friction > 0) {
+		fputs(",\n  \"rolling_friction\": ", stream);
+		put_number(stream, world->rolling_friction);
 	}
 	if (world->has_room) {
 		fputs(",\n  \"room\": { \"min\": ", stream);

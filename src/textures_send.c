@@ -27,6 +27,7 @@ static void fill_uniforms(const carom_world *world, void *data)
 	rules[RULES_RESTITUTION] = def->restitution;
 	rubs[RUBS_WALLS] = def->friction;
 	rubs[RUBS_ANY] = world->rubs ? 1.0f : 0.0f;
+	rubs[RUBS_ROLLING] = def->rolling_friction;
 }
 
 void carom_geometry_fill(const carom_body *body, float texel[4])
@@ -67,8 +68,10 @@ static void fill_forces(const carom_world *world, void *data)
 static void fill_friction(const carom_world *world, void *data)
 {
 	float *texels = data;
-	for (size_t i = 0; i < world->body_count; i++)
-		texels[i] = carom_world_bodies(world)[i].friction;
+	for (size_t i = 0; i < world->body_count; i++) {
+		texels[FRICTION_WIDTH * i + FRICTION_SLIDING] = carom_world_bodies(world)[i].friction;
+		texels[FRICTION_WIDTH * i + FRICTION_ROLLING] = carom_world_bodies(world)[i].rolling_friction;
+	}
 }
 
 /* Is there a body that another one may pass through? False where all hit a category that each is of. */

@@ -151,13 +151,18 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	return CAROM_OK;
 }
 
-/* Has one from that index on friction? */
+bool carom_is_rough(const carom_body *body)
+{
+	return body->friction > 0.0f || body->rolling_friction > 0.0f;
+}
+
+/* Does one from that index on rub? */
 static bool are_rough(const carom_world *world, size_t first)
 {
 	const carom_body *bodies = carom_world_bodies(world);
 	bool rough = false;
 	for (size_t i = first; i < world->body_count && !rough; i++)
-		rough = bodies[i].friction > 0.0f;
+		rough = carom_is_rough(&bodies[i]);
 	return rough;
 }
 
@@ -311,6 +316,7 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 		.density = body->density,
 		.restitution = body->restitution,
 		.friction = body->friction,
+		.rolling_friction = body->rolling_friction,
 		.force = body->force,
 		.torque = body->torque,
 		.is_static = body->is_static,

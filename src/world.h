@@ -13,7 +13,7 @@ typedef struct carom_body {
 	float radius;                        /* as given; 0 for a polygon */
 	float bound;                         /* of the circle about the centre of mass */
 	uint32_t vertex_first, vertex_count; /* in world->vertices, the first an even number; count 1 and none there for a circle */
-	float mass, inertia, density, restitution, friction, torque;
+	float mass, inertia, density, restitution, friction, rolling_friction, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color, categories, mask;
 	bool is_static, is_kinematic; /* one of them, or none */
@@ -140,7 +140,7 @@ struct carom_world {
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count, circle_count;
 	size_t waste;        /* bytes of vertices and names that may be of bodies that are gone alone */
-	bool rubs;           /* a body has friction */
+	bool rubs;           /* a body has friction, or rolling friction */
 	unsigned newest;     /* carom_place: all that have the newest state, but for `changes` */
 	bool bodies_current; /* the device's constant textures are those of the bodies */
 	bool slots_current;  /* its slots are of the bodies as they are, but for what is to be told of; else they are to be loaded anew */
@@ -184,6 +184,8 @@ carom_status carom_check_span(const char *things, size_t first, size_t count, co
 carom_status carom_check_bodies(const carom_world *world, uint32_t first, size_t count, carom_error *error);
 /* An angle within a turn, as kernels keep it. */
 float carom_wrapped(float angle);
+/* Has it friction, or rolling friction? */
+bool carom_is_rough(const carom_body *body);
 /* Once something rubs, or nothing does any more, the step needs other textures: of bodies from that index on that are new, or of all from 0. */
 void carom_look_for_friction(carom_world *world, size_t first);
 

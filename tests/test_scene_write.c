@@ -44,6 +44,7 @@ static void assert_same_world(carom_world *a, carom_world *b)
 		assert_memory_equal(&x.density, &y.density, sizeof x.density);
 		assert_memory_equal(&x.restitution, &y.restitution, sizeof x.restitution);
 		assert_memory_equal(&x.friction, &y.friction, sizeof x.friction);
+		assert_memory_equal(&x.rolling_friction, &y.rolling_friction, sizeof x.rolling_friction);
 		assert_memory_equal(&x.force, &y.force, sizeof x.force);
 		assert_memory_equal(&x.torque, &y.torque, sizeof x.torque);
 		if (x.vertices)
@@ -85,7 +86,7 @@ static void check_round_trip(carom_scene *scene)
 	assert_memory_equal(&scene->world.epsilon, &read->world.epsilon, sizeof scene->world.epsilon);
 	assert_memory_equal(&scene->world.room_max, &read->world.room_max, sizeof scene->world.room_max);
 	assert_true(scene->world.iterations == read->world.iterations && scene->world.restitution == read->world.restitution);
-	assert_true(scene->world.friction == read->world.friction);
+	assert_true(scene->world.friction == read->world.friction && scene->world.rolling_friction == read->world.rolling_friction);
 	assert_true(scene->has_camera == read->has_camera && scene->camera.height == read->camera.height);
 	carom_world *third = there_and_back(back, read->has_camera ? &read->camera : NULL, &again);
 	assert_string_equal(text, read_text(in_folder("there.json")));

@@ -55,6 +55,7 @@ static void make(scenery_random *random, uint32_t sizes, wild_world *world)
 	scenery_random rubbing = {random->state ^ 1}; /* of its own: the bodies of a seed are kept */
 	def->restitution = restitutions[below(random, 6)];
 	def->friction = frictions[below(&rubbing, 6)];
+	def->rolling_friction = one_in(&rubbing, 3) ? 0.125f : 0.0f;
 	def->gravity.y = one_in(random, 2) ? -scenery_uniform(random, 0.0f, 20.0f) : 0.0f;
 	def->has_room = true;
 	def->room_min = (carom_vec2){middle - half, -half};
@@ -237,6 +238,7 @@ static void replace(carom_world *world, uint32_t index)
 	def.mass = info.is_static || info.is_kinematic ? 0.0f : info.mass;
 	def.restitution = info.restitution;
 	def.friction = info.friction;
+	def.rolling_friction = info.rolling_friction;
 	def.force = info.force;
 	def.torque = info.torque;
 	def.categories = info.categories;

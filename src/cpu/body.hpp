@@ -142,19 +142,27 @@ template <typename T> class Rubs
 {
 public:
 	Rubs(const Texels<T> &uniforms, const Texels<T> &friction)
-		: any(uniforms.fact(UNIFORMS_RUBS, RUBS_ANY) > 0), walls(uniforms.fact(UNIFORMS_RUBS, RUBS_WALLS)), coefficients(friction)
+		: any(uniforms.fact(UNIFORMS_RUBS, RUBS_ANY) > 0), walls(uniforms.fact(UNIFORMS_RUBS, RUBS_WALLS)),
+		  rolling_walls(uniforms.fact(UNIFORMS_RUBS, RUBS_ROLLING)), coefficients(friction)
 	{
 	}
 
 	T at_wall(int32_t i) const { return any ? std::sqrt(of(i) * walls) : T(0); }
 	T between(int32_t i, int32_t k) const { return any ? std::sqrt(of(i) * of(k)) : T(0); }
+	T rolling_at_wall(int32_t i) const { return any ? larger(rolling_of(i), rolling_walls) : T(0); }
+	T rolling_between(int32_t i, int32_t k) const { return any ? larger(rolling_of(i), rolling_of(k)) : T(0); }
 
 	const bool any;
 
 private:
-	T of(int32_t i) const { return coefficients.of(i >> FRICTION_LOG2, i & (FRICTION_BODIES - 1)); }
+	T coefficient(int32_t i, int32_t which) const
+	{
+		return coefficients.of(i >> FRICTION_LOG2, FRICTION_WIDTH * (i & (FRICTION_BODIES - 1)) + which);
+	}
+	T of(int32_t i) const { return coefficient(i, FRICTION_SLIDING); }
+	T rolling_of(int32_t i) const { return coefficient(i, FRICTION_ROLLING); }
 
-	const T walls;
+	const T walls, rolling_walls;
 	const Texels<T> coefficients;
 };
 

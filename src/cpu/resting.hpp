@@ -43,15 +43,19 @@ template <typename T> struct Points {
 	}
 };
 
-/* How they slide, where bodies rub, along what is left of the normal. */
+/* How they slide, where bodies rub, along what is left of the normal; or roll. */
 template <typename T> struct Grips {
-	Lanes<T> friction, arm, other_arm, step, bound, force, start;
+	Lanes<T> friction, arm, other_arm, step, bound, force, start, along;
 
 	void drop(int32_t i)
 	{
-		for (Lanes<T> *of : {&friction, &arm, &other_arm, &step, &bound, &force, &start})
+		for (Lanes<T> *of : {&friction, &arm, &other_arm, &step, &bound, &force, &start, &along})
 			(*of)[i] = 0;
 	}
+
+	/* The ways of their forces. */
+	Lanes<T> x(const Points<T> &points) const { return -points.normal_y * along; }
+	Lanes<T> y(const Points<T> &points) const { return points.normal_x * along; }
 };
 
 static_assert(sizeof(Points<float>) == FOUR_WIDTH * 4 * sizeof(float) && sizeof(Grips<float>) == GRIP_WIDTH * 4 * sizeof(float), "records");
@@ -86,6 +90,10 @@ template <typename T> struct Resting {
 	Vec<T> n; /* from the partner */
 	T force, tolerance, friction;
 	Point at[2];
+	T rolling = 0, rolling_arm = 0; /* the coefficient of rolling friction, which circles may have, and the arm of its force about both centres */
+
+	/* How many points are written. */
+	int32_t written() const { return points == 1 && rolling > 0 ? 2 : points; }
 };
 
 /* What is a contact. */
@@ -132,7 +140,7 @@ public:
 		});
 		RestingBody body{s, 0, first, found.size()};
 		for (size_t k = first; k < found.size(); k++) {
-			body.points += found[k].points;
+			body.points += found[k].written();
 			if (const Partner partner = found[k].partner; is_awake && partner.moves() && sleepers.sleeps(partner.slot()))
 				sleepers.disturb(partner.slot());
 		}
@@ -145,20 +153,25 @@ public:
 		int32_t written = 0;
 		for (size_t k = body.first; k < body.end; k++) {
 			const Resting<T> &rest = found[k];
-			for (int32_t point = 0; point < rest.points; point++, written++) {
+			const int32_t count = rest.written();
+			for (int32_t k_of = 0; k_of < count; k_of++, written++) {
+				const bool rolls = k_of == rest.points;
+				const typename Resting<T>::Point &point = rest.at[rolls ? 0 : k_of];
 				Points<T> &points = to[written / lane_count];
 				const int32_t i = written % lane_count;
 				points.drop(i);
 				points.partner[i] = static_cast<T>(rest.partner.code);
 				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
-				points.arm[i] = rest.at[point].arm, points.other_arm[i] = rest.at[point].other_arm;
-				points.least[i] = rest.at[point].least, points.tolerance[i] = rest.tolerance;
+				points.arm[i] = point.arm, points.other_arm[i] = point.other_arm;
+				points.least[i] = point.least, points.tolerance[i] = rest.tolerance;
 				if (!rubs.any)
 					continue;
 				Grips<T> &gripping = grips[written / lane_count];
 				gripping.drop(i);
-				gripping.friction[i] = rest.friction;
-				gripping.arm[i] = rest.at[point].slip.arm, gripping.other_arm[i] = rest.at[point].slip.other_arm;
+				gripping.friction[i] = (rolls ? rest.rolling : rest.friction) * static_cast<T>(count - rest.points + 1);
+				gripping.arm[i] = rolls ? rest.rolling_arm : point.slip.arm;
+				gripping.other_arm[i] = rolls ? rest.rolling_arm : point.slip.other_arm;
+				gripping.along[i] = rolls ? T(0) : T(1);
 			}
 		}
 		for (; written % lane_count > 0; written++) {
@@ -266,28 +279,34 @@ private:
 			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n),
 				slip(own, others));
 		}
+		if (a.is_circle() || b.is_circle()) {
+			const T radius = !a.is_circle() ? b.radius : !b.is_circle() ? a.radius : smaller(a.radius, b.radius);
+			rest.rolling = rubs.rolling_between(slot.body(), other_slot.body());
+			rest.rolling_arm = is_row ? radius : -radius;
+		}
 		insert(rest);
 	}
 
 	void walls(const Slot<T> &slot, const Trajectory<T> &way, const Nearness<T> &nearness)
 	{
-		const T friction = rubs.at_wall(slot.body());
+		const T friction = rubs.at_wall(slot.body()), rolling = rubs.rolling_at_wall(slot.body());
 		if (!clusters.has_walls() || !loses_energy(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), friction))
 			return;
 		Convex<T> body;
 		clusters.fill(body, slot, way);
 		const Rules rules(norm(body.a), body.radius, wall_slop(body), nearness);
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
-			wall(body, friction, rules, k);
+			wall(body, friction, rolling, rules, k);
 	}
 
-	void wall(const Convex<T> &body, T friction, const Rules &rules, int32_t k)
+	void wall(const Convex<T> &body, T friction, T rolling, const Rules &rules, int32_t k)
 	{
 		const Wall<T> wall = clusters.wall(k);
 		const T height = wall.height(body.x), speed = inner(wall.n, body.v);
 		Resting<T> rest = begin(-1 - k, Partner::that_stays(-1 - k), wall.n, rules, friction);
 		const auto slip = [&](const Vec<T> &lever) { return Slip<T>(wall.n, lever, {0, 0}); };
 		if (body.is_circle()) {
+			rest.rolling = rolling, rest.rolling_arm = body.radius;
 			if (height - body.radius <= rules.force)
 				add(rest, rules, speed, height - body.radius, 0, 0, slip(touched_at<T>(body, {0, 0}, -wall.n)));
 		} else {

@@ -25,7 +25,7 @@ template <typename T> struct Sums {
 	/* What friction does follows the force of its point. */
 	void add(const Slot<T> &slot, const Points<T> &points, const Grips<T> &grips, const Lanes<T> &forces)
 	{
-		add(slot, forces, -points.normal_y, points.normal_x, grips.arm);
+		add(slot, forces, grips.x(points), grips.y(points), grips.arm);
 	}
 
 	void add_to(Lanes<T> &load) const

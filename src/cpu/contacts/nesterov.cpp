@@ -106,7 +106,7 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 				normal.add(i, all);
 			return;
 		}
-		const Responses<T> along(straight, turning, both, -points.normal_y, points.normal_x, grips.arm);
+		const Responses<T> along(straight, turning, both, grips.x(points), grips.y(points), grips.arm);
 		for (int32_t i = 0; i < lane_count; i++) {
 			normal.add(i, all);
 			if (grips.friction[i] > 0)
@@ -198,7 +198,7 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 				   most = done < GRIP_FOLLOW ? allowed : grips.bound + T(GRIP_BLEND) * (allowed - grips.bound);
 	const Lanes<T> least = -most;
 	Lanes<T> rate;
-	find_rates<T>(-points.normal_y, points.normal_x, grips.arm, grips.other_arm, load, others, rate);
+	find_rates<T>(grips.x(points), grips.y(points), grips.arm, grips.other_arm, load, others, rate);
 	const Lanes<T> pushed = grips.start - rate * grips.step;
 	const Lanes<T> below = most < pushed ? most : pushed, held = least > below ? least : below, size = magnitude(held);
 	const Lanes<T> left = size < most ? rate : allowed - most;
