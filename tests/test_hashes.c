@@ -29,6 +29,7 @@ static const struct {
 	{"scenes/pi.json", 0x9d624002521cac23, 0xd287219b381da045},
 	{"scenes/piston.json", 0x2164404c393abf4d, 0x1a2d939507b78308},
 	{"scenes/pyramid.json", 0x0633cf1a8e76570d, 0x28f7fc6eebdf49df},
+	{"scenes/sand.json", 0x72ee53ee9ba5fc06, 0x0f3666ec5840a5d3},
 	{"scenes/sorter.json", 0x0a70d5e9a9d7a8c2, 0xc8abc8f88e6f4314},
 	{"scenes/thin_wall.json", 0x6eba585ed60d88e7, 0xdd27dd88bbe84178},
 	{"scenes/towers.json", 0x06a65b03a828eaba, 0x8116cf50fb7d3557},
