@@ -97,7 +97,6 @@ static void numbers_out_of_range(void **unused)
 	REFUSE("friction: found -0.25, must be from 0 to 1000", friction, -0.25f);
 	REFUSE("friction: found 1000.5, must be from 0 to 1000", friction, 1000.5f);
 	REFUSE("friction: found inf, must be from 0 to 1000", friction, INFINITY);
-	REFUSE("rolling_friction: found -0.25, must be from 0 to 1000", rolling_friction, -0.25f);
 	REFUSE("rolling_friction: found 1000.5, must be from 0 to 1000", rolling_friction, 1000.5f);
 	REFUSE("color: must be 0xRRGGBB or CAROM_COLOR_AUTO", color, 0x1000000u);
 	REFUSE("position: (100.5, 0) is outside the room", position.x, 100.5f);
