@@ -190,9 +190,10 @@ public:
 		first = 0;
 		walls(clusters.slots[s], way, nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
+			if (is_known(other))
+				return;
 			const Trajectory<T> other_way = way_of(other);
-			if (may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place)
-				&& !is_known(other))
+			if (may_rest(clusters.slots[s].radius() + clusters.slots[other].radius() + nearness.weight, way.place, other_way.place))
 				pair(clusters.slots[s], way, other, clusters.slots[other], other_way, nearness);
 		});
 		for (const Resting<T> &rest : found)

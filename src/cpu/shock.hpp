@@ -30,7 +30,7 @@ public:
 		for (int32_t sweep = 0; sweep < SHOCK_SWEEPS && more; sweep++) {
 			more = false;
 			for (int32_t k = 0; k < count; k++) {
-				for (Point *p = points[k]; p < points[k] + parties[k].points; p++) {
+				for (Point *p = begin(parties[k]); p < end(parties[k]); p++) {
 					if (is_settled(parties[k], *p))
 						continue;
 					p->settled = changes;
@@ -63,10 +63,10 @@ public:
 	template <typename Visit> void each_hit(const Visit &visit) const
 	{
 		for (int32_t k = 0; k < count; k++) {
-			const Point *p = points[k], *const end = p + parties[k].points;
-			while (p < end) {
+			const Point *p = points + parties[k].first, *const last = p + parties[k].points;
+			while (p < last) {
 				const Point &first = *p++;
-				const bool has_second = p < end && p->partner.code == first.partner.code;
+				const bool has_second = p < last && p->partner.code == first.partner.code;
 				const Point &second = has_second ? *p++ : first;
 				const T total = has_second ? first.impulse + second.impulse : first.impulse, rub = has_second ? first.rub + second.rub : first.rub;
 				if (!(total > 0))
@@ -86,7 +86,7 @@ public:
 private:
 	/* Whom the shock has got to; what is held stands. */
 	struct Party {
-		int32_t id, points, changed; /* which of all changes was the last of its velocity */
+		int32_t id, first, points, changed; /* where its points begin, and how many there are; which of all changes was the last of its velocity */
 		bool is_held;
 		T vx, vy, w, inverse_mass, inverse_inertia;
 
@@ -126,18 +126,21 @@ private:
 	}
 
 	/* Which party the member with a number is, else -1; `id` may be none, -1. */
-	int32_t party_of(int32_t id) const
-	{
-		for (int32_t k = 0; id >= 0 && members[id].seen < 0 && k < count; k++)
-			if (parties[k].id == id)
-				return k;
-		return -1;
-	}
+	int32_t party_of(int32_t id) const { return id >= 0 && members[id].seen < 0 ? -1 - members[id].seen : -1; }
 
-	/* Has a party, if it is one, a point with slot s? */
-	bool has_point_with(int32_t party, int32_t s) const
+	Point *begin(const Party &party) { return points + party.first; }
+	Point *end(const Party &party) { return begin(party) + party.points; }
+
+	/* Has a party, if it is one, points with slot s? Then these are with party k. */
+	bool meets(int32_t party, int32_t s, int32_t k)
 	{
-		return party >= 0 && std::any_of(points[party], points[party] + parties[party].points, [s](const Point &p) { return p.partner.code == s; });
+		bool any = false;
+		if (party < 0)
+			return false;
+		for (Point *p = begin(parties[party]); p < end(parties[party]); p++)
+			if (p->partner.code == s)
+				p->other = k, any = true;
+		return any;
 	}
 
 	/* Moves a body to the time, and finds where it may be pushed, or push. */
@@ -149,9 +152,9 @@ private:
 		clusters.move(slot, way, time);
 		work[id].keep(way);
 		if (way.held > 0)
-			parties[k] = {id, 0, ++changes, true, 0, 0, 0, 0, 0};
+			parties[k] = {id, taken, 0, ++changes, true, 0, 0, 0, 0, 0};
 		else
-			parties[k] = {id, 0, ++changes, false, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, slot.mass[MASS_INVERSE],
+			parties[k] = {id, taken, 0, ++changes, false, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, slot.mass[MASS_INVERSE],
 				slot.mass[MASS_INVERSE_INERTIA]};
 		const auto partys = [&](int32_t other) { return party_of(own.own_number(other)); };
 		const auto way_of = [&](int32_t other) {
@@ -161,8 +164,8 @@ private:
 				parties[party].give(other_way.place, other_way.velocity);
 			return other_way;
 		};
-		const auto has_point = [&](int32_t other) { return has_point_with(partys(other), s); };
-		finder.each(s, way, nearness, way_of, has_point, [&](const Resting<T> &rest) {
+		const auto is_known = [&](int32_t other) { return meets(partys(other), s, k); };
+		finder.each(s, way, nearness, way_of, is_known, [&](const Resting<T> &rest) {
 			const bool moves = rest.partner.moves();
 			const int32_t party = moves ? partys(rest.partner.slot()) : -1;
 			const int32_t partner = party >= 0 ? party : moves && clusters.slots[rest.partner.slot()].is_dynamic() ? closed : fixed;
@@ -170,17 +173,14 @@ private:
 			const Trajectory<T> other_way = moves ? way_of(rest.partner.slot()) : way;
 			for (int32_t i = 0; i < rest.points && parties[k].points < SHOCK_POINTS; i++) {
 				const auto &at = rest.at[i];
-				Point &p = points[k][parties[k].points++];
+				Point &p = points[taken++];
+				parties[k].points++;
 				p = {rest.partner, partner, 0, rest.n, at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
 				if (moves)
 					p.coming = speed(other_way, p.n, p.other_arm), p.slipping = speed(other_way, p.along(), p.other_grip_arm);
 			}
 		});
-		members[id].seen = -1;
-		for (int32_t j = 0; j < k; j++)
-			for (Point *p = points[j]; p < points[j] + parties[j].points; p++)
-				if (p->partner.code == s)
-					p->other = k;
+		members[id].seen = -1 - k;
 	}
 
 	static T speed(const Trajectory<T> &way, const Vec<T> &n, T arm)
@@ -237,10 +237,10 @@ private:
 	Work<T> *const work;
 	RestFinder<T> finder;
 	const Nearness<T> nearness;
-	int32_t count = 0, changes = 0;
+	int32_t count = 0, taken = 0, changes = 0;
 	T time = 0;
 	Party parties[SHOCK_PARTIES];
-	Point points[SHOCK_PARTIES][SHOCK_POINTS];
+	Point points[SHOCK_PARTIES * SHOCK_POINTS]; /* those of one party follow each other */
 };
 
 }
