@@ -89,13 +89,18 @@ int party_of(LIST_OUT(members), LIST_IN(owners), int s, const shock *all)
 	return id >= 0 && members[MEMBER(id, MEMBER_SEEN)] < 0 ? id : -1;
 }
 
-/* Has a party, if it is one, a point with slot s? */
-bool has_point_with(RECORD_OUT(shocks), int party, int s)
+/* Has a party, if it is one, points with slot s? Then that is party id by now, and they are open. */
+bool points_meet(RECORD_OUT(shocks), int party, int s, int id)
 {
-	bool has = false;
-	for (int point = 0; party >= 0 && point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++)
-		has = has || CHANNEL(shocks[SHOCK(party, point) + SHOCK_PUSH], SHOCK_PARTNER) == (float)s;
-	return has;
+	bool any = false;
+	for (int point = 0; party >= 0 && point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
+		__global float4 *push = shocks + SHOCK(party, point) + SHOCK_PUSH;
+		if (CHANNEL(*push, SHOCK_PARTNER) == (float)s) {
+			*push = (float4)((float)s, (float)id, 0.0f, 0.0f);
+			any = true;
+		}
+	}
+	return any;
 }
 
 /* A party's points, from those of its contacts. */
@@ -122,9 +127,9 @@ void points_write(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_O
 		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
 }
 
-/* What the body in slot s rests on, but for what a party has a point for. */
+/* What the body in slot s, which becomes party id, rests on, but for what a party has a point for. */
 void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
-	int s, body own, const shock *all, rests *contacts)
+	int s, int id, body own, const shock *all, rests *contacts)
 {
 	int end = spans[SPAN(s, SPAN_END)];
 	nearness near = {all->weight, INFINITY};
@@ -132,7 +137,7 @@ void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slot
 	rest_on_walls(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, near, contacts);
 	for (int i = first_neighbour(spans, extra, s, end); i != -1; i = next_neighbour(extra, s, end, i)) {
 		int other = neighbour_of(neighbours, extra, i);
-		if (has_point_with(shocks, party_of(members, owners, other, all), s))
+		if (points_meet(shocks, party_of(members, owners, other, all), s, id))
 			continue;
 		body partner = body_of(slots, other, shock_way(slots, status, members, work, owners, other, all), all->length);
 		rest_on_body(VERTICES, TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, contacts);
@@ -147,14 +152,8 @@ void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots
 	rests contacts;
 	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
 	work_store(work, id, k);
-	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, s, body_of(slots, s, k, all->length), all, &contacts);
+	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, s, id, body_of(slots, s, k, all->length), all, &contacts);
 	points_write(slots, status, members, work, owners, shocks, id, &contacts, all);
-	for (int party = all->first; party >= 0; party = party_next(members, party))
-		for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
-			__global float4 *push = shocks + SHOCK(party, point) + SHOCK_PUSH;
-			if (CHANNEL(*push, SHOCK_PARTNER) == (float)s)
-				*push = (float4)((float)s, (float)id, 0.0f, 0.0f);
-		}
 	members[MEMBER(id, MEMBER_SEEN)] = -1;
 	if (all->count++ > 0)
 		members[MEMBER(all->last, MEMBER_SEEN)] = -2 - id;
