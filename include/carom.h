@@ -125,16 +125,20 @@ typedef struct carom_body_def {
 	                               a pair takes the geometric mean of its two; NaN (the default) takes the world's */
 	float rolling_friction; /**< 0..1000: of a circle, by the step contacts, the torque against rolling on what it rests on is at most so many times
 	                               its radius (of two circles the smaller one) times what acts along the normal; a pair takes the larger of its two; NaN (the default) takes the world's */
-	carom_vec2 force;       /**< N, constant, at the centre of mass; default (0, 0) */
-	float torque;           /**< N m, constant; default 0 */
-	bool is_static;         /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
-	bool is_kinematic;   /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
+	float
+		linear_damping; /**< 1/s, finite, >= 0: by the steps events and contacts a step of h seconds ends with the velocity divided by 1 + linear_damping h,
+	                               but of kinematic bodies; NaN (the default) takes the world's */
+	float angular_damping; /**< likewise of the angular velocity */
+	carom_vec2 force;      /**< N, constant, at the centre of mass; default (0, 0) */
+	float torque;          /**< N m, constant; default 0 */
+	bool is_static;        /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
+	bool is_kinematic;     /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
 	                               kinematic bodies and out of the room; forces must be 0. carom_world_set_states gives it other velocities */
-	uint32_t categories; /**< bits: what the body is; default CAROM_CATEGORIES. Two bodies hit each other if each is of a category that the
+	uint32_t categories;   /**< bits: what the body is; default CAROM_CATEGORIES. Two bodies hit each other if each is of a category that the
 	                               other's mask has, else they pass through each other as if the other was not there; walls stop all */
-	uint32_t mask;       /**< bits: the categories that it hits; default CAROM_MASK */
-	uint32_t color;      /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
-	const char *name;    /**< for people; NULL (the default) for none */
+	uint32_t mask;         /**< bits: the categories that it hits; default CAROM_MASK */
+	uint32_t color;        /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
+	const char *name;      /**< for people; NULL (the default) for none */
 } carom_body_def;
 
 /** What moves. */
@@ -158,6 +162,8 @@ typedef struct carom_body_info {
 	float restitution;          /**< 0..1 */
 	float friction;             /**< 0..1000 */
 	float rolling_friction;     /**< 0..1000 */
+	float linear_damping;       /**< 1/s */
+	float angular_damping;      /**< 1/s */
 	carom_vec2 force;           /**< N */
 	float torque;               /**< N m */
 	bool is_static;             /**< never moves */
@@ -254,6 +260,8 @@ typedef struct carom_world_def {
 	float restitution;       /**< 0..1, of the walls and of bodies that have none of their own; default 1 */
 	float friction;          /**< 0..1000, of the walls and of bodies that have none of their own; default 0: none */
 	float rolling_friction;  /**< likewise */
+	float linear_damping;    /**< 1/s, finite, >= 0, of bodies that have none of their own; default 0: none */
+	float angular_damping;   /**< likewise */
 	bool has_room;           /**< four walls that nothing passes; default none. Centres of mass must start inside, or outside by no more than
 	                          a thousandth of it; what of a body is beyond a wall at the start may stay there, but gets no farther */
 	carom_vec2 room_min;     /**< m, the lower left corner */

@@ -62,14 +62,14 @@ bool anything_rubs(TEX_IN(uniforms))
 	return CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RUBS, 0), RUBS_ANY) > 0.0f;
 }
 
-/* A body's coefficients, by its index, or those of the walls: -1. FRICTION_SLIDING comes first. */
+/* A body's coefficients of friction and of rolling friction, by its index, or those of the walls: -1. */
 float2 frictions_of(TEX_IN(uniforms), TEX_IN(friction), int index)
 {
 	float4 walls = TEX_LOAD(uniforms, UNIFORMS_RUBS, 0);
 	if (index < 0)
 		return (float2)(CHANNEL(walls, RUBS_WALLS), CHANNEL(walls, RUBS_ROLLING));
-	float4 two = ROW_LOAD(friction, index >> FRICTION_LOG2);
-	return index & (FRICTION_BODIES - 1) ? (float2)(two.z, two.w) : (float2)(two.x, two.y);
+	float4 own = ROW_LOAD(friction, index);
+	return (float2)(CHANNEL(own, FRICTION_SLIDING), CHANNEL(own, FRICTION_ROLLING));
 }
 
 /* The coefficient of friction of two bodies, by their indices, or of one and the walls: -1. */

@@ -37,12 +37,11 @@
 #define FORCES_TORQUE 2 /* N m */
 #define FORCES_RESTITUTION 3
 
-/* Friction: the coefficients of two bodies a texel */
-#define FRICTION_LOG2 1
-#define FRICTION_BODIES (1 << FRICTION_LOG2)
-#define FRICTION_WIDTH 2   /* channels a body */
-#define FRICTION_SLIDING 0 /* a pair takes the geometric mean of its two */
-#define FRICTION_ROLLING 1 /* a pair takes the larger */
+/* Friction: what brakes a body, a texel each */
+#define FRICTION_SLIDING 0        /* the coefficient; a pair takes the geometric mean of its two */
+#define FRICTION_ROLLING 1        /* likewise; a pair takes the larger */
+#define FRICTION_LINEAR_DAMPING 2 /* 1/s */
+#define FRICTION_ANGULAR_DAMPING 3
 
 /* Filters: which pairs may hit each other. A list: whether any may not; only then two ints a body follow. */
 #define FILTERS_ANY 0 /* 0 or 1 */
@@ -73,6 +72,7 @@
 #define RUBS_WALLS 0        /* their coefficient of friction */
 #define RUBS_ANY 1          /* 0 or 1: something has friction, or rolling friction */
 #define RUBS_ROLLING 2      /* the walls' coefficient of rolling friction */
+#define RUBS_DAMPS 3        /* 0 or 1: something has damping */
 
 /* Clock: how far the simulation is; five texels in a row, ping-pong */
 #define CLOCK_WIDTH 5

@@ -13,6 +13,8 @@ carom_body_def carom_default_body_def(void)
 		.restitution = NAN,
 		.friction = NAN,
 		.rolling_friction = NAN,
+		.linear_damping = NAN,
+		.angular_damping = NAN,
 		.categories = CAROM_CATEGORIES,
 		.mask = CAROM_MASK,
 		.color = CAROM_COLOR_AUTO};
@@ -117,6 +119,10 @@ static carom_status check_numbers(const carom_body_def *def, size_t index, carom
 		return fail_number(error, index, "friction", (double)def->friction, "from 0 to 1000");
 	if (!isnan(def->rolling_friction) && !(def->rolling_friction >= 0.0f && def->rolling_friction <= CAROM_MAX_FRICTION))
 		return fail_number(error, index, "rolling_friction", (double)def->rolling_friction, "from 0 to 1000");
+	if (!isnan(def->linear_damping) && !(def->linear_damping >= 0.0f && isfinite(def->linear_damping)))
+		return fail_number(error, index, "linear_damping", (double)def->linear_damping, "finite and at least 0 (1/s)");
+	if (!isnan(def->angular_damping) && !(def->angular_damping >= 0.0f && isfinite(def->angular_damping)))
+		return fail_number(error, index, "angular_damping", (double)def->angular_damping, "finite and at least 0 (1/s)");
 	if (!(def->mass >= 0.0f) || !isfinite(def->mass))
 		return fail_number(error, index, "mass", (double)def->mass, "above 0 (kg), or 0 for the density's");
 	if (def->mass == 0.0f && (!(def->density > 0.0f) || !isfinite(def->density)))
@@ -284,6 +290,8 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world_def *w
 	body->restitution = isnan(def->restitution) ? world->restitution : def->restitution;
 	body->friction = isnan(def->friction) ? world->friction : def->friction;
 	body->rolling_friction = isnan(def->rolling_friction) ? world->rolling_friction : def->rolling_friction;
+	body->linear_damping = isnan(def->linear_damping) ? world->linear_damping : def->linear_damping;
+	body->angular_damping = isnan(def->angular_damping) ? world->angular_damping : def->angular_damping;
 	body->force = def->force;
 	body->torque = def->torque;
 	body->color = def->color;

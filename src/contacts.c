@@ -50,7 +50,7 @@ static carom_status no_memory(const carom_world *world, carom_error *error)
 static carom_status warm_create(const carom_world *world, warm *w, carom_error *error)
 {
 	const uint32_t spans = WARM_SPAN_WIDTH * (world->capacity + 1);
-	*w = (warm){.width = WARM_WIDTH(world->rubs), .span_rows = carom_row_count(spans)};
+	*w = (warm){.width = WARM_WIDTH(world->traits & TRAIT_RUBS), .span_rows = carom_row_count(spans)};
 	w->spans = calloc((size_t)w->span_rows * carom_row_width(spans), sizeof *w->spans);
 	return w->spans ? CAROM_OK : no_memory(world, error);
 }
@@ -83,7 +83,7 @@ static void put_side(const carom_world *world, warm *w, uint32_t body, int32_t o
 	record = warm_at(w, body, span_of(w, body)[WARM_SPAN_COUNT]++);
 	record[WARM_PARTNER] = (float)other;
 	memcpy(record + WARM_FORCES, contact->normal, sizeof contact->normal);
-	if (world->rubs)
+	if (world->traits & TRAIT_RUBS)
 		memcpy(record + 4 + WARM_FRICTION, contact->friction, sizeof contact->friction);
 }
 
@@ -113,7 +113,7 @@ static carom_status make_room(carom_world *world, uint64_t contacts, carom_error
 		return carom_fail(error, CAROM_LIMIT, "the %zu bodies have %llu contacts: more than any device holds", world->body_count,
 			(unsigned long long)contacts);
 	world->events.warm_room = carom_events_enough((int32_t)contacts);
-	return carom_events_create_list(world, ROLE_WARM, false, WARM_WIDTH(world->rubs) * (uint64_t)world->events.warm_room, error);
+	return carom_events_create_list(world, ROLE_WARM, false, WARM_WIDTH(world->traits & TRAIT_RUBS) * (uint64_t)world->events.warm_room, error);
 }
 
 static carom_status send(carom_world *world, warm *w, carom_error *error)
@@ -166,7 +166,7 @@ static bool take_body(carom_world *world, const warm *w, uint32_t body)
 		*contact = other < (int32_t)body ? (carom_contact){.body = body, .other = other}
 										 : (carom_contact){.body = (uint32_t)other, .other = (int32_t)body};
 		memcpy(contact->normal, record + WARM_FORCES, sizeof contact->normal);
-		if (world->rubs)
+		if (world->traits & TRAIT_RUBS)
 			memcpy(contact->friction, record + 4 + WARM_FRICTION, sizeof contact->friction);
 	}
 	return true;

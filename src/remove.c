@@ -155,13 +155,13 @@ static void drop_waste(carom_world *world)
 
 /* ---- The device ---- */
 
-/* Will a body that rubs be left? */
-static bool will_rub(const carom_world *world, const uint32_t *numbers)
+/* Will there be bodies left with all that some have? */
+static bool traits_stay(const carom_world *world, const uint32_t *numbers)
 {
-	bool rub = !world->rubs;
-	for (size_t i = 0; i < world->body_count && !rub; i++)
-		rub = numbers[i] != GONE && carom_is_rough(&carom_world_bodies(world)[i]);
-	return rub && world->rubs;
+	unsigned traits = 0;
+	for (size_t i = 0; i < world->body_count && traits != world->traits; i++)
+		traits |= numbers[i] != GONE ? carom_traits_of(&carom_world_bodies(world)[i]) : 0;
+	return traits == world->traits;
 }
 
 static size_t circles_left(const carom_world *world, const uint32_t *indices, size_t count)
@@ -176,7 +176,7 @@ static size_t circles_left(const carom_world *world, const uint32_t *indices, si
 static bool may_leave(const carom_world *world, const uint32_t *indices, const uint32_t *numbers, size_t count)
 {
 	const bool is_wasteful = world->waste > MUCH_WASTE && world->waste > (world->vertices.used + world->names.used) / 2;
-	return carom_goes_on(world) && !is_wasteful && will_rub(world, numbers) == world->rubs && carom_are_few(count, world->body_count)
+	return carom_goes_on(world) && !is_wasteful && traits_stay(world, numbers) && carom_are_few(count, world->body_count)
 		&& count <= (size_t)carom_events_movers(world) && carom_textures_fit(world, world->body_count - count, circles_left(world, indices, count));
 }
 
@@ -208,7 +208,7 @@ static carom_status leave_anew(carom_world *world, const uint32_t *numbers, size
 	TRY(carom_contacts_fetch(world, error));
 	let_go(world, numbers, count);
 	drop_waste(world);
-	carom_look_for_friction(world, 0);
+	carom_look_for_traits(world, 0);
 	world->newest = PLACE_HOST;
 	carom_load_anew(world);
 	return CAROM_OK;

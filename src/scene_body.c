@@ -142,6 +142,8 @@ static const struct scene_field body_fields[] = {
 	{"restitution", scene_read_number, scene_quick_number, offsetof(struct body, def.restitution), &scene_part, false},
 	{"friction", scene_read_number, scene_quick_number, offsetof(struct body, def.friction), &scene_friction, false},
 	{"rolling_friction", scene_read_number, scene_quick_number, offsetof(struct body, def.rolling_friction), &scene_friction, false},
+	{"linear_damping", scene_read_number, scene_quick_number, offsetof(struct body, def.linear_damping), &scene_damping, false},
+	{"angular_damping", scene_read_number, scene_quick_number, offsetof(struct body, def.angular_damping), &scene_damping, false},
 	{"force", scene_read_pair, scene_quick_pair, offsetof(struct body, def.force), &scene_any, false},
 	{"torque", scene_read_number, scene_quick_number, offsetof(struct body, def.torque), &scene_any, false},
 	{"static", scene_read_flag, scene_quick_flag, offsetof(struct body, def.is_static), NULL, false},

@@ -19,6 +19,7 @@ const struct scene_range scene_any = {-FLT_MAX, FLT_MAX, false, "a number within
 const struct scene_range scene_positive = {0, FLT_MAX, true, "a number above 0, at most 3.4e38"};
 const struct scene_range scene_part = {0, 1, false, "a number from 0 to 1"};
 const struct scene_range scene_friction = {0, (double)CAROM_MAX_FRICTION, false, "a number from 0 to 1000"};
+const struct scene_range scene_damping = {0, FLT_MAX, false, "a number from 0 to 3.4e38"};
 const struct scene_range scene_bits = {0, UINT32_MAX, false, "a whole number from 0 to 4294967295, a bit for each category"};
 
 /* ---- Errors ---- */

@@ -61,7 +61,7 @@ struct scene_field {
 		NULL, NULL, NULL, 0, NULL, false \
 	}
 
-extern const struct scene_range scene_any, scene_positive, scene_part, scene_friction, scene_bits;
+extern const struct scene_range scene_any, scene_positive, scene_part, scene_friction, scene_damping, scene_bits;
 
 scene_read_function scene_read_number; /* into a float */
 scene_read_function scene_read_whole;  /* into a uint32_t */

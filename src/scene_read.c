@@ -108,6 +108,8 @@ static const struct scene_field scene_fields[] = {
 	{"restitution", scene_read_number, NULL, offsetof(carom_scene, world.restitution), &scene_part, false},
 	{"friction", scene_read_number, NULL, offsetof(carom_scene, world.friction), &scene_friction, false},
 	{"rolling_friction", scene_read_number, NULL, offsetof(carom_scene, world.rolling_friction), &scene_friction, false},
+	{"linear_damping", scene_read_number, NULL, offsetof(carom_scene, world.linear_damping), &scene_damping, false},
+	{"angular_damping", scene_read_number, NULL, offsetof(carom_scene, world.angular_damping), &scene_damping, false},
 	{"room", read_room, NULL, offsetof(carom_scene, world), NULL, false},
 	{"pipeline", read_pipeline, NULL, offsetof(carom_scene, world), NULL, false},
 	{"camera", read_camera, NULL, 0, NULL, false},

@@ -164,6 +164,8 @@ static void put_body(const struct writer *writer, const carom_body_info *info, c
 	put_number_key(stream, "restitution", info->restitution, writer->world->restitution);
 	put_number_key(stream, "friction", info->friction, writer->world->friction);
 	put_number_key(stream, "rolling_friction", info->rolling_friction, writer->world->rolling_friction);
+	put_number_key(stream, "linear_damping", info->linear_damping, writer->world->linear_damping);
+	put_number_key(stream, "angular_damping", info->angular_damping, writer->world->angular_damping);
 	put_pair_key(stream, "force", info->force, defaults->force);
 	put_number_key(stream, "torque", info->torque, defaults->torque);
 	if (info->is_static)
@@ -226,6 +228,15 @@ static void put_pipeline(const struct writer *writer)
 		fputs(" }", writer->stream);
 }
 
+/* A number of the scene, where it is not 0. */
+static void put_if_any(FILE *stream, const char *key, float number)
+{
+	if (number == 0.0f)
+		return;
+	fprintf(stream, ",\n  \"%s\": ", key);
+	put_number(stream, number);
+}
+
 static void put_world(const struct writer *writer, const carom_camera *camera)
 {
 	FILE *stream = writer->stream;
@@ -236,14 +247,10 @@ static void put_world(const struct writer *writer, const carom_camera *camera)
 	put_pair(stream, world->gravity);
 	fputs(",\n  \"restitution\": ", stream);
 	put_number(stream, world->restitution);
-	if (world->friction > 0) {
-		fputs(",\n  \"friction\": ", stream);
-		put_number(stream, world->friction);
-	}
-	if (world->rolling_friction > 0) {
-		fputs(",\n  \"rolling_friction\": ", stream);
-		put_number(stream, world->rolling_friction);
-	}
+	put_if_any(stream, "friction", world->friction);
+	put_if_any(stream, "rolling_friction", world->rolling_friction);
+	put_if_any(stream, "linear_damping", world->linear_damping);
+	put_if_any(stream, "angular_damping", world->angular_damping);
 	if (world->has_room) {
 		fputs(",\n  \"room\": { \"min\": ", stream);
 		put_pair(stream, world->room_min);

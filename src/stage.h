@@ -11,11 +11,11 @@ extern "C" {
 
 /* The textures by what they are for. Those that a kernel both reads and writes are pairs, a front and a back. */
 typedef enum carom_role {
-	ROLE_LINEAR,     /* pair; one texel a body, as the next three */
+	ROLE_LINEAR,     /* pair; one texel a body, as the next four */
 	ROLE_ROTATIONAL, /* pair */
 	ROLE_GEOMETRY,
 	ROLE_FORCES,
-	ROLE_FRICTION,       /* one texel FRICTION_BODIES bodies */
+	ROLE_FRICTION,
 	ROLE_FILTERS,        /* list, FILTER_WIDTH a body behind its head; of the head alone where all meet all */
 	ROLE_VERTICES,       /* one texel two vertices */
 	ROLE_UNIFORMS,       /* UNIFORMS_WIDTH x 1 */

@@ -65,7 +65,7 @@ static bool are_filtered(const carom_world *world, size_t first)
 
 void carom_roster_changed(carom_world *world, size_t first)
 {
-	if (world->rubs || are_filtered(world, first))
+	if (world->traits || are_filtered(world, first))
 		world->unsent |= UNSENT_INDICES;
 	world->bodies_current = false;
 	world->newest &= ~(unsigned)PLACE_TEXTURES;

@@ -179,11 +179,6 @@ uint32_t carom_polygon_texels(const carom_world *world)
 	return (uint32_t)(world->vertices.used / (2 * sizeof(carom_vec2)));
 }
 
-uint32_t carom_friction_texels(uint32_t capacity)
-{
-	return (capacity + FRICTION_BODIES - 1) >> FRICTION_LOG2;
-}
-
 /* The textures that every step has. */
 static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t vertex_capacity, carom_error *error)
 {
@@ -191,15 +186,12 @@ static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t v
 	static const struct {
 		carom_role role;
 		bool pair;
-	} a_body[] = {{ROLE_LINEAR, true}, {ROLE_ROTATIONAL, true}, {ROLE_GEOMETRY, false}, {ROLE_FORCES, false}};
+	} a_body[] = {{ROLE_LINEAR, true}, {ROLE_ROTATIONAL, true}, {ROLE_GEOMETRY, false}, {ROLE_FORCES, false}, {ROLE_FRICTION, false}};
 	const bool pairs = world->step->pairs;
 	carom_status status = CAROM_OK;
 	for (size_t i = 0; !status && i < sizeof a_body / sizeof *a_body; i++)
 		status = carom_textures_create(world, a_body[i].role, a_body[i].pair && pairs, carom_row_width(capacity), carom_row_count(capacity), zero,
 			error);
-	if (!status)
-		status = carom_textures_create(world, ROLE_FRICTION, false, carom_row_width(carom_friction_texels(capacity)),
-			carom_row_count(carom_friction_texels(capacity)), zero, error);
 	if (!status)
 		status = carom_textures_create(world, ROLE_VERTICES, false, carom_row_width(vertex_capacity), carom_row_count(vertex_capacity), zero, error);
 	if (!status)
@@ -212,7 +204,7 @@ static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t v
 uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs)
 {
 	const uint32_t capacity = carom_capacity(body_count);
-	uint64_t texels = (uint64_t)capacity * (pairs ? 6 : 4) + carom_friction_texels(capacity) + carom_capacity((vertex_count + body_count) / 2);
+	uint64_t texels = (uint64_t)capacity * (pairs ? 7 : 5) + carom_capacity((vertex_count + body_count) / 2);
 	return 16 * (texels + UNIFORMS_WIDTH + 2 * CLOCK_WIDTH);
 }
 

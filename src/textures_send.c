@@ -26,8 +26,9 @@ static void fill_uniforms(const carom_world *world, void *data)
 	rules[RULES_HAS_ROOM] = def->has_room ? 1.0f : 0.0f;
 	rules[RULES_RESTITUTION] = def->restitution;
 	rubs[RUBS_WALLS] = def->friction;
-	rubs[RUBS_ANY] = world->rubs ? 1.0f : 0.0f;
+	rubs[RUBS_ANY] = world->traits & TRAIT_RUBS ? 1.0f : 0.0f;
 	rubs[RUBS_ROLLING] = def->rolling_friction;
+	rubs[RUBS_DAMPS] = world->traits & TRAIT_DAMPS ? 1.0f : 0.0f;
 }
 
 void carom_geometry_fill(const carom_body *body, float texel[4])
@@ -69,8 +70,11 @@ static void fill_friction(const carom_world *world, void *data)
 {
 	float *texels = data;
 	for (size_t i = 0; i < world->body_count; i++) {
-		texels[FRICTION_WIDTH * i + FRICTION_SLIDING] = carom_world_bodies(world)[i].friction;
-		texels[FRICTION_WIDTH * i + FRICTION_ROLLING] = carom_world_bodies(world)[i].rolling_friction;
+		const carom_body *body = &carom_world_bodies(world)[i];
+		texels[4 * i + FRICTION_SLIDING] = body->friction;
+		texels[4 * i + FRICTION_ROLLING] = body->rolling_friction;
+		texels[4 * i + FRICTION_LINEAR_DAMPING] = body->is_kinematic ? 0.0f : body->linear_damping;
+		texels[4 * i + FRICTION_ANGULAR_DAMPING] = body->is_kinematic ? 0.0f : body->angular_damping;
 	}
 }
 
@@ -147,7 +151,7 @@ carom_status carom_filters_send(carom_world *world, carom_error *error)
 
 carom_status carom_friction_send(carom_world *world, carom_error *error)
 {
-	return send(world, ROLE_FRICTION, carom_friction_texels(world->capacity), fill_friction, error);
+	return send(world, ROLE_FRICTION, world->capacity, fill_friction, error);
 }
 
 /* One after the other, since of millions of bodies each takes much memory. */

@@ -151,26 +151,27 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	return CAROM_OK;
 }
 
-bool carom_is_rough(const carom_body *body)
+unsigned carom_traits_of(const carom_body *body)
 {
-	return body->friction > 0.0f || body->rolling_friction > 0.0f;
+	const bool rubs = body->friction > 0.0f || body->rolling_friction > 0.0f, damps = body->linear_damping > 0.0f || body->angular_damping > 0.0f;
+	return (rubs ? TRAIT_RUBS : 0u) | (damps ? TRAIT_DAMPS : 0u);
 }
 
-/* Does one from that index on rub? */
-static bool are_rough(const carom_world *world, size_t first)
+/* What those from that index on have. */
+static unsigned traits_from(const carom_world *world, size_t first)
 {
 	const carom_body *bodies = carom_world_bodies(world);
-	bool rough = false;
-	for (size_t i = first; i < world->body_count && !rough; i++)
-		rough = carom_is_rough(&bodies[i]);
-	return rough;
+	unsigned traits = 0;
+	for (size_t i = first; i < world->body_count; i++)
+		traits |= carom_traits_of(&bodies[i]);
+	return traits;
 }
 
-void carom_look_for_friction(carom_world *world, size_t first)
+void carom_look_for_traits(carom_world *world, size_t first)
 {
-	const bool rubbed = world->rubs;
-	world->rubs = (rubbed && first > 0) || are_rough(world, first);
-	world->prepared = world->prepared && world->rubs == rubbed;
+	const unsigned before = world->traits;
+	world->traits = (first > 0 ? before : 0) | traits_from(world, first);
+	world->prepared = world->prepared && world->traits == before;
 }
 
 /* How much there was of what grows with each body. */
@@ -199,7 +200,7 @@ static void go_back_to(carom_world *world, const ends *before)
 /* Do the device's textures, as they are, take the bodies from that index on? */
 static bool may_join(const carom_world *world, size_t first)
 {
-	return world->body_count > first && carom_goes_on(world) && (world->rubs || !are_rough(world, first))
+	return world->body_count > first && carom_goes_on(world) && !(traits_from(world, first) & ~world->traits)
 		&& carom_are_few(world->body_count - world->events.known, first) && carom_textures_fit(world, world->body_count, world->circle_count);
 }
 
@@ -214,7 +215,7 @@ static carom_status begin_anew(carom_world *world, const ends *before, carom_err
 	world->body_count = after.body_count;
 	if (status)
 		return status;
-	carom_look_for_friction(world, before->body_count);
+	carom_look_for_traits(world, before->body_count);
 	world->newest = PLACE_HOST;
 	world->contacts_sent = false; /* where others were before, the device still has their contacts */
 	carom_load_anew(world);
@@ -317,6 +318,8 @@ carom_status carom_world_get_body(const carom_world *world, uint32_t index, caro
 		.restitution = body->restitution,
 		.friction = body->friction,
 		.rolling_friction = body->rolling_friction,
+		.linear_damping = body->linear_damping,
+		.angular_damping = body->angular_damping,
 		.force = body->force,
 		.torque = body->torque,
 		.is_static = body->is_static,

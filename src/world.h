@@ -7,13 +7,19 @@
 #include "device.h"
 #include "step/step.h"
 
+/* What a step is another one for, if a body has it. */
+typedef enum carom_trait {
+	TRAIT_RUBS = 1,  /* friction, or rolling friction */
+	TRAIT_DAMPS = 2, /* damping */
+} carom_trait;
+
 /* A body as it is kept: what carom_body_info tells, with offsets instead of pointers. */
 typedef struct carom_body {
 	carom_shape shape;
 	float radius;                        /* as given; 0 for a polygon */
 	float bound;                         /* of the circle about the centre of mass */
 	uint32_t vertex_first, vertex_count; /* in world->vertices, the first an even number; count 1 and none there for a circle */
-	float mass, inertia, density, restitution, friction, rolling_friction, torque;
+	float mass, inertia, density, restitution, friction, rolling_friction, linear_damping, angular_damping, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color, categories, mask;
 	bool is_static, is_kinematic; /* one of them, or none */
@@ -140,7 +146,7 @@ struct carom_world {
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count, circle_count;
 	size_t waste;        /* bytes of vertices and names that may be of bodies that are gone alone */
-	bool rubs;           /* a body has friction, or rolling friction */
+	unsigned traits;     /* carom_trait: what some body has */
 	unsigned newest;     /* carom_place: all that have the newest state, but for `changes` */
 	bool bodies_current; /* the device's constant textures are those of the bodies */
 	bool slots_current;  /* its slots are of the bodies as they are, but for what is to be told of; else they are to be loaded anew */
@@ -184,10 +190,10 @@ carom_status carom_check_span(const char *things, size_t first, size_t count, co
 carom_status carom_check_bodies(const carom_world *world, uint32_t first, size_t count, carom_error *error);
 /* An angle within a turn, as kernels keep it. */
 float carom_wrapped(float angle);
-/* Has it friction, or rolling friction? */
-bool carom_is_rough(const carom_body *body);
+/* Which of carom_trait a body has. */
+unsigned carom_traits_of(const carom_body *body);
 /* Once something rubs, or nothing does any more, the step needs other textures: of bodies from that index on that are new, or of all from 0. */
-void carom_look_for_friction(carom_world *world, size_t first);
+void carom_look_for_traits(carom_world *world, size_t first);
 
 /* outlines.c. Has the world room for so many vertices more? */
 #define CAROM_MOST_VERTICES (6u << 22) /* with those of circles they take 2^24 texels at most, and so do the indices of these */
@@ -242,7 +248,6 @@ bool carom_textures_fit(const carom_world *world, size_t body_count, size_t circ
 /* Brings the state back to the host. */
 carom_status carom_textures_fetch(carom_world *world, carom_error *error);
 uint64_t carom_textures_memory(size_t body_count, size_t vertex_count, bool pairs);
-uint32_t carom_friction_texels(uint32_t capacity);
 /* contacts.c: what the step contacts keeps of the last step, to the device before a batch, and back */
 carom_status carom_contacts_send(carom_world *world, carom_error *error);
 carom_status carom_contacts_fetch(carom_world *world, carom_error *error);

@@ -40,9 +40,9 @@ static void move(queue_body *k, double time)
 static void end(queue_body *k, double length)
 {
 	move(k, 1.0);
-	k->at.vx /= length;
-	k->at.vy /= length;
-	k->at.w /= length;
+	k->at.vx /= length * (1.0 + k->damping * length);
+	k->at.vy /= length * (1.0 + k->damping * length);
+	k->at.w /= length * (1.0 + k->angular_damping * length);
 }
 
 /* The body as a hit at `time` sees it: a held one stands still, whatever its velocity was. */

@@ -13,6 +13,7 @@ typedef struct queue_body {
 	exact_body at;  /* between steps in m and s; in a step in parts of it, as it was at `time` */
 	double push[3]; /* m/s^2, m/s^2, rad/s^2 */
 	double inverse_mass, inverse_inertia, restitution, friction;
+	double damping, angular_damping; /* 1/s */
 	uint32_t categories, mask;
 	double time;     /* part of the step */
 	uint32_t events; /* of this step, */

@@ -37,6 +37,8 @@ static void take_body(queue_body *k, carom_world *world, uint32_t index)
 	k->inverse_inertia = 1.0 / (double)info.inertia;
 	k->restitution = (double)info.restitution;
 	k->friction = (double)info.friction;
+	k->damping = info.is_kinematic ? 0.0 : (double)info.linear_damping;
+	k->angular_damping = info.is_kinematic ? 0.0 : (double)info.angular_damping;
 	k->categories = info.categories;
 	k->mask = info.mask;
 	if (k->inverse_mass > 0.0) {

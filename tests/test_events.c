@@ -17,30 +17,36 @@ typedef struct scene {
 	bool all_move;
 	float driven; /* m/s, rad/s: up to which most of what else is static is kinematic; 0: none */
 	bool filtered;
+	float damping; /* 1/s, about */
 } scene;
 
 static const scene scenes[] = {
-	{"20 circles", SCENERY_CIRCLES, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false, 0.0f, false},
-	{"200 circles", SCENERY_CIRCLES, 200, 1.15f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f, false},
-	{"circles without a room", SCENERY_CIRCLES, 100, 1.15f, 2.0f, false, false, 0.0f, 1.0f, 0.0f, 0.02f, true, 0.0f, false},
-	{"circles that fall", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.8f, 0.0f, 1.0f / 60.0f, false, 0.0f, false},
-	{"20 polygons", SCENERY_POLYGONS, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false, 0.0f, false},
-	{"120 polygons", SCENERY_POLYGONS, 120, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f, false},
-	{"polygons without a room", SCENERY_POLYGONS, 80, 1.1f, 2.0f, false, false, 0.0f, 0.9f, 0.0f, 0.02f, true, 0.0f, false},
-	{"polygons that fall", SCENERY_POLYGONS, 60, 1.2f, 3.0f, true, true, -10.0f, 0.3f, 0.0f, 1.0f / 60.0f, false, 0.0f, false},
-	{"150 of all kinds", SCENERY_MIXED, 150, 1.2f, 3.0f, true, true, 0.0f, 0.7f, 0.0f, 1.0f / 60.0f, false, 0.0f, false},
-	{"all kinds that fall", SCENERY_MIXED, 100, 1.2f, 4.0f, true, true, -3.0f, 0.9f, 0.0f, 0.05f, false, 0.0f, false},
-	{"circles that don't bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 0.0f, 0.0f, 0.02f, false, 0.0f, false},
-	{"circles that fall and hardly bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.1f, 0.0f, 1.0f / 60.0f, false, 0.0f, false},
-	{"long steps", SCENERY_MIXED, 60, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.0f, 0.2f, false, 0.0f, false},
-	{"circles that rub", SCENERY_CIRCLES, 100, 1.15f, 3.0f, true, false, 0.0f, 0.9f, 0.3f, 0.02f, false, 0.0f, false},
-	{"polygons that rub", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.5f, 0.02f, false, 0.0f, false},
-	{"all kinds that fall and rub", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false, 0.0f, false},
-	{"circles among kinematic ones", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 2.0f, false},
-	{"polygons among kinematic ones", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, -3.0f, 0.9f, 0.0f, 0.02f, false, 2.0f, false},
-	{"all kinds that fall and rub, driven", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false, 4.0f, false},
-	{"circles that pass through some", SCENERY_CIRCLES, 150, 1.1f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f, true},
-	{"all kinds that fall and pass through some", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.3f, 1.0f / 60.0f, false, 2.0f, true},
+	{"20 circles", SCENERY_CIRCLES, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false, 0.0f, false, 0.0f},
+	{"200 circles", SCENERY_CIRCLES, 200, 1.15f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f, false, 0.0f},
+	{"circles without a room", SCENERY_CIRCLES, 100, 1.15f, 2.0f, false, false, 0.0f, 1.0f, 0.0f, 0.02f, true, 0.0f, false, 0.0f},
+	{"circles that fall", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.8f, 0.0f, 1.0f / 60.0f, false, 0.0f, false, 0.0f},
+	{"20 polygons", SCENERY_POLYGONS, 20, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, false, 0.0f, false, 0.0f},
+	{"120 polygons", SCENERY_POLYGONS, 120, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f, false, 0.0f},
+	{"polygons without a room", SCENERY_POLYGONS, 80, 1.1f, 2.0f, false, false, 0.0f, 0.9f, 0.0f, 0.02f, true, 0.0f, false, 0.0f},
+	{"polygons that fall", SCENERY_POLYGONS, 60, 1.2f, 3.0f, true, true, -10.0f, 0.3f, 0.0f, 1.0f / 60.0f, false, 0.0f, false, 0.0f},
+	{"150 of all kinds", SCENERY_MIXED, 150, 1.2f, 3.0f, true, true, 0.0f, 0.7f, 0.0f, 1.0f / 60.0f, false, 0.0f, false, 0.0f},
+	{"all kinds that fall", SCENERY_MIXED, 100, 1.2f, 4.0f, true, true, -3.0f, 0.9f, 0.0f, 0.05f, false, 0.0f, false, 0.0f},
+	{"circles that don't bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 0.0f, 0.0f, 0.02f, false, 0.0f, false, 0.0f},
+	{"circles that fall and hardly bounce", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, -10.0f, 0.1f, 0.0f, 1.0f / 60.0f, false, 0.0f, false,
+		0.0f},
+	{"long steps", SCENERY_MIXED, 60, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.0f, 0.2f, false, 0.0f, false, 0.0f},
+	{"circles that rub", SCENERY_CIRCLES, 100, 1.15f, 3.0f, true, false, 0.0f, 0.9f, 0.3f, 0.02f, false, 0.0f, false, 0.0f},
+	{"polygons that rub", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.5f, 0.02f, false, 0.0f, false, 0.0f},
+	{"all kinds that fall and rub", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false, 0.0f, false, 0.0f},
+	{"circles among kinematic ones", SCENERY_CIRCLES, 100, 1.2f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 2.0f, false, 0.0f},
+	{"polygons among kinematic ones", SCENERY_POLYGONS, 80, 1.2f, 3.0f, true, false, -3.0f, 0.9f, 0.0f, 0.02f, false, 2.0f, false, 0.0f},
+	{"all kinds that fall and rub, driven", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, false, 4.0f, false, 0.0f},
+	{"circles that pass through some", SCENERY_CIRCLES, 150, 1.1f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f, true, 0.0f},
+	{"all kinds that fall and pass through some", SCENERY_MIXED, 120, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.3f, 1.0f / 60.0f, false, 2.0f, true,
+		0.0f},
+	{"circles that are damped", SCENERY_CIRCLES, 150, 1.1f, 4.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, false, 0.0f, false, 0.5f},
+	{"all kinds that fall, rub and are damped", SCENERY_MIXED, 120, 1.25f, 4.0f, true, true, -3.0f, 0.9f, 0.3f, 1.0f / 60.0f, false, 2.0f, false,
+		2.0f},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -59,6 +65,10 @@ static carom_world_def make(const scene *s, uint64_t seed, carom_body_def *bodie
 			bodies[i].restitution = scenery_uniform(&random, 0.3f, 1.0f);
 		if (s->friction > 0.0f)
 			bodies[i].friction = scenery_uniform(&random, 0.0f, 2.0f * s->friction);
+		if (s->damping > 0.0f) {
+			bodies[i].linear_damping = scenery_uniform(&random, 0.0f, 2.0f * s->damping);
+			bodies[i].angular_damping = scenery_uniform(&random, 0.0f, 2.0f * s->damping);
+		}
 		if (s->all_move) { /* towards the middle, or they would fly apart */
 			bodies[i].is_static = false;
 			bodies[i].velocity.x -= bodies[i].position.x;

@@ -27,7 +27,8 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 		status[STATUS_BUSTLE] = status[STATUS_HITS];
 		status[STATUS_ANSWERED] += status[STATUS_HITS];
 		status[STATUS_KEPT_BEFORE] = status[STATUS_KEPT];
-		bool busy = status[STATUS_ACTIVE] > domain.w / BUSY;
+		bool busy = status[STATUS_ACTIVE] > domain.w / BUSY
+			|| CHANNEL(TEX_LOAD(uniforms, UNIFORMS_RUBS, 0), RUBS_DAMPS) > 0.0f; /* a look is good for ways that go on as they are */
 		status[STATUS_AGE] = busy || status[STATUS_AHEAD] == 0 ? 0 : status[STATUS_AGE] + 1;
 		status[STATUS_AHEAD] = busy ? 0 : HORIZON - 1;
 	}

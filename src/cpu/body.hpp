@@ -155,12 +155,8 @@ public:
 	const bool any;
 
 private:
-	T coefficient(int32_t i, int32_t which) const
-	{
-		return coefficients.of(i >> FRICTION_LOG2, FRICTION_WIDTH * (i & (FRICTION_BODIES - 1)) + which);
-	}
-	T of(int32_t i) const { return coefficient(i, FRICTION_SLIDING); }
-	T rolling_of(int32_t i) const { return coefficient(i, FRICTION_ROLLING); }
+	T of(int32_t i) const { return coefficients.of(i, FRICTION_SLIDING); }
+	T rolling_of(int32_t i) const { return coefficients.of(i, FRICTION_ROLLING); }
 
 	const T walls, rolling_walls;
 	const Texels<T> coefficients;

@@ -102,7 +102,7 @@ static carom_status create_contacts(carom_world *world, carom_error *error)
 {
 	const uint64_t fours = world->events.fours_room;
 	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, FOUR_WIDTH * fours, error));
-	return carom_events_create_list(world, ROLE_GRIPS, false, GRIP_WIDTH * (world->rubs ? fours : 1), error);
+	return carom_events_create_list(world, ROLE_GRIPS, false, GRIP_WIDTH * (world->traits & TRAIT_RUBS ? fours : 1), error);
 }
 
 /* Points, and forces that are kept, for which there was no room. What Contacts has is found anew with new lists; what Warm has the host sends. */
@@ -130,7 +130,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_SHOCKS, false, SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n), error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_OF(n), error));
 	TRY(carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error));
-	TRY(carom_events_create_list(world, ROLE_WARM, false, WARM_WIDTH(world->rubs) * (uint64_t)world->events.warm_room, error));
+	TRY(carom_events_create_list(world, ROLE_WARM, false, WARM_WIDTH(world->traits & TRAIT_RUBS) * (uint64_t)world->events.warm_room, error));
 	return carom_events_create_list(world, ROLE_WARM_SPANS, false, WARM_SPAN_WIDTH * (n + 1), error);
 }
 

@@ -10,7 +10,8 @@ public:
 		: slots(reinterpret_cast<Slot<T> *>(job.records(2))), status(job.list(4)), members(reinterpret_cast<Member *>(job.list(5))),
 		  work(reinterpret_cast<const Work<T> *>(job.records(6))), owners(job.list(7)), parents(job.list(8)),
 		  spans(reinterpret_cast<Span *>(job.list(9))), wakes(reinterpret_cast<Wake *>(job.list(10))), clock(job.texels(1)),
-		  hits(job.records(12), status), mover(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH)),
+		  hits(job.records(12), status), mover(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH)), friction(job.texels(13)),
+		  damps(job.texels(0).fact(UNIFORMS_RUBS, RUBS_DAMPS) > 0),
 		  keeper(slots, job.records(3), status, job.list(10), job.list(11), job.domain[2], job.texels(0))
 	{
 	}
@@ -35,6 +36,11 @@ private:
 		if (slot.is_static())
 			return;
 		mover.move(slot, way, T(1));
+		if (damps) {
+			for (int32_t component : {LINEAR_VX, LINEAR_VY})
+				way.place[component] = damped(way.place[component], slot, FRICTION_LINEAR_DAMPING);
+			way.velocity = damped(way.velocity, slot, FRICTION_ANGULAR_DAMPING);
+		}
 		for (int32_t k = 0; k < 4; k++) /* one by one, as they were written: a copy of all would wait until they lie in the cache */
 			slot.place[k] = way.place[k];
 		slot.turn[TURN_ANGLE] = way.angle;
@@ -84,6 +90,8 @@ private:
 		becomes(place[LINEAR_VY], place[LINEAR_VY] + part * ay);
 		becomes(turn[TURN_ANGLE], angle);
 		becomes(turn[TURN_VELOCITY], turn[TURN_VELOCITY] + part * b);
+		if (damps)
+			damp(four, place, turn);
 		decltype(inverse > 0) leave;
 		keeper.may_leave(s, place, push, turn[TURN_RADIUS], leave);
 		transpose<T>(place), transpose<T>(turn);
@@ -99,6 +107,23 @@ private:
 		}
 	}
 
+	/* A velocity of a body as the step ends; what hardly moves stops, before its numbers are too small for some devices. */
+	T damped(T velocity, const Slot<T> &slot, int32_t which) const
+	{
+		const T damping = friction.of(slot.body(), which), slower = velocity / (1 + damping * mover.length);
+		return damping > 0 && std::abs(slower) < T(STILL_LEAST) ? T(0) : slower;
+	}
+
+	/* Four bodies, that have the components of their velocities side by side. */
+	void damp(const Slot<T> *four, Lanes<T> *place, Lanes<T> *turn) const
+	{
+		for (int32_t i = 0; i < lane_count; i++) {
+			for (int32_t component : {LINEAR_VX, LINEAR_VY})
+				place[component][i] = damped(place[component][i], four[i], FRICTION_LINEAR_DAMPING);
+			turn[TURN_VELOCITY][i] = damped(turn[TURN_VELOCITY][i], four[i], FRICTION_ANGULAR_DAMPING);
+		}
+	}
+
 	Slot<T> *const slots;
 	int32_t *const status;
 	Member *const members;
@@ -109,6 +134,8 @@ private:
 	const Texels<T> clock;
 	const Hits<T> hits;
 	const Mover<T> mover;
+	const Texels<T> friction;
+	const bool damps;
 	const ReachKeeper<T> keeper;
 };
 
