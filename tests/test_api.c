@@ -70,6 +70,8 @@ static void definitions_out_of_range(void **unused)
 		REFUSE("restitution: found ", restitution, no_numbers[i]);
 		REFUSE("friction: found ", friction, no_numbers[i]);
 		REFUSE("rolling_friction: found ", rolling_friction, no_numbers[i]);
+		REFUSE("linear_damping: found ", linear_damping, no_numbers[i]);
+		REFUSE("angular_damping: found ", angular_damping, no_numbers[i]);
 		REFUSE("epsilon: found ", epsilon, no_numbers[i]);
 		REFUSE("room: min and max must be two finite numbers", room_min.x, no_numbers[i]);
 		REFUSE("room: min and max must be two finite numbers", room_min.y, no_numbers[i]);
@@ -84,6 +86,8 @@ static void definitions_out_of_range(void **unused)
 	REFUSE("friction: found -0.5, must be from 0 to 1000", friction, -0.5f);
 	REFUSE("friction: found 1001, must be from 0 to 1000", friction, 1001.0f);
 	REFUSE("rolling_friction: found -0.5, must be from 0 to 1000", rolling_friction, -0.5f);
+	REFUSE("linear_damping: found -0.5, must be finite and at least 0 (1/s)", linear_damping, -0.5f);
+	REFUSE("angular_damping: found -0.5, must be finite and at least 0 (1/s)", angular_damping, -0.5f);
 	REFUSE("epsilon: found 0, must be from 2^-22 to 0.5", epsilon, 0.0f);
 	REFUSE("epsilon: found 1.19209e-07, must be from 2^-22 to 0.5", epsilon, FLT_EPSILON);
 	REFUSE("epsilon: found 0.75, must be from 2^-22 to 0.5", epsilon, 0.75f);

@@ -12,8 +12,8 @@ static const char *const texts[] = {
 	" ",
 	"{" CIRCLE "}",
 	"{" CIRCLE ", \"position\": [1, -2.5], \"velocity\": [0.1, -0.0], \"angle\": 3, \"angular_velocity\": -1e-3}",
-	" { " CIRCLE " , \"mass\" : 3 } , \n\t{" CIRCLE
-	",\"density\":7.8,\"restitution\":0.25,\"friction\":1e-1,\"rolling_friction\":0.02,\"force\":[1,2],\"torque\":-0}\r\n",
+	" { " CIRCLE " , \"mass\" : 3 } , \n\t{" CIRCLE ",\"density\":7.8,\"restitution\":0.25,\"friction\":1e-1,\"rolling_friction\":0.02,\"linear_"
+													"damping\":0.5,\"angular_damping\":1e30,\"force\":[1,2],\"torque\":-0}\r\n",
 	"{" CIRCLE ", \"static\": true}, {" CIRCLE ", \"static\": false}",
 	"{" CIRCLE ", \"kinematic\": true, \"velocity\": [1, 2]}, {" CIRCLE ", \"kinematic\": false}",
 	"{" CIRCLE ", \"color\": \"#c3f\", \"name\": \"a b\"}, {" CIRCLE ", \"color\": \"#01aBcD\", \"name\": \"\"}",
@@ -68,6 +68,8 @@ static const char *const texts[] = {
 	"{" CIRCLE ", \"restitution\": -0.1}",
 	"{" CIRCLE ", \"friction\": 1000.1}",
 	"{" CIRCLE ", \"rolling_friction\": 1000.1}",
+	"{" CIRCLE ", \"linear_damping\": -0.1}",
+	"{" CIRCLE ", \"angular_damping\": 1e39}",
 	"{" CIRCLE ", \"friction\": -0.1}",
 	"{" CIRCLE ", \"static\": 1}",
 	"{" CIRCLE ", \"static\": truely}",
@@ -121,10 +123,10 @@ static void assert_same_body(const carom_body_def *a, const carom_body_def *b, c
 	assert_int_equal(x.is_kinematic, y.is_kinematic);
 	assert_true(x.sides == y.sides && x.vertex_count == y.vertex_count && x.color == y.color);
 	assert_true(x.categories == y.categories && x.mask == y.mask);
-	const float numbers[2][13] = {{x.radius, x.position.x, x.position.y, x.velocity.x, x.velocity.y, x.angle, x.angular_velocity, x.density, x.mass,
-									  x.restitution, x.friction, x.rolling_friction, x.torque},
+	const float numbers[2][15] = {{x.radius, x.position.x, x.position.y, x.velocity.x, x.velocity.y, x.angle, x.angular_velocity, x.density, x.mass,
+									  x.restitution, x.friction, x.rolling_friction, x.linear_damping, x.angular_damping, x.torque},
 		{y.radius, y.position.x, y.position.y, y.velocity.x, y.velocity.y, y.angle, y.angular_velocity, y.density, y.mass, y.restitution, y.friction,
-			y.rolling_friction, y.torque}};
+			y.rolling_friction, y.linear_damping, y.angular_damping, y.torque}};
 	assert_same_bytes(numbers[0], numbers[1], sizeof numbers[0], text);
 	assert_same_bytes(&x.force, &y.force, sizeof x.force, text);
 }

@@ -45,6 +45,8 @@ static void assert_same_world(carom_world *a, carom_world *b)
 		assert_memory_equal(&x.restitution, &y.restitution, sizeof x.restitution);
 		assert_memory_equal(&x.friction, &y.friction, sizeof x.friction);
 		assert_memory_equal(&x.rolling_friction, &y.rolling_friction, sizeof x.rolling_friction);
+		assert_memory_equal(&x.linear_damping, &y.linear_damping, sizeof x.linear_damping);
+		assert_memory_equal(&x.angular_damping, &y.angular_damping, sizeof x.angular_damping);
 		assert_memory_equal(&x.force, &y.force, sizeof x.force);
 		assert_memory_equal(&x.torque, &y.torque, sizeof x.torque);
 		if (x.vertices)

@@ -56,6 +56,8 @@ static void make(scenery_random *random, uint32_t sizes, wild_world *world)
 	def->restitution = restitutions[below(random, 6)];
 	def->friction = frictions[below(&rubbing, 6)];
 	def->rolling_friction = one_in(&rubbing, 3) ? 0.125f : 0.0f;
+	def->linear_damping = one_in(&rubbing, 6) ? scenery_uniform(&rubbing, 0.0f, 4.0f) : 0.0f;
+	def->angular_damping = def->linear_damping;
 	def->gravity.y = one_in(random, 2) ? -scenery_uniform(random, 0.0f, 20.0f) : 0.0f;
 	def->has_room = true;
 	def->room_min = (carom_vec2){middle - half, -half};
@@ -239,6 +241,8 @@ static void replace(carom_world *world, uint32_t index)
 	def.restitution = info.restitution;
 	def.friction = info.friction;
 	def.rolling_friction = info.rolling_friction;
+	def.linear_damping = info.linear_damping;
+	def.angular_damping = info.angular_damping;
 	def.force = info.force;
 	def.torque = info.torque;
 	def.categories = info.categories;

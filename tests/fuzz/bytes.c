@@ -119,8 +119,9 @@ static void exchange_in_world(bytes *b, carom_world_def *def)
 {
 	static const size_t floats[] = {offsetof(carom_world_def, time_step), offsetof(carom_world_def, gravity.x), offsetof(carom_world_def, gravity.y),
 		offsetof(carom_world_def, restitution), offsetof(carom_world_def, friction), offsetof(carom_world_def, rolling_friction),
-		offsetof(carom_world_def, room_min.x), offsetof(carom_world_def, room_min.y), offsetof(carom_world_def, room_max.x),
-		offsetof(carom_world_def, room_max.y), offsetof(carom_world_def, epsilon)};
+		offsetof(carom_world_def, linear_damping), offsetof(carom_world_def, angular_damping), offsetof(carom_world_def, room_min.x),
+		offsetof(carom_world_def, room_min.y), offsetof(carom_world_def, room_max.x), offsetof(carom_world_def, room_max.y),
+		offsetof(carom_world_def, epsilon)};
 	static const char *const devices[] = {"", "auto", "CPU", "abacus", "cpu and a name that is far too long to be kept in a message as it is"};
 	const char **name = (const char **)(void *)&def->pipeline + bytes_below(b, sizeof def->pipeline / sizeof *name);
 	switch (bytes_below(b, 8)) {
@@ -232,7 +233,8 @@ static void exchange_in_body(bytes *b, carom_body_def *def, carom_vec2 *vertices
 		offsetof(carom_body_def, velocity.x), offsetof(carom_body_def, velocity.y), offsetof(carom_body_def, angle),
 		offsetof(carom_body_def, angular_velocity), offsetof(carom_body_def, density), offsetof(carom_body_def, mass),
 		offsetof(carom_body_def, restitution), offsetof(carom_body_def, friction), offsetof(carom_body_def, rolling_friction),
-		offsetof(carom_body_def, force.x), offsetof(carom_body_def, force.y), offsetof(carom_body_def, torque)};
+		offsetof(carom_body_def, linear_damping), offsetof(carom_body_def, angular_damping), offsetof(carom_body_def, force.x),
+		offsetof(carom_body_def, force.y), offsetof(carom_body_def, torque)};
 	static const size_t coordinates[] = {offsetof(carom_vec2, x), offsetof(carom_vec2, y)};
 	switch (bytes_below(b, 10)) {
 	case 0: def->shape = (carom_shape)bytes_below(b, 5); break;
@@ -291,6 +293,8 @@ carom_body_def bytes_body_def(bytes *b, const carom_world_def *world, bytes_body
 		def.friction = bytes_between(b, 0.0f, 2.0f);
 	if ((flags & 96) == 96)
 		def.rolling_friction = bytes_between(b, 0.0f, 1.0f);
+	if ((flags & 80) == 80)
+		def.linear_damping = def.angular_damping = bytes_between(b, 0.0f, 4.0f);
 	if ((flags & 192) == 192) {
 		def.categories = 1u << (flags & 3);
 		def.mask = ~(1u << (flags >> 2 & 3));
