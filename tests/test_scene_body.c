@@ -13,7 +13,7 @@ static const char *const texts[] = {
 	"{" CIRCLE "}",
 	"{" CIRCLE ", \"position\": [1, -2.5], \"velocity\": [0.1, -0.0], \"angle\": 3, \"angular_velocity\": -1e-3}",
 	" { " CIRCLE " , \"mass\" : 3 } , \n\t{" CIRCLE ",\"density\":7.8,\"restitution\":0.25,\"friction\":1e-1,\"rolling_friction\":0.02,\"linear_"
-													"damping\":0.5,\"angular_damping\":1e30,\"force\":[1,2],\"torque\":-0}\r\n",
+	"damping\":0.5,\"angular_damping\":1e30,\"force\":[1,2],\"torque\":-0}\r\n",
 	"{" CIRCLE ", \"static\": true}, {" CIRCLE ", \"static\": false}",
 	"{" CIRCLE ", \"kinematic\": true, \"velocity\": [1, 2]}, {" CIRCLE ", \"kinematic\": false}",
 	"{" CIRCLE ", \"color\": \"#c3f\", \"name\": \"a b\"}, {" CIRCLE ", \"color\": \"#01aBcD\", \"name\": \"\"}",
