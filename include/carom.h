@@ -123,22 +123,22 @@ typedef struct carom_body_def {
 	                               NaN (the default) takes the world's */
 	float friction;             /**< 0..1000, Coulomb's: what acts along the surfaces is at most so many times what acts along the normal;
 	                               a pair takes the geometric mean of its two; NaN (the default) takes the world's */
-	float rolling_friction; /**< 0..1000: of a circle, by the step contacts, the torque against rolling on what it rests on is at most so many times
-	                               its radius (of two circles the smaller one) times what acts along the normal; a pair takes the larger of its two; NaN (the default) takes the world's */
-	float
-		linear_damping; /**< 1/s, finite, >= 0: by the steps events and contacts a step of h seconds ends with the velocity divided by 1 + linear_damping h,
-	                               but of kinematic bodies; NaN (the default) takes the world's */
-	float angular_damping; /**< likewise of the angular velocity */
-	carom_vec2 force;      /**< N, constant, at the centre of mass; default (0, 0) */
-	float torque;          /**< N m, constant; default 0 */
-	bool is_static;        /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
-	bool is_kinematic;     /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
+	float rolling_friction; /**< 0..1000, of circles, by the step contacts: the torque against rolling on what they rest on is at most so many times
+	                               the radius (of two circles the smaller one) times what acts along the normal; a pair takes the larger of its two;
+	                               NaN (the default) takes the world's */
+	float linear_damping;   /**< 1/s, finite, >= 0: by events and contacts a step of h seconds ends with the velocity divided by
+	                               1 + linear_damping h, but of kinematic bodies; NaN (the default) takes the world's */
+	float angular_damping;  /**< likewise of the angular velocity */
+	carom_vec2 force;       /**< N, constant, at the centre of mass; default (0, 0) */
+	float torque;           /**< N m, constant; default 0 */
+	bool is_static;         /**< infinite mass and inertia: never moves; velocities and forces must be 0 */
+	bool is_kinematic;   /**< infinite mass and inertia, too, but it moves: on and on with its velocities, whatever it hits, also through static and
 	                               kinematic bodies and out of the room; forces must be 0. carom_world_set_states gives it other velocities */
-	uint32_t categories;   /**< bits: what the body is; default CAROM_CATEGORIES. Two bodies hit each other if each is of a category that the
+	uint32_t categories; /**< bits: what the body is; default CAROM_CATEGORIES. Two bodies hit each other if each is of a category that the
 	                               other's mask has, else they pass through each other as if the other was not there; walls stop all */
-	uint32_t mask;         /**< bits: the categories that it hits; default CAROM_MASK */
-	uint32_t color;        /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
-	const char *name;      /**< for people; NULL (the default) for none */
+	uint32_t mask;       /**< bits: the categories that it hits; default CAROM_MASK */
+	uint32_t color;      /**< 0xRRGGBB or CAROM_COLOR_AUTO (the default) */
+	const char *name;    /**< for people; NULL (the default) for none */
 } carom_body_def;
 
 /** What moves. */
@@ -342,14 +342,13 @@ typedef enum carom_wall {
 
 /** Two bodies, or a body and a wall, that rest on each other, or might, at one or two points. Forces are means of those that bore in the last steps: the last
  * one counts a quarter, the one before three quarters of that and so on, for what one step does too much the next does too little; of steps that change nothing about
- * what bears they stay as they are. */
+ * what bears they stay as they are. A circle with rolling friction has its one point twice, with half of the force each: friction[1] is then, times its radius (of two circles
+ * the smaller one), the torque against rolling on `body`, counter-clockwise. */
 typedef struct carom_contact {
-	uint32_t body;   /**< its index */
-	int32_t other;   /**< the index of a body before it, or a carom_wall */
-	float normal[2]; /**< N, >= 0: what parts the two, at each point, as `other` sees it the left one first; 0 for a second that there is not */
-	float friction
-		[2]; /**< N: what acts on `body` along the surfaces, to the left as `other` sees it. Where a circle has rolling friction its one point counts as two
-	                    * in the same place, of which the second has this instead: times the radius the torque on `body`, counter-clockwise */
+	uint32_t body;     /**< its index */
+	int32_t other;     /**< the index of a body before it, or a carom_wall */
+	float normal[2];   /**< N, >= 0: what parts the two, at each point, as `other` sees it the left one first; 0 for a second that there is not */
+	float friction[2]; /**< N: what acts on `body` along the surfaces, to the left as `other` sees it; of a circle that rolls see above */
 } carom_contact;
 
 /** How many contacts the last step ended with; 0 for steps other than contacts. Waits for the device. */

@@ -185,6 +185,24 @@ static void say_recentred(const struct common_options *options, const carom_worl
 			count == 1 ? "body" : "bodies", first, (double)by.x, (double)by.y);
 }
 
+/* What bodies have, and the step does nothing with. */
+static void say_unused(const struct common_options *options, const carom_world *world)
+{
+	const char *step = carom_pipeline_get(&carom_world_get_def(world)->pipeline, "step");
+	bool rolls = false, damps = false;
+	for (size_t k = 0; k < carom_world_body_count(world); k++) {
+		carom_body_info body;
+		if (carom_world_get_body(world, (uint32_t)k, &body, NULL) != CAROM_OK)
+			return;
+		rolls = rolls || body.rolling_friction > 0;
+		damps = damps || body.linear_damping > 0 || body.angular_damping > 0;
+	}
+	if (rolls && strcmp(step, "contacts") != 0)
+		say(options, "rolling_friction does nothing by the step %s; --set step=contacts has it", step);
+	if (damps && strcmp(step, "first_impact") == 0)
+		say(options, "linear_damping and angular_damping do nothing by the step %s; events and contacts have them", step);
+}
+
 static void say_done(const struct run *run)
 {
 	const carom_report *total = &run->total;
@@ -251,6 +269,7 @@ static int run_scene(const struct run_options *options, carom_scene *scene)
 	if (status == CAROM_OK) {
 		say_device(common, run.world);
 		say_recentred(common, run.world);
+		say_unused(common, run.world);
 		status = prepare_camera(&run, &error);
 	}
 	code = status == CAROM_OK ? run_world(&run) : report(&error);

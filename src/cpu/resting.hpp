@@ -92,7 +92,7 @@ template <typename T> struct Resting {
 	Point at[2];
 	T rolling = 0, rolling_arm = 0; /* the coefficient of rolling friction, which circles may have, and the arm of its force about both centres */
 
-	/* How many points are written. */
+	/* How many points are written: that of a circle with rolling friction twice. */
 	int32_t written() const { return points == 1 && rolling > 0 ? 2 : points; }
 };
 
@@ -154,23 +154,23 @@ public:
 		for (size_t k = body.first; k < body.end; k++) {
 			const Resting<T> &rest = found[k];
 			const int32_t count = rest.written();
-			for (int32_t k_of = 0; k_of < count; k_of++, written++) {
-				const bool rolls = k_of == rest.points;
-				const typename Resting<T>::Point &point = rest.at[rolls ? 0 : k_of];
+			for (int32_t point = 0; point < count; point++, written++) {
+				const bool rolls = point == rest.points;
+				const auto &at = rest.at[rolls ? 0 : point];
 				Points<T> &points = to[written / lane_count];
 				const int32_t i = written % lane_count;
 				points.drop(i);
 				points.partner[i] = static_cast<T>(rest.partner.code);
 				points.normal_x[i] = rest.n.x(), points.normal_y[i] = rest.n.y();
-				points.arm[i] = point.arm, points.other_arm[i] = point.other_arm;
-				points.least[i] = point.least, points.tolerance[i] = rest.tolerance;
+				points.arm[i] = at.arm, points.other_arm[i] = at.other_arm;
+				points.least[i] = at.least, points.tolerance[i] = rest.tolerance;
 				if (!rubs.any)
 					continue;
 				Grips<T> &gripping = grips[written / lane_count];
 				gripping.drop(i);
-				gripping.friction[i] = (rolls ? rest.rolling : rest.friction) * static_cast<T>(count - rest.points + 1);
-				gripping.arm[i] = rolls ? rest.rolling_arm : point.slip.arm;
-				gripping.other_arm[i] = rolls ? rest.rolling_arm : point.slip.other_arm;
+				gripping.friction[i] = (rolls ? rest.rolling : rest.friction) * (count > rest.points ? T(2) : T(1));
+				gripping.arm[i] = rolls ? rest.rolling_arm : at.slip.arm;
+				gripping.other_arm[i] = rolls ? rest.rolling_arm : at.slip.other_arm;
 				gripping.along[i] = rolls ? T(0) : T(1);
 			}
 		}

@@ -32,8 +32,9 @@ template <typename T> static void settle(const Job<T> &job)
 	status[STATUS_COMMIT] = done;
 	status[STATUS_UNDER_WAY] = again;
 	status[STATUS_STEPS] += done;
-	if (done) {                                                          /* numbers given, by now, are of bodies in clusters */
-		const bool damps = uniforms.fact(UNIFORMS_RUBS, RUBS_DAMPS) > 0; /* no look ahead is right where velocities change between steps */
+	if (done) {
+		/* Numbers given, by now, are of bodies in clusters. Where velocities change between steps no look ahead is right. */
+		const bool damps = uniforms.fact(UNIFORMS_RUBS, RUBS_DAMPS) > 0;
 		const bool busy = damps || status[STATUS_ACTIVE] > job.domain[3] / BUSY;
 		status[STATUS_BUSTLE] = status[STATUS_HITS];
 		status[STATUS_ANSWERED] += status[STATUS_HITS];
