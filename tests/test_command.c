@@ -176,6 +176,18 @@ static void standard_output_is_gone_on_with(void **state)
 	check("rm $D/l $D/t $D/h $D/s", 0, "");
 }
 
+/* What bodies have, and the step does nothing with, is no error, but said. */
+static void what_does_nothing_is_said(void **unused)
+{
+	(void)unused;
+	check("printf '%s' '{\"format\": \"carom-scene/1\", \"rolling_friction\": 0.1, \"angular_damping\": 1, '"
+		  "'\"bodies\": [{\"circle\": {\"radius\": 1}}]}' >$D/brakes.json",
+		0, NULL);
+	check("$C run $D/brakes.json --device cpu --steps 1", 0, "rolling_friction does nothing by the step events");
+	check("$C run $D/brakes.json --device cpu --steps 1 --set step=first_impact", 0, "angular_damping do nothing by the step first_impact");
+	check("$C run $D/brakes.json --device cpu --steps 1 --set step=contacts 2>&1 | grep -c nothing", 1, NULL);
+}
+
 /* A row a hit: when, of whom with whom, where and how. Calls, frames, rows of the steps change none. */
 static void hits_are_told(void **state)
 {
@@ -303,7 +315,7 @@ int main(void)
 		cmocka_unit_test(a_scene_may_come_through_a_pipe), cmocka_unit_test(a_scene_may_be_what_is_left_of_a_file), cmocka_unit_test(hits_are_told),
 		cmocka_unit_test(standard_output_is_gone_on_with), cmocka_unit_test(a_state_may_replace_its_scene),
 		cmocka_unit_test(a_closed_output_is_an_error), cmocka_unit_test(a_named_pipe_may_be_written),
-		cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run),
+		cmocka_unit_test(failures_exit_with_1_and_keep_the_old), cmocka_unit_test(any_time_can_be_run), cmocka_unit_test(what_does_nothing_is_said),
 		cmocka_unit_test(an_interruption_writes_what_there_is), cmocka_unit_test(without_opencl_the_cpu_works)};
 	return cmocka_run_group_tests_name("command", tests, make_folder, remove_folder);
 }
