@@ -55,17 +55,20 @@ programs() {
 	done
 }
 
-# A line of options for each program in each storage, with reads counted or not, polygons as the step events has them, for 32 and 64 bits; and for each one without
+# Lines of options for each program: for 32 and 64 bits, in each storage, with reads counted or not, polygons as the step events has them, any two of these together; and one without
 # optimization. A work-item's number, a size_t, may become an int: on each of the two this is one kind of conversion, which the other still warns of.
 translations() {
 	for text in "$folder"/*.cl; do
-		for target in '--target=spir -Wno-sign-conversion' '--target=spir64 -Wno-shorten-64-to-32'; do
-			for storage in '' -DCAROM_IMAGES; do
-				for way in '' -DCAROM_COUNT_READS -DCAROM_OUTLINES; do
-					echo "$target $storage $way -o $folder/$((number += 1)).ll $text"
-				done
-			done
-		done
+		while read -r options; do
+			echo "$options -o $folder/$((number += 1)).ll $text"
+		done <<-END
+			--target=spir -Wno-sign-conversion
+			--target=spir -Wno-sign-conversion -DCAROM_IMAGES -DCAROM_COUNT_READS
+			--target=spir -Wno-sign-conversion -DCAROM_OUTLINES
+			--target=spir64 -Wno-shorten-64-to-32 -DCAROM_IMAGES
+			--target=spir64 -Wno-shorten-64-to-32 -DCAROM_COUNT_READS
+			--target=spir64 -Wno-shorten-64-to-32 -DCAROM_IMAGES -DCAROM_OUTLINES
+		END
 		echo "--target=spir64 -Wno-shorten-64-to-32 -cl-opt-disable -o $folder/plain$((number += 1)).ll $text"
 	done
 }
