@@ -142,7 +142,7 @@ void carom_textures_destroy(carom_world *world)
 		world->device->kind->destroy(world->device, world->levels[i]);
 		world->levels[i] = NULL;
 	}
-	world->capacity = world->vertex_capacity = world->polygon_capacity = world->filter_room = 0;
+	world->capacity = world->vertex_capacity = world->polygon_capacity = world->filter_room = world->friction_room = 0;
 	world->bodies_current = world->prepared = false;
 	world->newest &= PLACE_HOST;
 	world->canvas = (carom_canvas){0};
@@ -186,7 +186,7 @@ static carom_status create_all(carom_world *world, uint32_t capacity, uint32_t v
 	static const struct {
 		carom_role role;
 		bool pair;
-	} a_body[] = {{ROLE_LINEAR, true}, {ROLE_ROTATIONAL, true}, {ROLE_GEOMETRY, false}, {ROLE_FORCES, false}, {ROLE_FRICTION, false}};
+	} a_body[] = {{ROLE_LINEAR, true}, {ROLE_ROTATIONAL, true}, {ROLE_GEOMETRY, false}, {ROLE_FORCES, false}};
 	const bool pairs = world->step->pairs;
 	carom_status status = CAROM_OK;
 	for (size_t i = 0; !status && i < sizeof a_body / sizeof *a_body; i++)

@@ -69,7 +69,7 @@ static void fill_forces(const carom_world *world, void *data)
 static void fill_friction(const carom_world *world, void *data)
 {
 	float *texels = data;
-	for (size_t i = 0; i < world->body_count; i++) {
+	for (size_t i = 0; i < world->body_count && world->traits; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
 		texels[4 * i + FRICTION_SLIDING] = body->friction;
 		texels[4 * i + FRICTION_ROLLING] = body->rolling_friction;
@@ -149,9 +149,17 @@ carom_status carom_filters_send(carom_world *world, carom_error *error)
 	return send(world, ROLE_FILTERS, room, fill_filters, error);
 }
 
+/* A texel alone where nothing brakes any body. */
 carom_status carom_friction_send(carom_world *world, carom_error *error)
 {
-	return send(world, ROLE_FRICTION, world->capacity, fill_friction, error);
+	static const float zero[4] = {0};
+	const uint32_t room = world->traits ? world->capacity : 1;
+	if (room != world->friction_room) {
+		world->friction_room = 0;
+		TRY(carom_textures_create(world, ROLE_FRICTION, false, carom_row_width(room), carom_row_count(room), zero, error));
+		world->friction_room = room;
+	}
+	return send(world, ROLE_FRICTION, room, fill_friction, error);
 }
 
 /* One after the other, since of millions of bodies each takes much memory. */

@@ -157,6 +157,7 @@ struct carom_world {
 	uint32_t vertex_capacity;  /* texels of Vertices, likewise, */
 	uint32_t polygon_capacity; /* and those of them that are polygons' */
 	uint32_t filter_room;      /* ints of Filters */
+	uint32_t friction_room;    /* texels of Friction */
 	carom_pair textures[ROLE_COUNT];
 	carom_texture *levels[CAROM_MAX_LEVELS]; /* of the reduction */
 	bool prepared;                           /* the step has its textures, too */
