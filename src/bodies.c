@@ -261,7 +261,7 @@ static carom_status make_polygon(const carom_body_def *def, size_t index, carom_
 	TRY(check_polygon(rounded, n, area, index, ", when its vertices are rounded to floats about its centre of mass", error));
 	body->radius = def->shape == CAROM_REGULAR ? def->radius : 0.0f;
 	body->bound = nextafterf((float)bound, INFINITY);
-	body->vertex_count = n;
+	body->vertex_count = (uint8_t)n;
 	body->recentred_by = (carom_vec2){(float)centre.x, (float)centre.y};
 	set_mass(def, body, area, second);
 	return CAROM_OK;

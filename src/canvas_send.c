@@ -89,7 +89,7 @@ static void fill_draw(const carom_body *body, uint32_t index, const carom_canvas
 static uint32_t edges_of(const carom_canvas *canvas, const carom_body *body)
 {
 	const uint32_t of_line = canvas->has_lines ? LINE_REST : 0;
-	return body->vertex_count == 1 ? of_line : body->vertex_count - 1;
+	return body->vertex_count == 1 ? of_line : body->vertex_count - 1u;
 }
 
 static uint32_t shapes_of(const carom_canvas *canvas, const carom_body *body)

@@ -121,7 +121,7 @@ static void take_kept(carom_world *world, carom_world *kept, const uint32_t *mov
 		carom_body *body = &carom_world_bodies(world)[i];
 		const size_t size = name_size(world, body);
 		body->vertex_first = body->vertex_count == 1 ? 0 : moved[body->vertex_first / 2];
-		body->name = size ? name : 0;
+		body->name = size ? (uint32_t)name : 0;
 		name += size;
 	}
 	swap_arrays(&world->vertices, &kept->vertices);

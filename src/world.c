@@ -126,7 +126,7 @@ static bool append_body(carom_world *world, const carom_body_def *def, carom_bod
 		return false;
 	if (name_size) {
 		memcpy(name, def->name, name_size);
-		body->name = world->names.used - name_size + 1;
+		body->name = (uint32_t)(world->names.used - name_size + 1);
 	}
 	*slot = *body;
 	world->body_count++;
@@ -146,6 +146,8 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 			(double)def->position.y);
 	if (body.vertex_count > 1 && !carom_outlines_have_room(world, body.vertex_count))
 		return carom_fail(error, CAROM_LIMIT, "bodies[%zu]: a world holds at most %u vertices of polygons", index, CAROM_MOST_VERTICES);
+	if (def->name && strlen(def->name) >= UINT32_MAX - world->names.used)
+		return carom_fail(error, CAROM_LIMIT, "bodies[%zu].name: a world holds names of at most 4 GiB", index);
 	if (!append_body(world, def, &body, vertices))
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for body %zu", index);
 	return CAROM_OK;

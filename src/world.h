@@ -15,16 +15,17 @@ typedef enum carom_trait {
 
 /* A body as it is kept: what carom_body_info tells, with offsets instead of pointers. */
 typedef struct carom_body {
-	carom_shape shape;
-	float radius;                        /* as given; 0 for a polygon */
-	float bound;                         /* of the circle about the centre of mass */
-	uint32_t vertex_first, vertex_count; /* in world->vertices, the first an even number; count 1 and none there for a circle */
+	uint8_t shape;                /* carom_shape */
+	uint8_t vertex_count;         /* 1 for a circle */
+	bool is_static, is_kinematic; /* one of them, or none */
+	uint32_t vertex_first;        /* in world->vertices, an even number; a circle has none there */
+	float radius;                 /* as given; 0 for a polygon */
+	float bound;                  /* of the circle about the centre of mass */
 	float mass, inertia, density, restitution, friction, rolling_friction, linear_damping, angular_damping, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color, categories, mask;
-	bool is_static, is_kinematic; /* one of them, or none */
-	uint32_t change;              /* number + 1 in world->changes, 0 for none */
-	size_t name;                  /* offset + 1 in world->names, 0 for none */
+	uint32_t change; /* number + 1 in world->changes, 0 for none */
+	uint32_t name;   /* offset + 1 in world->names, 0 for none */
 } carom_body;
 
 /* A body that the device goes on with, as soon as it is told. */
