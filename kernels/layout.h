@@ -561,7 +561,7 @@
  * A body that rubs at all points, two at least, comes to rest where it touches what is at rest, moves in a step by less than STILL_SPEED of what forces are found within, and gets no
  * faster but by less than STILL_PUSH of that. One at rest stays where its forces leave less than STILL_PUSH. One that does not slide, of an island that stands firm,
  * loses STILL_BRAKE of its velocities while it moves by less than STILL_SLOW of that and gets no faster: else a column trembles on within what forces are found within.
- * Velocities below STILL_LEAST of what touches anything are none: some devices take for 0 what is less still, and others are slow with it. */
+ * Velocities below STILL_LEAST of what touches anything, or is damped, are none: some devices take for 0 what is less still, and others are slow with it. */
 #define STILL_SPEED 0.125f
 #define STILL_SLOW 4.0f
 #define STILL_BRAKE 0.5f

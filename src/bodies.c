@@ -286,7 +286,7 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world_def *w
 	if (status)
 		return status;
 	memset(body, 0, sizeof *body);
-	body->shape = def->shape;
+	body->shape = (uint8_t)def->shape;
 	body->restitution = isnan(def->restitution) ? world->restitution : def->restitution;
 	body->friction = isnan(def->friction) ? world->friction : def->friction;
 	body->rolling_friction = isnan(def->rolling_friction) ? world->rolling_friction : def->rolling_friction;
