@@ -298,7 +298,7 @@ CAROM_API void carom_world_destroy(carom_world *world);
 /** Adds `count` bodies, all or none; *first (may be NULL) becomes the index of the first, the others follow it.
  * CAROM_INVALID_ARGUMENT names the body (as `bodies[k]`, k from 0 in `defs`) and the field. CAROM_LIMIT: a world holds
  * 4,194,304 bodies, 25,165,824 vertices of polygons and names of 4 GiB at most; equal polygons mostly share theirs. By the steps events and contacts, few (a quarter of the bodies) join a world
- * that goes on, before its next step; for more, or the first that has friction, or where there is no room on the device, which is made for a power of two of them, all are loaded anew. */
+ * that goes on, before its next step; for more, or the first that has friction or damping, or where there is no room on the device, which is made for a power of two of them, all are loaded anew. */
 CAROM_API carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error);
 
 /** Removes the bodies of these indices, all or none; those behind them get lower indices, in the same order. The world goes on with the bits of one that is made of the others as

@@ -65,9 +65,10 @@ bool anything_rubs(TEX_IN(uniforms))
 /* A body's coefficients of friction and of rolling friction, by its index, or those of the walls: -1. */
 float2 frictions_of(TEX_IN(uniforms), TEX_IN(friction), int index)
 {
-	float4 walls = TEX_LOAD(uniforms, UNIFORMS_RUBS, 0);
-	if (index < 0)
+	if (index < 0) {
+		float4 walls = TEX_LOAD(uniforms, UNIFORMS_RUBS, 0);
 		return (float2)(CHANNEL(walls, RUBS_WALLS), CHANNEL(walls, RUBS_ROLLING));
+	}
 	float4 own = ROW_LOAD(friction, index);
 	return (float2)(CHANNEL(own, FRICTION_SLIDING), CHANNEL(own, FRICTION_ROLLING));
 }

@@ -283,10 +283,10 @@ void rest_on_walls(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(sl
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0), room = TEX_LOAD(uniforms, UNIFORMS_ROOM, 0);
 	if (!(CHANNEL(rules, RULES_HAS_ROOM) > 0.0f) || !(near.weight > 0.0f || norm(k.a) > 0.0f))
 		return;
-	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1),
-		  roll = rolling_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
+	float rub = friction_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
 	if (!is_lossy(larger(k.restitution, CHANNEL(rules, RULES_RESTITUTION)), rub))
 		return;
+	float roll = rolling_of(TEX(uniforms), TEX(friction), slot_body(slots, s), -1);
 	for (int wall = 0; wall < 4; wall++)
 		rest_on_wall(VERTICES, room, k, wall, rub, roll, near, all);
 }

@@ -115,13 +115,13 @@ static carom_status check_numbers(const carom_body_def *def, size_t index, carom
 		return fail(error, index, "torque", "must be a finite number (N m)");
 	if (!isnan(def->restitution) && !(def->restitution >= 0.0f && def->restitution <= 1.0f))
 		return fail_number(error, index, "restitution", (double)def->restitution, "from 0 to 1");
-	if (!isnan(def->friction) && !(def->friction >= 0.0f && def->friction <= CAROM_MAX_FRICTION))
+	if (!isnan(def->friction) && !carom_is_friction(def->friction))
 		return fail_number(error, index, "friction", (double)def->friction, "from 0 to 1000");
-	if (!isnan(def->rolling_friction) && !(def->rolling_friction >= 0.0f && def->rolling_friction <= CAROM_MAX_FRICTION))
+	if (!isnan(def->rolling_friction) && !carom_is_friction(def->rolling_friction))
 		return fail_number(error, index, "rolling_friction", (double)def->rolling_friction, "from 0 to 1000");
-	if (!isnan(def->linear_damping) && !(def->linear_damping >= 0.0f && isfinite(def->linear_damping)))
+	if (!isnan(def->linear_damping) && !carom_is_damping(def->linear_damping))
 		return fail_number(error, index, "linear_damping", (double)def->linear_damping, "finite and at least 0 (1/s)");
-	if (!isnan(def->angular_damping) && !(def->angular_damping >= 0.0f && isfinite(def->angular_damping)))
+	if (!isnan(def->angular_damping) && !carom_is_damping(def->angular_damping))
 		return fail_number(error, index, "angular_damping", (double)def->angular_damping, "finite and at least 0 (1/s)");
 	if (!(def->mass >= 0.0f) || !isfinite(def->mass))
 		return fail_number(error, index, "mass", (double)def->mass, "above 0 (kg), or 0 for the density's");
@@ -277,6 +277,12 @@ static bool is_computable(const carom_body *body)
 	return body->bound >= 1e-12f && body->bound <= 1e12f;
 }
 
+/* A body's number, or where it has none the world's. */
+static float own_or(float own, float worlds)
+{
+	return isnan(own) ? worlds : own;
+}
+
 carom_status carom_body_make(const carom_body_def *def, const carom_world_def *world, size_t index, carom_body *body, carom_vec2 *vertices,
 	carom_error *error)
 {
@@ -287,11 +293,11 @@ carom_status carom_body_make(const carom_body_def *def, const carom_world_def *w
 		return status;
 	memset(body, 0, sizeof *body);
 	body->shape = (uint8_t)def->shape;
-	body->restitution = isnan(def->restitution) ? world->restitution : def->restitution;
-	body->friction = isnan(def->friction) ? world->friction : def->friction;
-	body->rolling_friction = isnan(def->rolling_friction) ? world->rolling_friction : def->rolling_friction;
-	body->linear_damping = isnan(def->linear_damping) ? world->linear_damping : def->linear_damping;
-	body->angular_damping = isnan(def->angular_damping) ? world->angular_damping : def->angular_damping;
+	body->restitution = own_or(def->restitution, world->restitution);
+	body->friction = own_or(def->friction, world->friction);
+	body->rolling_friction = own_or(def->rolling_friction, world->rolling_friction);
+	body->linear_damping = own_or(def->linear_damping, world->linear_damping);
+	body->angular_damping = own_or(def->angular_damping, world->angular_damping);
 	body->force = def->force;
 	body->torque = def->torque;
 	body->color = def->color;

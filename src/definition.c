@@ -20,14 +20,14 @@ carom_status carom_check_world_def(const carom_world_def *def, carom_error *erro
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "gravity: must be two finite numbers (m/s^2)");
 	if (!(def->restitution >= 0.0f && def->restitution <= 1.0f))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "restitution: found %g, must be from 0 to 1", (double)def->restitution);
-	if (!(def->friction >= 0.0f && def->friction <= CAROM_MAX_FRICTION))
+	if (!carom_is_friction(def->friction))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "friction: found %g, must be from 0 to 1000", (double)def->friction);
-	if (!(def->rolling_friction >= 0.0f && def->rolling_friction <= CAROM_MAX_FRICTION))
+	if (!carom_is_friction(def->rolling_friction))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "rolling_friction: found %g, must be from 0 to 1000", (double)def->rolling_friction);
-	if (!(def->linear_damping >= 0.0f) || !isfinite(def->linear_damping))
+	if (!carom_is_damping(def->linear_damping))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "linear_damping: found %g, must be finite and at least 0 (1/s)",
 			(double)def->linear_damping);
-	if (!(def->angular_damping >= 0.0f) || !isfinite(def->angular_damping))
+	if (!carom_is_damping(def->angular_damping))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "angular_damping: found %g, must be finite and at least 0 (1/s)",
 			(double)def->angular_damping);
 	if (!(def->epsilon >= 2.384185791015625e-7f && def->epsilon <= 0.5f))

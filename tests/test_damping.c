@@ -158,17 +158,15 @@ static void it_comes_and_goes(void **unused)
 		scenery_check(carom_world_add(world, &bodies[CROWD - 1], 1, NULL, &error), &error);
 		for (int turn = 0; turn < 2; turn++) {
 			const uint32_t last = CROWD - 1, count = turn ? CROWD - 1 : CROWD;
+			carom_body_state states[CROWD], others[CROWD];
 			other = runs_world(&def, device, bodies, count);
-			for (uint32_t i = 0; i < count; i++) {
-				const carom_body_state state = runs_state(world, i);
-				scenery_check(carom_world_set_states(other, i, 1, &state, &error), &error);
-			}
+			scenery_check(carom_world_get_states(world, 0, count, states, &error), &error);
+			scenery_check(carom_world_set_states(other, 0, count, states, &error), &error);
 			runs_step(world, 20);
 			runs_step(other, 20);
-			for (uint32_t i = 0; i < count; i++) {
-				const carom_body_state a = runs_state(world, i), b = runs_state(other, i);
-				assert_memory_equal(&a, &b, sizeof a);
-			}
+			scenery_check(carom_world_get_states(world, 0, count, states, &error), &error);
+			scenery_check(carom_world_get_states(other, 0, count, others, &error), &error);
+			assert_memory_equal(states, others, count * sizeof *states);
 			carom_world_destroy(other);
 			if (turn == 0)
 				scenery_check(carom_world_remove(world, &last, 1, &error), &error);

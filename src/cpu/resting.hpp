@@ -290,12 +290,13 @@ private:
 
 	void walls(const Slot<T> &slot, const Trajectory<T> &way, const Nearness<T> &nearness)
 	{
-		const T friction = rubs.at_wall(slot.body()), rolling = rubs.rolling_at_wall(slot.body());
+		const T friction = rubs.at_wall(slot.body());
 		if (!clusters.has_walls() || !loses_energy(larger(slot.turn[TURN_RESTITUTION], clusters.rule(RULES_RESTITUTION)), friction))
 			return;
 		Convex<T> body;
 		clusters.fill(body, slot, way);
 		const Rules rules(norm(body.a), body.radius, wall_slop(body), nearness);
+		const T rolling = rubs.rolling_at_wall(slot.body());
 		for (int32_t k = 0; rules.force > 0 && k < wall_count; k++)
 			wall(body, friction, rolling, rules, k);
 	}
