@@ -360,6 +360,39 @@ CAROM_API carom_status carom_world_get_contacts(carom_world *world, size_t first
  * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a number that is not finite; or the body: a pair that is there twice. */
 CAROM_API carom_status carom_world_set_contacts(carom_world *world, size_t count, const carom_contact *contacts, carom_error *error);
 
+/** How a joint holds two bodies together. */
+typedef enum carom_joint_kind {
+	CAROM_REVOLUTE, /**< as a pin: the two anchors are at one place, about which both bodies turn freely */
+	CAROM_DISTANCE, /**< as a rod without mass: the two anchors are `length` apart */
+} carom_joint_kind;
+
+#define CAROM_GROUND (-1) /**< where a joint has the index of another body: a place in the world */
+
+/** What holds two bodies together, or one in its place, by the step contacts. Start from carom_default_joint(). It can't break, and takes no energy: forces between the anchors act through each
+ * step, and impulses as it begins. Anchors that are not where they belong are brought there, by no more than the bodies' radii a step. */
+typedef struct carom_joint {
+	carom_joint_kind kind;
+	uint32_t body;     /**< its index */
+	int32_t other;     /**< the index of another body; default CAROM_GROUND. One of the two must be dynamic */
+	carom_vec2 anchor; /**< m, from the body's centre of mass, in its own frame (at angle 0), no more than 1e9; default (0, 0) */
+	carom_vec2
+		other_anchor; /**< m, likewise of the other body; for CAROM_GROUND the place. NaN (the default): where `anchor` is as it is given to a world */
+	float length;     /**< m, > 0, no more than 1e9, of CAROM_DISTANCE; NaN (the default): as far as the anchors are from each other then */
+	bool collides;    /**< the two bodies hit each other, too; default false: they pass through each other */
+	float force[2]; /**< N: what the last step ended with: of CAROM_REVOLUTE what acts on `body`, along x and y; of CAROM_DISTANCE what pushes the two
+	                            apart, below 0 where it pulls, and 0. The next step's begin with it */
+} carom_joint;
+
+/** A CAROM_REVOLUTE of body 0, with the defaults above. */
+CAROM_API carom_joint carom_default_joint(void);
+/** How many a world has. */
+CAROM_API size_t carom_world_joint_count(const carom_world *world);
+/** Reads `count` of them from number `first` on, in the order of `body`, of one body in that in which they were given, without any NaN: the `length` of CAROM_REVOLUTE is 0. Waits for the device. */
+CAROM_API carom_status carom_world_get_joints(carom_world *world, size_t first, size_t count, carom_joint *joints, carom_error *error);
+/** Replaces them, all or none: a joint more is one more behind those that were read. Those of a body that is removed go with it. With states and contacts they are what another world needs to go on with the
+ * same bits. CAROM_INVALID_ARGUMENT names the joint (as `joints[k]`) and the field, or that the world's step is not contacts: others hold no joints. */
+CAROM_API carom_status carom_world_set_joints(carom_world *world, size_t count, const carom_joint *joints, carom_error *error);
+
 /** What a call of carom_world_step or carom_world_advance did. */
 typedef struct carom_report {
 	uint64_t steps;  /**< steps done */
@@ -534,6 +567,8 @@ typedef struct carom_scene {
 	carom_body_def *bodies;  /**< in the scene's order */
 	size_t contact_count;    /**< of `contacts` */
 	carom_contact *contacts; /**< what a step of contacts had ended with when the scene was written */
+	size_t joint_count;      /**< of `joints` */
+	carom_joint *joints;     /**< in the order of their bodies */
 	void *storage;           /**< owns the arrays and strings above */
 } carom_scene;
 

@@ -34,13 +34,16 @@ int island_root(LIST_OUT(touching), LIST_OUT(islands), int s)
 
 /* One iteration of a body, after so many, if its island wants it. True if that wants another. */
 bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_OUT(islands),
-	RECORD_OUT(loads), int s, int done, bool rub)
+	RECORD_OUT(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), int s, int done, bool rub, float length)
 {
 	bool impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	int number = status[STATUS_FIRST] + done, most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
 	int wants = TOUCH(done == 0 ? island_root(touching, islands, s) : islands[s], TOUCHING_WANTED);
-	if (PEEK(touching, wants) < number || !rests_iterate(slots, contacts, grips, touching, loads, s, number & 1, done, rub, impulses)
-		|| done + 1 >= most)
+	if (PEEK(touching, wants) < number)
+		return false;
+	if (!impulses && is_aimed(done))
+		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, length);
+	if (!rests_iterate(slots, contacts, grips, touching, loads, s, number & 1, done, rub, impulses) || done + 1 >= most)
 		return false;
 	if (PEEK(touching, wants) == number)
 		atomic_max(&touching[wants], number + 1);

@@ -49,7 +49,7 @@ float force_begun(RECORD_IN(slots), int s, int partner, float force, float lengt
 void warm_take(RECORD_IN(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub)
 {
 	int contacts_now = 0, before = PARTNER_NONE;
-	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
 		contacts_now += other != before;
 		before = other;
@@ -73,7 +73,7 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_
 	float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
-	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
@@ -101,7 +101,7 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 {
 	last_forces last = {.partner = PARTNER_NONE};
 	bool same = true;
-	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
@@ -123,7 +123,7 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 	int body = slot_body(slots, s), start = warm_spans[WARM_SPAN(body, WARM_SPAN_START)], count = 0, before = PARTNER_NONE;
 	if (!forces_mean(slots, contacts, grips, touching, pushes, warm, warm_spans, s, rub, island_bears(status, touching, islands, s), ground, length))
 		island_disturb(touching, islands, s);
-	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		int second = other == before, to = WARM(start, count - second, rub);
@@ -135,4 +135,41 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 		count += !second;
 	}
 	warm_spans[WARM_SPAN(body, WARM_SPAN_COUNT)] = count;
+}
+
+float joint_force(RECORD_IN(joints), int side, int k)
+{
+	float4 forces = joints[JOINT(side / 2, JOINT_FORCES)];
+	return k ? forces.y : forces.x;
+}
+
+/* Forces begin with the last ones. */
+void joined_warm(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
+{
+	int point = 0, first = first_four(touching, s);
+	for (int side = held_side(slots, touching, joined, s); side >= 0; side = next_side(joined, side))
+		for (int k = 0; k < joint_points(joints, side); k++, point++) {
+			__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
+			at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], joint_force(joints, side, k), length);
+		}
+}
+
+/* Keeps the forces for the next step, each at one of its two bodies. If this one did not begin with them its island is not to fall asleep. */
+void joined_keep(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(pushes), RECORD_OUT(joints),
+	LIST_IN(joined), int s, float2 ground, float length)
+{
+	int point = 0, first = first_four(touching, s);
+	bool bears = first_contact(touching, s) > 0 && island_bears(status, touching, islands, s) && was_moving_at(pushes, s, ground), same = true;
+	for (int side = held_side(slots, touching, joined, s); side >= 0; side = next_side(joined, side))
+		for (int k = 0; k < joint_points(joints, side); k++, point++) {
+			__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
+			int partner = (int)at[4 * FOUR_PARTNER];
+			if ((side & 1 && partner_gives_way(slots, partner)) || (bears && partner_was_at_rest(pushes, partner, ground)))
+				continue;
+			float force = (at[4 * FOUR_FORCE] / length) / length;
+			same = same && force == joint_force(joints, side, k);
+			((__global float *)(joints + JOINT(side / 2, JOINT_FORCES)))[k] = force;
+		}
+	if (!same)
+		island_disturb(touching, islands, s);
 }

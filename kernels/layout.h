@@ -43,12 +43,14 @@
 #define FRICTION_LINEAR_DAMPING 2 /* 1/s */
 #define FRICTION_ANGULAR_DAMPING 3
 
-/* Filters: which pairs may hit each other. A list: whether any may not; only then two ints a body follow. */
+/* Filters: which pairs may hit each other. A list: whether any may not; only then three ints a body follow, and behind those the bodies that some never meet, whatever they are:
+ * those that a joint holds. */
 #define FILTERS_ANY 0 /* 0 or 1 */
 #define FILTERS_FIRST 4
-#define FILTER_WIDTH 2
+#define FILTER_WIDTH 3
 #define FILTER_CATEGORIES 0 /* bits: what the body is */
 #define FILTER_MASK 1       /* bits: the categories that it meets */
+#define FILTER_EXCEPT 2     /* where in the list the bodies begin that it never meets, -1 behind the last; 0: there are none */
 #define FILTER(body, part) (FILTERS_FIRST + FILTER_WIDTH * (body) + (part))
 
 /* Uniforms: what is the same for every body; four texels in a row */
@@ -328,8 +330,8 @@
 #define FOUND_TIME 1    /* float bits; the sign: it is only a pause of the search */
 #define FOUND_LINK 2    /* as SPAN_FOUND */
 
-/* Contacts, of the step contacts: what a body leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first, one or two points
- * each. Ten records for four points side by side; where there are no more, points of zeros. A slot's fours follow each other; Touching tells where they begin. */
+/* Contacts, of the step contacts: points of what joints hold a body, and then of what it leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first, one or
+ * two points each. Ten records for four points side by side; where there are no more, points of zeros. A slot's fours follow each other; Touching tells where they begin. */
 #define FOUR_WIDTH 10
 #define FOUR_PARTNER 0  /* as below */
 #define FOUR_NORMAL_X 1 /* from the partner to this body, 1 long */
@@ -339,7 +341,7 @@
 #define FOUR_LEAST 5     /* m a step: how fast the points may come together */
 #define FOUR_TOLERANCE 6 /* m a step */
 #define FOUR_STEP 7      /* kg: by how much a rate changes a force in an iteration */
-#define FOUR_FORCE 8     /* kg m / step^2, 0 or more */
+#define FOUR_FORCE 8     /* kg m / step^2, 0 or more, but of joints */
 #define FOUR_START 9     /* that from which the next iteration starts */
 /* The other's slot if it moves, as a kinematic body does, else one of these. */
 #define PARTNER_NONE (-1)
@@ -380,8 +382,25 @@
 #define WARM_TAKEN 0     /* for all: contacts that there has been asked room for, */
 #define WARM_ROOM 1      /* and that there is room for in Warm */
 
+/* Joints: three records a joint, in the order in which they were given. The step contacts has points of them: in Contacts they come first of a body's, in the order of its joints. */
+#define JOINT_WIDTH 3
+#define JOINT_PARTIES 0 /* record: the two bodies' indices; */
+#define JOINT_BODY 0
+#define JOINT_OTHER 1   /* -1: it is a place in the world; */
+#define JOINT_LENGTH 2  /* m, how far the anchors are from each other; below 0: they are at the same place, */
+#define JOINT_ANCHORS 1 /* record: m, from the centre of mass, in the body's own frame, x and y of each; or of the world */
+#define JOINT_FORCES \
+	2 /* record, part of the state: N, what acted on the body in the last step: away from the other's anchor, or, where both are at the same place, along x and y */
+
+/* Joined: a list: how many joints there are, and bodies behind that: of each a side of its first joint, -1 for none, and then of each side the same body's next one. Side 2 j is the
+ * body's of joint j, 2 j + 1 the other's. */
+#define JOINED_COUNT 0
+#define JOINED_BODIES 1
+#define JOINED_FIRST 4
+#define JOINED_NEXT(bodies, side) (JOINED_FIRST + (bodies) + (side))
+
 /* Touching: ints of each slot */
-#define TOUCHING_WIDTH 10
+#define TOUCHING_WIDTH 11
 #define TOUCHING_COUNT 0          /* of its points */
 #define TOUCHING_SLOT 1           /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
 #define TOUCHING_WANTED 2         /* of a root: the last iteration that its island wants */
@@ -396,6 +415,7 @@
 #define TOUCHING_MADE 8           /* as long as this is STATUS_MADE */
 #define TOUCHING_CARRIER 9        /* of a root: the largest index of the kinematic bodies that its island touches, -1: none; or: */
 #define CARRIER_STATIC 0x7fffffff /* it touches something static */
+#define TOUCHING_JOINED 10        /* how many of its points, the first ones, are of joints */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
@@ -582,6 +602,18 @@
 #define CONTACT_PART 0.75f
 #define CONTACT_CLOSER 0.75f
 #define CONTACT_ITERATIONS 256
+
+/* Joints. Impulses leave the anchors no speed against each other, within a JOINT_PART of a slop in a step; forces bring them to where they belong by the end of the step, by no more than JOINT_MOST
+ * of both radii, along ways that are right in the middle of the step, so that they take no energy and give none; it is looked where that is before the first iterations, JOINT_AIMS at most, each twice as
+ * many later, and a body is taken to turn by no more than JOINT_TURN. Where what a force makes turn in a step, by its arm's growth, is as much as JOINT_STIFF, steps are too long for that, and it might grow from
+ * step to step: forces take the speed along the ways at the step's end, as impulses do, and bring anchors by EASE of the way. Other ways than a body's share was found with may make it larger,
+ * by JOINT_SHARE. */
+#define JOINT_PART 1.0f
+#define JOINT_MOST 1.0f
+#define JOINT_AIMS 6
+#define JOINT_TURN 1.0f /* rad */
+#define JOINT_STIFF 1.5f
+#define JOINT_SHARE 1.25f
 
 /* ---- Rendering [3] */
 

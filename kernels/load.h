@@ -35,6 +35,12 @@ int end_four(LIST_IN(touching), int s)
 	return touching[TOUCH(s, TOUCHING_FIRST)] + (touching[TOUCH(s, TOUCHING_COUNT)] + 3) / 4;
 }
 
+/* The first of its points that is one of a contact. */
+int first_contact(LIST_IN(touching), int s)
+{
+	return touching[TOUCH(s, TOUCHING_JOINED)];
+}
+
 /* What forces add to a load, x, y and torque: a sum each of every fourth point, and then of those. */
 typedef struct sums {
 	float4 x, y, torque;
@@ -129,7 +135,7 @@ float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_
 		all.yt = response_add(all.yt, n.yt, g.yt);
 		all.tt = response_add(all.tt, n.tt, g.tt);
 	}
-	return response_bound(all);
+	return first_contact(touching, s) > 0 ? JOINT_SHARE * response_bound(all) : response_bound(all);
 }
 
 /* How a body would move by itself: as it stands in that pass. */
@@ -222,6 +228,13 @@ int4 grips_iterate(RECORD_OUT(grips), int four, float4 force, const ways *w, flo
 	return fabs(left) > few;
 }
 
+/* The least forces of four points, the first of which is that of a body's: those of joints pull, too. */
+float4 weakest_of(int point, int joined)
+{
+	return (float4)(point < joined ? -INFINITY : 0.0f, point + 1 < joined ? -INFINITY : 0.0f, point + 2 < joined ? -INFINITY : 0.0f,
+		point + 3 < joined ? -INFINITY : 0.0f);
+}
+
 /* One iteration of a body's points, after so many, from the loads of one parity to the other. True if another is wanted. */
 bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), int s, int now, int done,
 	bool rub, bool impulses)
@@ -233,15 +246,17 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 	int4 wanted = (int4)(0);
 	if (done == 0)
 		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
-	for (int four = first_four(touching, s); four < end_four(touching, s); four++) {
+	for (int first = first_four(touching, s), four = first; four < end_four(touching, s); four++) {
 		__global float4 *at = contacts + FOUR(four, 0);
+		float4 weakest = weakest_of(4 * (four - first), first_contact(touching, s));
 		ways normals;
 		ways_of_normals(&normals, contacts, four);
 		moves others;
 		moves_of(&others, loads, at[FOUR_PARTNER], now);
 		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
-		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = none > pushed ? none : pushed, start = force + beta * (force - at[FOUR_FORCE]);
-		wanted |= (force > 0.0f ? fabs(rate) : -rate) > closer * tolerance;
+		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = weakest > pushed ? weakest : pushed,
+			   start = force + beta * (force - at[FOUR_FORCE]);
+		wanted |= (force > weakest ? fabs(rate) : -rate) > closer * tolerance;
 		at[FOUR_START] = start;
 		at[FOUR_FORCE] = force;
 		sums_add(&next, start, &normals, mass);
@@ -278,6 +293,11 @@ bool was_moving_at(RECORD_IN(pushes), int s, float2 velocity)
 {
 	float4 velocities = pushes[PUSHES_WIDTH * s + 1];
 	return velocities.x == velocity.x && velocities.y == velocity.y && velocities.z == 0.0f;
+}
+
+bool partner_gives_way(RECORD_IN(slots), int partner)
+{
+	return partner >= 0 && slot_is_dynamic(slots, partner);
 }
 
 /* Was a partner at rest on ground of that velocity? */

@@ -299,13 +299,13 @@ void rests_disturb(const rests *all, LIST_OUT(touching), LIST_IN(islands))
 			island_disturb(touching, islands, all->of[k].partner);
 }
 
-/* How many points the body in a slot rests on. If it is awake, all that it touches is disturbed in its sleep; what is kinematic, and finds no contacts, disturbs what is near. */
+/* How many points the body in a slot has: so many of joints, which are to be written yet, and where it rests. If it is awake, all that it touches is disturbed in its sleep; what is kinematic, and finds no contacts, disturbs what is near. */
 int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_IN(pushes), LIST_OUT(touching), LIST_IN(islands),
-	RECORD_OUT(contacts), RECORD_OUT(grips), int s, float length)
+	RECORD_OUT(contacts), RECORD_OUT(grips), int s, int joined, float length)
 {
 	rests all;
 	nearness near = {0.0f, CONTACT_FAST};
-	int count = 0, after = INT_MIN;
+	int count = joined, after = INT_MIN;
 	if (slot_is_static(slots, s))
 		return 0;
 	bool awake = !touching[TOUCH(s, TOUCHING_ASLEEP)], dynamic = slot_is_dynamic(slots, s);
@@ -325,7 +325,7 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 		}
 		if (awake)
 			rests_disturb(&all, touching, islands);
-		if (count == 0 && !fours_take(status, touching, s, all.points))
+		if (all.counts && !fours_take(status, touching, s, joined + all.points))
 			return 0;
 		count = rests_write(&all, contacts, grips, touching[TOUCH(s, TOUCHING_FIRST)], count, anything_rubs(TEX(uniforms)));
 		after = all.count > 0 ? all.of[all.count - 1].key : after;

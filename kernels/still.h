@@ -10,11 +10,6 @@ float2 ground_velocity(RECORD_IN(slots), LIST_IN(touching), LIST_IN(islands), LI
 	return (float2)(place.z, place.w);
 }
 
-bool partner_gives_way(RECORD_IN(slots), int partner)
-{
-	return partner >= 0 && slot_is_dynamic(slots, partner);
-}
-
 /* Is a partner that does not give way at rest there? */
 bool is_ground(RECORD_IN(slots), int partner, float2 ground)
 {
@@ -29,16 +24,16 @@ bool is_ground(RECORD_IN(slots), int partner, float2 ground)
 float still_within(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float2 ground)
 {
 	float within = 0.0f;
-	int count = touching[TOUCH(s, TOUCHING_COUNT)];
-	for (int point = 0, first = first_four(touching, s); rub && point < count; point++) {
+	int count = touching[TOUCH(s, TOUCHING_COUNT)], joined = first_contact(touching, s);
+	for (int point = joined, first = first_four(touching, s); rub && point < count; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		bool rubs = POINT_IN(grips, GRIP_WIDTH, first, point)[4 * GRIP_FRICTION] > 0.0f;
 		if (!rubs || !(partner_gives_way(slots, other) || is_ground(slots, other, ground)))
 			return 0.0f;
-		within = point == 0 ? at[4 * FOUR_TOLERANCE] : smaller(within, at[4 * FOUR_TOLERANCE]);
+		within = point == joined ? at[4 * FOUR_TOLERANCE] : smaller(within, at[4 * FOUR_TOLERANCE]);
 	}
-	return count > 1 ? within : 0.0f;
+	return count - joined > 1 ? within : 0.0f;
 }
 
 /* Of a body's velocities, or its push, the most that they are anywhere on it: along an axis, or by turning at its radius. */
@@ -77,7 +72,7 @@ void slot_take(RECORD_OUT(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_I
 bool still_beside(RECORD_IN(contacts), LIST_IN(touching), RECORD_IN(pushes), int s, float2 ground)
 {
 	bool beside = false;
-	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
 		beside = beside || partner_was_at_rest(pushes, other, ground);
 	}
@@ -89,8 +84,8 @@ void slot_foot(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), RECORD_IN
 	float2 ground)
 {
 	int own = 0, all = 0;
-	for (int point = 0, first = first_four(touching, s); rub && status[STATUS_PASS] == PASS_FORCES && point < touching[TOUCH(s, TOUCHING_COUNT)];
-		 point++) {
+	for (int point = first_contact(touching, s), first = first_four(touching, s);
+		 rub && status[STATUS_PASS] == PASS_FORCES && point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, first, point);
 		int other = (int)at[4 * FOUR_PARTNER];
 		if (!(at[4 * FOUR_FORCE] > 0.0f))
@@ -153,6 +148,23 @@ bool slot_is_unpushed(RECORD_IN(slots), int s)
 {
 	float4 push = SLOT_LOAD(slots, s, SLOT_PUSH);
 	return push.x == 0.0f && push.y == 0.0f && push.z == 0.0f;
+}
+
+/* After a step, or before one `again`: a slot's push is as it was, and before one its velocities, too; after one it comes to rest, and its forces are kept. */
+void slot_release(RECORD_OUT(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_IN(islands),
+	RECORD_IN(pushes), RECORD_OUT(warm), LIST_OUT(warm_spans), LIST_IN(places), RECORD_OUT(joints), LIST_IN(joined), LIST_IN(wakes), int s,
+	bool again, bool rub, float length)
+{
+	bool borne = slot_is_unpushed(slots, s) && wakes[WAKE(s, WAKE_CHANGED)] != CHANGED_IN(status[STATUS_AGE]); /* and had no event */
+	slot_restore(slots, pushes, s, again);
+	if (again)
+		return;
+	float2 ground = ground_velocity(slots, touching, islands, places, s);
+	slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, ground, length);
+	joined_keep(slots, status, contacts, touching, islands, pushes, joints, joined, s, ground, length);
+	forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_spans, s, rub, ground, length);
+	if (!borne || !slot_stayed(slots, pushes, s))
+		island_disturb(touching, islands, s);
 }
 
 /* Its push is its own again, if it slept. */

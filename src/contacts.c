@@ -147,6 +147,8 @@ carom_status carom_contacts_send(carom_world *world, carom_error *error)
 	if (!status)
 		status = send(world, &w, error);
 	warm_destroy(&w);
+	if (!status)
+		status = carom_joints_send(world, error);
 	world->contacts_sent = !status;
 	return status;
 }
@@ -205,6 +207,8 @@ carom_status carom_contacts_fetch(carom_world *world, carom_error *error)
 	world->contacts.used = 0;
 	if (world->step == &carom_step_contacts)
 		status = download(world, error);
+	if (!status)
+		status = carom_joints_fetch(world, error);
 	if (status)
 		return status;
 	if (contact_count(world) > 1)

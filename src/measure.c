@@ -44,7 +44,7 @@ carom_status carom_world_measure(carom_world *world, carom_measure *measure, car
 	if (status == CAROM_OK)
 		status = add_bodies(world, &sum, error);
 	if (status == CAROM_OK) {
-		sum.max_penetration = carom_deepest_penetration(&crowd, carom_world_get_def(world));
+		sum.max_penetration = carom_deepest_penetration(&crowd, world);
 		*measure = sum;
 	}
 	carom_crowd_free(&crowd);

@@ -1,6 +1,7 @@
 /* The deepest overlap, looked for in grids: a body meets those of its own grid and of the coarser ones.
  * SPDX-License-Identifier: MIT */
 #include "penetration.h"
+#include "world.h"
 
 #include <math.h>
 
@@ -77,28 +78,35 @@ static double overlap_of_boxes(const carom_placed *a, const carom_placed *b)
 	return carom_least(x, y);
 }
 
-static void deepen_by_pair(double *deepest, const carom_placed *a, const carom_placed *b)
+/* Of a crowd, so far. */
+typedef struct deepest {
+	const carom_placed *bodies;
+	const carom_world *world;
+	double depth;
+} deepest;
+
+static void deepen_by_pair(deepest *all, const carom_placed *a, const carom_placed *b)
 {
-	if (overlap_of_boxes(a, b) <= *deepest || !(a->is_dynamic || b->is_dynamic) || !carom_meet(a, b))
+	if (overlap_of_boxes(a, b) <= all->depth || !(a->is_dynamic || b->is_dynamic) || !carom_meet(a, b))
 		return;
-	double depth = -carom_separation(a, b, -*deepest);
-	if (depth > *deepest)
-		*deepest = depth;
+	double depth = -carom_separation(a, b, -all->depth);
+	if (depth > all->depth && !carom_joints_part(all->world, (size_t)(a - all->bodies), (size_t)(b - all->bodies)))
+		all->depth = depth;
 }
 
-static void deepen_by_walls(double *deepest, const carom_placed *body, const carom_world_def *def)
+static void deepen_by_walls(deepest *all, const carom_placed *body, const carom_world_def *def)
 {
 	if (!body->is_dynamic)
 		return;
 	double x = carom_most((double)def->room_min.x - body->min_x, body->max_x - (double)def->room_max.x);
 	double y = carom_most((double)def->room_min.y - body->min_y, body->max_y - (double)def->room_max.y);
-	*deepest = carom_most(carom_most(x, y), *deepest);
+	all->depth = carom_most(carom_most(x, y), all->depth);
 }
 
 /* ---- All pairs that are near ------------------------------------------------------------------------- */
 
 /* The pairs of `body` with members of a grid, from the one in place `first` on. */
-static void deepen_by_grid(double *deepest, const carom_placed *bodies, const carom_placed *body, const carom_grid *g, uint32_t first)
+static void deepen_by_grid(deepest *all, const carom_placed *body, const carom_grid *g, uint32_t first)
 {
 	double reach = body->radius * CAROM_GRID_ROUNDING + g->radius;
 	uint32_t left = carom_grid_column(g, body->x - reach), right = carom_grid_column(g, body->x + reach);
@@ -107,24 +115,25 @@ static void deepen_by_grid(double *deepest, const carom_placed *bodies, const ca
 		const uint32_t *starts = g->starts + (size_t)row * g->columns;
 		uint32_t k = starts[left] > first ? starts[left] : first;
 		for (; k < starts[right + 1]; k++)
-			deepen_by_pair(deepest, body, &bodies[g->members[k]]);
+			deepen_by_pair(all, body, &all->bodies[g->members[k]]);
 	}
 }
 
-double carom_deepest_penetration(const carom_crowd *c, const carom_world_def *def)
+double carom_deepest_penetration(const carom_crowd *c, const carom_world *world)
 {
-	double deepest = 0;
+	const carom_world_def *def = carom_world_get_def(world);
+	deepest all = {c->bodies, world, 0};
 	for (const carom_grid *g = c->grids; g < c->grids + CAROM_GRIDS; g++) {
 		for (uint32_t k = 0; k < g->count; k++) {
 			const carom_placed *body = &c->bodies[g->members[k]];
 			if (def->has_room)
-				deepen_by_walls(&deepest, body, def);
-			deepen_by_grid(&deepest, c->bodies, body, g, k + 1);
+				deepen_by_walls(&all, body, def);
+			deepen_by_grid(&all, body, g, k + 1);
 			for (const carom_grid *coarser = c->grids; coarser < g; coarser++) {
 				if (coarser->count > 0)
-					deepen_by_grid(&deepest, c->bodies, body, coarser, 0);
+					deepen_by_grid(&all, body, coarser, 0);
 			}
 		}
 	}
-	return deepest;
+	return all.depth;
 }

@@ -10,7 +10,7 @@
 double carom_separation(const carom_placed *a, const carom_placed *b, double enough);
 
 /* The deepest overlap of two bodies that may hit each other, or of a body that is not static and a wall of the room; 0 if
- * nothing overlaps. */
-double carom_deepest_penetration(const carom_crowd *crowd, const carom_world_def *def);
+ * nothing overlaps. The crowd is of that world. */
+double carom_deepest_penetration(const carom_crowd *crowd, const carom_world *world);
 
 #endif

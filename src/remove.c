@@ -77,6 +77,7 @@ static void let_go(carom_world *world, const uint32_t *numbers, size_t count)
 {
 	close_ranks(world, numbers);
 	close_contacts(world, numbers);
+	carom_joints_close(world, numbers, GONE);
 	world->body_count -= count;
 	world->bodies.used = world->body_count * sizeof(carom_body);
 	world->linear.used = world->rotational.used = world->body_count * 4 * sizeof(float);

@@ -51,6 +51,7 @@ void *scene_grow(void *items, size_t count, size_t size)
 }
 
 const char *const scene_walls[SCENE_WALLS] = {"left", "bottom", "right", "top"};
+const char *const scene_joint_kinds[SCENE_JOINT_KINDS] = {"revolute", "distance"};
 
 carom_scene *scene_create(const char *name)
 {
@@ -84,6 +85,7 @@ void carom_scene_destroy(carom_scene *scene)
 	free(storage);
 	free(scene->bodies);
 	free(scene->contacts);
+	free(scene->joints);
 	free(scene);
 }
 
@@ -111,6 +113,20 @@ static carom_status blame_contact(const carom_scene *scene, unsigned long index,
 	return carom_fail(error, CAROM_INVALID_SCENE, "%s: bodies[%lu].contacts[%lu]%s", storage->name, (unsigned long)body, k, text);
 }
 
+/* So does a joint. */
+static carom_status blame_joint(const carom_scene *scene, unsigned long index, const char *text, carom_error *error)
+{
+	static const char other[] = ".other:";
+	const struct scene_storage *storage = scene->storage;
+	const uint32_t body = scene->joints[index].body;
+	const bool is_other = strncmp(text, other, strlen(other)) == 0;
+	unsigned long k = 0;
+	while (k < index && scene->joints[index - k - 1].body == body)
+		k++;
+	return carom_fail(error, CAROM_INVALID_SCENE, "%s: bodies[%lu].joints[%lu]%s%s", storage->name, (unsigned long)body, k, is_other ? ".body:" : "",
+		is_other ? text + strlen(other) : text);
+}
+
 /* An argument that the library refused came from the file: says so, in the file's words. */
 static carom_status blame_file(const carom_scene *scene, carom_error *error)
 {
@@ -123,6 +139,8 @@ static carom_status blame_file(const carom_scene *scene, carom_error *error)
 	memcpy(text, error->text, sizeof text);
 	if (sscanf(text, "contacts[%lu]%n", &index, &length) == 1 && length > 0 && index < scene->contact_count)
 		return blame_contact(scene, index, text + length, error);
+	if (sscanf(text, "joints[%lu]%n", &index, &length) == 1 && length > 0 && index < scene->joint_count)
+		return blame_joint(scene, index, text + length, error);
 	if (sscanf(text, "bodies[%lu].%n", &index, &length) != 1 || length == 0) {
 		return carom_fail(error, CAROM_INVALID_SCENE, "%s: %s", storage->name, text);
 	}
@@ -136,6 +154,7 @@ static carom_status blame_file(const carom_scene *scene, carom_error *error)
 static carom_status fill_world(const carom_scene *scene, carom_world *world, carom_error *error)
 {
 	TRY(carom_world_add(world, scene->bodies, scene->body_count, NULL, error));
+	TRY(carom_world_set_joints(world, scene->joint_count, scene->joints, error));
 	return carom_world_set_contacts(world, scene->contact_count, scene->contacts, error);
 }
 

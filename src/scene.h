@@ -23,6 +23,10 @@ void *scene_grow(void *items, size_t count, size_t size);
 #define SCENE_WALLS 4
 extern const char *const scene_walls[SCENE_WALLS];
 
+/* Likewise of carom_joint_kind. */
+#define SCENE_JOINT_KINDS 2
+extern const char *const scene_joint_kinds[SCENE_JOINT_KINDS];
+
 const char *scene_skip_space(const char *at, const char *end);
 /* The text between the brackets of the top-level "bodies" array; false if there is no such array. */
 bool scene_find_bodies(const char *text, const char *end, const char **bodies, const char **bodies_end);
@@ -32,6 +36,15 @@ const char *scene_element_end(const char *text, const char *end);
 /* Writes a finite number as printf's %.9g does, but -0 as -0.0 and always with a point; answers the length, no NUL follows. */
 #define SCENE_NUMBER_SIZE 32
 size_t scene_format_number(float number, char *text);
+/* scene_put.c: as they stand in a file; those with a key put a comma before it, and nothing at all if it is the default, to the bit. */
+bool scene_same_number(float a, float b);
+void scene_put_number(FILE *stream, float number);
+void scene_put_pair(FILE *stream, carom_vec2 pair);
+/* What is no UTF-8 becomes the replacement character, so that the file can be read. */
+void scene_put_string(FILE *stream, const char *string);
+void scene_put_number_key(FILE *stream, const char *key, float number, float default_number);
+void scene_put_pair_key(FILE *stream, const char *key, carom_vec2 pair, carom_vec2 default_pair);
+void scene_put_bits_key(FILE *stream, const char *key, uint32_t bits, uint32_t default_bits);
 /* The double nearest to the JSON number at `at`. Answers its end, or NULL where there is no number, or none that is quickly
  * read: strtod's work. */
 const char *scene_scan_number(const char *at, const char *end, double *number);

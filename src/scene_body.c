@@ -153,6 +153,7 @@ static const struct scene_field body_fields[] = {
 	{"color", scene_read_color, scene_quick_color, offsetof(struct body, def.color), NULL, false},
 	{"name", scene_read_string, scene_quick_string, offsetof(struct body, def.name), NULL, false},
 	{"contacts", scene_read_contacts, scene_quick_contacts, 0, NULL, false},
+	{"joints", scene_read_joints, scene_quick_joints, 0, NULL, false},
 	SCENE_LAST_FIELD,
 };
 
@@ -223,7 +224,7 @@ carom_status scene_read_bodies(struct scene_reader *reader)
 	bool more = text.at < text.end;
 	carom_status status = CAROM_OK;
 	while (status == CAROM_OK && more) {
-		const size_t contacts = reader->scene->contact_count;
+		const size_t contacts = reader->scene->contact_count, joints = reader->scene->joint_count;
 		struct body body;
 		reader->body = text.at;
 		if (quick_body(&text, &body)) {
@@ -231,6 +232,7 @@ carom_status scene_read_bodies(struct scene_reader *reader)
 		} else {
 			text.at = reader->body;
 			reader->scene->contact_count = contacts;
+			reader->scene->joint_count = joints;
 			status = read_by_tree(reader, &text);
 		}
 		more = text.at < text.end; /* else a comma, which asks for one more */

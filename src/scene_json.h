@@ -101,8 +101,8 @@ void scene_json_destroy(json_t *value);
 
 scene_read_function scene_read_body; /* adds it to the scene */
 /* Those of a body that is the next to be added. */
-scene_read_function scene_read_contacts;
-scene_quick_function scene_quick_contacts;
+scene_read_function scene_read_contacts, scene_read_joints;
+scene_quick_function scene_quick_contacts, scene_quick_joints;
 /* The bodies that were cut out of the text, one by one. */
 carom_status scene_read_bodies(struct scene_reader *reader);
 

@@ -16,7 +16,7 @@ typedef enum carom_role {
 	ROLE_GEOMETRY,
 	ROLE_FORCES,
 	ROLE_FRICTION,
-	ROLE_FILTERS,        /* list, FILTER_WIDTH a body behind its head; of the head alone where all meet all */
+	ROLE_FILTERS,        /* list, FILTER_WIDTH a body behind its head, and bodies behind those; of the head alone where all meet all */
 	ROLE_VERTICES,       /* one texel two vertices */
 	ROLE_UNIFORMS,       /* UNIFORMS_WIDTH x 1 */
 	ROLE_CLOCK,          /* pair, CLOCK_WIDTH x 1 */
@@ -60,6 +60,8 @@ typedef enum carom_role {
 	ROLE_PUSHES,     /* records, PUSHES_WIDTH a slot */
 	ROLE_WARM,       /* records, one a contact of a body, or two where something rubs: part of the state */
 	ROLE_WARM_SPANS, /* list, WARM_SPAN_WIDTH a body, and before them as many for all */
+	ROLE_JOINTS,     /* records, JOINT_WIDTH a joint: their forces are part of the state */
+	ROLE_JOINED,     /* list, of bodies and of joints: see JOINED_COUNT; of its head alone where there are no joints */
 	/* of pictures, made when the first is drawn; lists are those of ints */
 	ROLE_STREAM,      /* one texel a vertex */
 	ROLE_TRANSFORMS,  /* one texel a body */
@@ -137,7 +139,7 @@ typedef enum carom_stage {
 	STAGE_COUNT
 } carom_stage;
 
-#define CAROM_MAX_TEXTURES 21
+#define CAROM_MAX_TEXTURES 24
 
 typedef struct carom_stage_def {
 	const char *slot;

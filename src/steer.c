@@ -10,15 +10,6 @@
 
 #define MOST_PICKS 4 /* calls that pick bodies after a batch: who asks more often asks for all, one after the other */
 
-/* The device is told as it goes on; where it can't, it is loaded anew. */
-static void tell_later(carom_world *world, carom_unsent what)
-{
-	if (carom_goes_on(world))
-		world->unsent |= (unsigned)what;
-	else
-		carom_load_anew(world);
-}
-
 /* Room for so many changes more, which then do not fail. */
 static carom_status reserve(carom_world *world, size_t count, carom_error *error)
 {
@@ -182,7 +173,7 @@ carom_status carom_world_set_filter(carom_world *world, uint32_t index, uint32_t
 		return CAROM_OK;
 	body->categories = categories;
 	body->mask = mask;
-	tell_later(world, UNSENT_FILTERS);
+	carom_tell_later(world, UNSENT_FILTERS);
 	return CAROM_OK;
 }
 
@@ -201,7 +192,7 @@ carom_status carom_world_set_gravity(carom_world *world, carom_vec2 gravity, car
 	carom_world_def def = world->def;
 	def.gravity = gravity;
 	TRY(change_def(world, &def, error));
-	tell_later(world, UNSENT_GRAVITY);
+	carom_tell_later(world, UNSENT_GRAVITY);
 	return CAROM_OK;
 }
 
@@ -211,6 +202,6 @@ carom_status carom_world_set_time_step(carom_world *world, float time_step, caro
 	carom_world_def def = world->def;
 	def.time_step = time_step;
 	TRY(change_def(world, &def, error));
-	tell_later(world, UNSENT_TIME_STEP);
+	carom_tell_later(world, UNSENT_TIME_STEP);
 	return CAROM_OK;
 }

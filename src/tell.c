@@ -16,6 +16,14 @@ bool carom_goes_on(const carom_world *world)
 	return world->newest & PLACE_SLOTS && !world->events.within && world->prepared && world->slots_current;
 }
 
+void carom_tell_later(carom_world *world, carom_unsent what)
+{
+	if (carom_goes_on(world))
+		world->unsent |= (unsigned)what;
+	else
+		carom_load_anew(world);
+}
+
 bool carom_are_few(size_t count, size_t of)
 {
 	return count <= of / FEW_PART;

@@ -27,11 +27,11 @@ uint32_t carom_capacity(size_t items)
 static carom_texel_format format_of(carom_role role)
 {
 	if ((role >= ROLE_BIN_COUNTS && role <= ROLE_TILE_LIST) || (role >= ROLE_MEMBERS && role <= ROLE_STATUS) || role == ROLE_NEED
-		|| role == ROLE_FILTERS || role == ROLE_TOUCHING || role == ROLE_ISLANDS || role == ROLE_WARM_SPANS)
+		|| role == ROLE_FILTERS || role == ROLE_TOUCHING || role == ROLE_ISLANDS || role == ROLE_WARM_SPANS || role == ROLE_JOINED)
 		return TEXELS_LIST;
 	if (role == ROLE_OUTLINES || role == ROLE_SLOTS || role == ROLE_CHANGES || role == ROLE_REACH || role == ROLE_WORK || role == ROLE_BOXES
 		|| role == ROLE_SHAPES || role == ROLE_EDGES || role == ROLE_LIGHT || role == ROLE_CONTACTS || role == ROLE_GRIPS || role == ROLE_LOADS
-		|| role == ROLE_PUSHES || role == ROLE_WARM || role == ROLE_HITS || role == ROLE_SHOCKS)
+		|| role == ROLE_PUSHES || role == ROLE_WARM || role == ROLE_JOINTS || role == ROLE_HITS || role == ROLE_SHOCKS)
 		return TEXELS_RECORD;
 	return role == ROLE_OVERLAP || role == ROLE_TILES || role == ROLE_PICTURE ? TEXELS_BYTE : TEXELS_FLOAT;
 }
@@ -84,6 +84,8 @@ static const char *const names[ROLE_COUNT] = {
 	[ROLE_PUSHES] = "Pushes",
 	[ROLE_WARM] = "Warm",
 	[ROLE_WARM_SPANS] = "WarmSpans",
+	[ROLE_JOINTS] = "Joints",
+	[ROLE_JOINED] = "Joined",
 	[ROLE_STREAM] = "Stream",
 	[ROLE_TRANSFORMS] = "Transforms",
 	[ROLE_VIEW] = "View",

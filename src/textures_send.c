@@ -78,11 +78,13 @@ static void fill_friction(const carom_world *world, void *data)
 	}
 }
 
-/* Is there a body that another one may pass through? False where all hit a category that each is of. */
+/* Is there a body that another one may pass through? False where all hit a category that each is of, and no joint keeps two from it. */
 static bool is_filtered(const carom_world *world)
 {
 	const carom_body *bodies = carom_world_bodies(world);
 	uint32_t hit_by_all = CAROM_MASK;
+	if (carom_apart_count(world) > 0)
+		return true;
 	for (size_t i = 0; i < world->body_count; i++)
 		hit_by_all &= bodies[i].mask;
 	for (size_t i = 0; i < world->body_count; i++)
@@ -135,12 +137,13 @@ static void fill_filters(const carom_world *world, void *data)
 		list[FILTER(i, FILTER_CATEGORIES)] = bodies[i].categories;
 		list[FILTER(i, FILTER_MASK)] = bodies[i].mask;
 	}
+	carom_apart_fill(world, data);
 }
 
 /* The head alone where no body may pass through another. */
 carom_status carom_filters_send(carom_world *world, carom_error *error)
 {
-	const uint32_t room = is_filtered(world) ? (uint32_t)FILTER(world->capacity, 0) : FILTERS_FIRST;
+	const uint32_t room = is_filtered(world) ? (uint32_t)(FILTER(world->capacity, 0) + 4 * carom_apart_count(world)) : FILTERS_FIRST;
 	if (room != world->filter_room) {
 		world->filter_room = 0;
 		TRY(carom_events_create_list(world, ROLE_FILTERS, false, room, error));

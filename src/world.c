@@ -88,6 +88,8 @@ void carom_world_destroy(carom_world *world)
 	free(world->linear.items);
 	free(world->rotational.items);
 	free(world->contacts.items);
+	free(world->joints.items);
+	free(world->apart.items);
 	free(world->changes.items);
 	free(world->hits.items);
 	free(world);

@@ -69,6 +69,7 @@ typedef struct carom_events {
 	uint32_t hit_room;        /* hits of Hits; 0: none are kept */
 	uint32_t fours_room;      /* fours of points in Contacts */
 	uint32_t warm_room;       /* contacts in Warm */
+	uint32_t joint_room;      /* joints in Joints */
 	uint32_t hits_taken;      /* of those in Hits, which has some of a step that is under way */
 	uint32_t columns, rows;   /* of cells */
 	uint32_t steps_a_list;    /* steps handed over between two makings of the lists */
@@ -143,6 +144,8 @@ struct carom_world {
 	carom_array names;
 	carom_array linear, rotational; /* four floats a body */
 	carom_array contacts;           /* carom_contact, in order */
+	carom_array joints;             /* carom_joint */
+	carom_array apart;              /* pairs of bodies that joints keep from hitting each other, sorted: the lower index times 2^32, and the higher */
 	carom_array changes;            /* carom_change, of bodies that each has one alone */
 	carom_array hits;               /* carom_hit: those of the last call, where they are kept */
 	size_t body_count, circle_count;
@@ -152,7 +155,7 @@ struct carom_world {
 	bool bodies_current; /* the device's constant textures are those of the bodies */
 	bool slots_current;  /* its slots are of the bodies as they are, but for what is to be told of; else they are to be loaded anew */
 	unsigned unsent;     /* carom_unsent: what the device, as it goes on, is to be told beside `changes` */
-	bool contacts_current, contacts_sent; /* the host has the device's contacts; the device has the host's */
+	bool contacts_current, contacts_sent; /* the host has the device's contacts and joints' forces; the device has the host's contacts and joints */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
 	uint32_t vertex_capacity;  /* texels of Vertices, likewise, */
@@ -214,6 +217,8 @@ carom_status carom_check_range(carom_world *world, carom_error *error);
 bool carom_range_holds(carom_world *world);
 /* tell.c: can the device go on with bodies that are changed, come or go, without being loaded anew? */
 bool carom_goes_on(const carom_world *world);
+/* It is told as it goes on; where it can't, it is loaded anew. */
+void carom_tell_later(carom_world *world, carom_unsent what);
 /* Of so many bodies, are these few? Where many are set, come or go it costs less to load all. */
 bool carom_are_few(size_t count, size_t of);
 /* Tells it of bodies that are changed or have come, */
@@ -255,6 +260,16 @@ carom_status carom_contacts_send(carom_world *world, carom_error *error);
 carom_status carom_contacts_fetch(carom_world *world, carom_error *error);
 /* Where Warm is too small, a larger one, which is to be sent. */
 carom_status carom_contacts_grow(carom_world *world, carom_error *error);
+/* joints.c: all of them to the device, and the forces back; a part of what contacts.c moves */
+carom_status carom_joints_send(carom_world *world, carom_error *error);
+carom_status carom_joints_fetch(carom_world *world, carom_error *error);
+size_t carom_joint_count(const carom_world *world);
+/* Those of bodies that go, as `numbers` says, go with them; see remove.c. */
+void carom_joints_close(carom_world *world, const uint32_t *numbers, uint32_t gone);
+/* Does a joint keep the two from hitting each other? How many pairs there are, and them into Filters, which has room for four times as many ints behind the bodies. */
+bool carom_joints_part(const carom_world *world, size_t a, size_t b);
+size_t carom_apart_count(const carom_world *world);
+void carom_apart_fill(const carom_world *world, int32_t *filters);
 /* hits.c: takes those of Hits from number `first` on, in order */
 carom_status carom_hits_take(carom_world *world, uint32_t first, uint32_t end, carom_error *error);
 /* One more. */

@@ -17,7 +17,8 @@ __kernel void contacts_begin(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), 
 
 /* First of those that are awake; then of those that they wake. */
 __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(contacts), LIST_OUT(touching),
-	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_spans), LIST_OUT(islands), int4 domain)
+	LIST_IN(owners), LIST_IN(parents), RECORD_OUT(pushes), TEX_IN(friction), RECORD_OUT(grips), LIST_IN(warm_spans), LIST_OUT(islands),
+	LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || status[STATUS_FIRST] != domain.z || status[STATUS_PASS] != PASS_IMPULSES || !is_due(status, touching, islands, s, domain.w))
@@ -25,14 +26,17 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 	if (!domain.w)
 		slot_keep(slots, pushes, s);
 	islands[s] = s;
-	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s,
-		whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock))));
+	int held = joined_find(slots, places, joints, joined, touching, islands, s),
+		count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s, held,
+			whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock))));
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
+	joined_write(slots, places, joints, joined, touching, contacts, grips, s, count > 0 ? held : 0, anything_rubs(TEX(uniforms)));
 	if (count > 0 || warm_count(slots, warm_spans, s) > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
 
-__kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_OUT(warm_spans), RECORD_IN(pushes), int4 domain)
+__kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_OUT(warm_spans), RECORD_IN(pushes), RECORD_IN(joints),
+	LIST_IN(joined), int4 domain)
 {
 	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
@@ -46,8 +50,10 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_
 			touching[TOUCH(s, TOUCHING_RESTLESS)] = touching[TOUCH(s, TOUCHING_FOOTING)] = 0;
 			warm_take(slots, status, contacts, touching, warm, warm_spans, s, rub);
 			island_join(slots, contacts, touching, islands, s);
-		} else
+		} else {
+			joined_warm(slots, contacts, touching, joints, joined, s, length);
 			rests_warm(slots, contacts, grips, touching, warm, warm_spans, s, rub, length);
+		}
 		float4 load = load_alone(slots, impulses, s, length);
 		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 		loads[LOADS_OF(s) + LOADS_ALONE] = load;
@@ -56,18 +62,20 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_
 }
 
 /* One iteration; or where few bodies touch all there are, by one group alone, for which they cost less than launches. */
-__kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), int4 domain)
+__kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), int4 domain)
 {
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
 	bool again, alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms));
+	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
 	do {
 		bool wanted = false;
 		for (int i = begin; i < touches; i += stride)
-			wanted |= island_iterate(slots, status, contacts, grips, touching, islands, loads, touching[TOUCH(i, TOUCHING_SLOT)], done, rub);
+			wanted |= island_iterate(slots, status, contacts, grips, touching, islands, loads, places, joints, joined,
+				touching[TOUCH(i, TOUCHING_SLOT)], done, rub, length);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;
@@ -99,21 +107,14 @@ __kernel void contacts_apply(RESTS_IN, RECORD_OUT(reach), LIST_OUT(wakes), LIST_
 
 /* After a step the pushes are as they were, and its forces are kept; before one that begins again the velocities, too, are as they were. */
 __kernel void contacts_release(RESTS_IN, RECORD_IN(pushes), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(warm),
-	LIST_OUT(warm_spans), LIST_IN(places), int4 domain)
+	LIST_OUT(warm_spans), LIST_IN(places), RECORD_OUT(joints), LIST_IN(joined), int4 domain)
 {
 	bool again = domain.w, rub = anything_rubs(TEX(uniforms)), due = status[STATUS_BORNE] && (status[STATUS_PASS] > 0) == again;
 	float length = whole_length(TEX(uniforms), CHANNEL(TEX_LOAD(clock, CLOCK_STEP, 0), STEP_LENGTH)); /* of the step that is done */
 	for (int i = get_global_id(0); due && i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
-		bool borne = slot_is_unpushed(slots, s) && wakes[WAKE(s, WAKE_CHANGED)] != CHANGED_IN(status[STATUS_AGE]); /* and had no event */
-		slot_restore(slots, pushes, s, again);
-		if (!again) {
-			float2 ground = ground_velocity(slots, touching, islands, places, s);
-			slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, ground, length);
-			forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_spans, s, rub, ground, length);
-			if (!borne || !slot_stayed(slots, pushes, s))
-				island_disturb(touching, islands, s);
-		}
+		slot_release(slots, status, contacts, grips, touching, islands, pushes, warm, warm_spans, places, joints, joined, wakes, s, again, rub,
+			length);
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 	}
 }

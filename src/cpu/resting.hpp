@@ -30,7 +30,7 @@ struct Partner {
 	}
 };
 
-/* Four points of a body's contacts side by side, in order; where there are no more, points that push nothing. */
+/* Four points of a body's joints and contacts side by side, in order; where there are no more, points that push nothing. */
 template <typename T> struct Points {
 	Lanes<T> partner; /* see Partner */
 	Lanes<T> normal_x, normal_y, arm, other_arm, least, tolerance, step, force, start;
@@ -107,7 +107,7 @@ template <typename T> struct Nearness {
 
 /* A slot, and which of the contacts that were found are its body's. */
 struct RestingBody {
-	int32_t s, points;
+	int32_t s, joined, points; /* joined: of the points, the first ones, those of joints */
 	size_t first, end;
 };
 
@@ -126,7 +126,7 @@ public:
 		const Nearness<T> nearness;
 		first = found.size();
 		if (slot.is_static())
-			return {s, 0, first, first};
+			return {s, 0, 0, first, first};
 		if (is_dynamic && !(is_awake && clusters.stays_inside(s, Trajectory<T>(slot), T(1))))
 			walls(slot, Trajectory<T>(slot), nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
@@ -138,7 +138,7 @@ public:
 			else if (sleepers.sleeps(other))
 				sleepers.disturb(other);
 		});
-		RestingBody body{s, 0, first, found.size()};
+		RestingBody body{s, 0, 0, first, found.size()};
 		for (size_t k = first; k < found.size(); k++) {
 			body.points += found[k].written();
 			if (const Partner partner = found[k].partner; is_awake && partner.moves() && sleepers.sleeps(partner.slot()))
@@ -147,10 +147,10 @@ public:
 		return body;
 	}
 
-	/* Writes a body's points in order, and how they slide, where anything rubs. */
+	/* Writes a body's points in order, behind those of joints, and how they slide, where anything rubs. */
 	void write(const RestingBody &body, Points<T> *to, Grips<T> *grips) const
 	{
-		int32_t written = 0;
+		int32_t written = body.joined;
 		for (size_t k = body.first; k < body.end; k++) {
 			const Resting<T> &rest = found[k];
 			const int32_t count = rest.written();

@@ -71,15 +71,24 @@ template <typename T> struct Rests {
 			visit(points[four], grips[rubs ? four : 0]);
 	}
 
-	/* Calls `visit(points, grips, i, partner, which of the contact's points it is)` for each point alone, but for those that are none. */
+	/* Calls `visit(points, i, partner, which of all points it is)` for each that is of a joint. */
+	template <typename Visit> void each_joined(int32_t s, const Visit &visit) const
+	{
+		for (int32_t k = 0; k < touching[s].joined; k++) {
+			Points<T> &four = points[touching[s].first + k / lane_count];
+			visit(four, k % lane_count, Partner(four.partner[k % lane_count]), k);
+		}
+	}
+
+	/* Calls `visit(points, grips, i, partner, which of the contact's points it is)` for each point of contacts alone, but for those that are none. */
 	template <typename Visit> void each_point(int32_t s, const Visit &visit) const
 	{
 		Partner before;
-		int32_t point = 0;
+		int32_t point = 0, joined = touching[s].joined;
 		each(s, [&](Points<T> &four, Grips<T> &rubbing) {
 			for (int32_t i = 0; i < lane_count; i++) {
 				const Partner partner(four.partner[i]);
-				if (partner.is_none())
+				if (joined-- > 0 || partner.is_none())
 					continue;
 				point = partner.code == before.code ? point + 1 : 0;
 				before = partner;

@@ -1,6 +1,7 @@
 /* The forces between bodies that rest on each other: a projected gradient, accelerated as Nesterov did. */
 #include "cpu/fours.hpp"
-#include "cpu/keep.hpp"
+#include "cpu/islands.hpp"
+#include "cpu/joints.hpp"
 #include "cpu/response.hpp"
 #include "cpu/still.hpp"
 
@@ -62,6 +63,8 @@ template <typename T> static void find(const Job<T> &job)
 	const Rubs<T> rubs(job.texels(1), job.texels(17));
 	Grips<T> *grips = reinterpret_cast<Grips<T> *>(job.records(18));
 	const Warm<T> warm(nullptr, job.list(19), rubs.any);
+	const int32_t *places = job.list(21);
+	const Joints<T> joints(job.records(22), job.list(23));
 	Touching *touching = sleepers.touching;
 	int32_t *status = clusters.status;
 	const bool is_second = job.domain[3];
@@ -78,10 +81,14 @@ template <typename T> static void find(const Job<T> &job)
 				sleepers.kept[s].keep(clusters.slots[s]);
 			sleepers.islands[s] = s;
 			bodies.push_back(finder.find(s, sleepers));
+			bodies.back().joined = count_joined(joints, clusters.slots, places, sleepers, s);
+			bodies.back().points += bodies.back().joined;
 		}
 		take_fours(bodies, touching, status);
 		for (const RestingBody &body : bodies) {
 			const Touching &own = touching[body.s];
+			if (own.joined > 0)
+				write_joined(joints, clusters.slots, places, body.s, points + own.first, rubs.any ? grips + own.first : nullptr);
 			if (own.count > 0)
 				finder.write(body, points + own.first, grips + (rubs.any ? own.first : 0));
 			/* what rests on a kinematic body goes by that one's load */
@@ -113,22 +120,7 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 				along.add(i, all);
 		}
 	});
-	return all.bound();
-}
-
-/* A body and those that it touches are of one island; what is not dynamic carries it. */
-template <typename T> static void unite(const Rests<T> &rests, int32_t s)
-{
-	int32_t carrier = -1;
-	rests.each_point(s, [&](const Points<T> &, const Grips<T> &, int32_t, Partner partner, int32_t point) {
-		if (point == 0 && partner.slot() > s && rests.slots[partner.slot()].is_dynamic()) /* of two bodies one says so */
-			rests.islands.unite(s, partner.slot());
-		if (!partner.moves())
-			carrier = CARRIER_STATIC;
-		else if (!rests.slots[partner.slot()].is_dynamic())
-			carrier = std::max(carrier, rests.slots[partner.slot()].body());
-	});
-	rests.touching[s].carrier = carrier;
+	return rests.touching[s].joined > 0 ? T(JOINT_SHARE) * all.bound() : all.bound();
 }
 
 template <typename T> static void join(const Job<T> &job)
@@ -136,6 +128,7 @@ template <typename T> static void join(const Job<T> &job)
 	const Rests<T> rests(job);
 	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
 	const Warm<T> warm(job.records(9), job.list(10), rests.rubs);
+	const Joints<T> joints(job.records(12), job.list(13));
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	const Sleepers<T> sleepers{rests.touching, reinterpret_cast<Kept<T> *>(job.records(11)), rests.islands.parents, rests.status};
 	const int32_t first = job.domain[2];
@@ -151,8 +144,10 @@ template <typename T> static void join(const Job<T> &job)
 				rests.touching[s].restless = rests.touching[s].footing = 0;
 				take_warm(rests, warm, s);
 				unite(rests, s);
-			} else
+			} else {
+				warm_joined(rests, joints, s);
 				warm_up(rests, warm, s);
+			}
 			Lanes<T> *load = loads + LOADS_OF(s);
 			rests.alone(s, share_of(rests, s), load[LOADS_ALONE]);
 			load[first & 1] = load[LOADS_ALONE];
@@ -217,6 +212,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	const T beta = static_cast<T>(done) / static_cast<T>(done + 2);
 	const T closer = rests.impulses || done == 0 ? T(1) : T(CONTACT_CLOSER);
 	Sums<T> next;
+	int32_t joined = rests.touching[s].joined;
 	decltype(load < zero) wanted{};
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
@@ -228,8 +224,11 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 		Lanes<T> rate;
 		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
 		rate += points.least;
-		const Lanes<T> pushed = points.start - rate * points.step, force = zero > pushed ? zero : pushed;
-		wanted |= (force > 0 ? magnitude(rate) : -rate) > closer * points.tolerance;
+		Lanes<T> least{}; /* what pulls, too, has none */
+		for (int32_t i = 0; i < lane_count && joined > 0; i++, joined--)
+			least[i] = -infinite<T>;
+		const Lanes<T> pushed = points.start - rate * points.step, force = least > pushed ? least : pushed;
+		wanted |= (force > least ? magnitude(rate) : -rate) > closer * points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
 		next.add(slot, points, points.start);
@@ -244,18 +243,9 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
-/* The root of a slot's island, which is its parent from then on; of what carries slots it has the largest index. */
-template <typename T> static int32_t settled_root(const Rests<T> &rests, int32_t s)
-{
-	const int32_t root = rests.islands.flat_root_of(s), carrier = rests.touching[s].carrier;
-	int32_t *const to = &rests.touching[root].carrier;
-	for (int32_t now = __atomic_load_n(to, __ATOMIC_RELAXED); root != s && now < carrier;)
-		__atomic_compare_exchange_n(to, &now, carrier, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
-	return root;
-}
-
-/* The same of some of the bodies that touch, where their islands want it. */
-template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests, Lanes<T> *loads, int32_t from, int32_t to, int32_t number)
+/* One iteration of some of the bodies that touch, where their islands want it. */
+template <bool rubs, typename T>
+static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T> *loads, int32_t from, int32_t to, int32_t number)
 {
 	const int32_t done = number - rests.status[STATUS_FIRST];
 	const bool is_last = done + 1 >= (rubs && rests.impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS);
@@ -263,7 +253,11 @@ template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests,
 	for (int32_t k = from; k < to; k++) {
 		const int32_t s = rests.touching[k].slot;
 		int32_t *const island_wants = &rests.touching[done == 0 ? settled_root(rests, s) : rests.islands.parents[s]].wanted;
-		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) < number || !iterate_one<rubs>(rests, loads, s, number & 1, done) || is_last)
+		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) < number)
+			continue;
+		if (is_aimed(done) && !rests.impulses)
+			aim_joined(rests, joints, loads, s, number & 1);
+		if (!iterate_one<rubs>(rests, loads, s, number & 1, done) || is_last)
 			continue;
 		wanted = true;
 		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
@@ -274,10 +268,10 @@ template <bool rubs, typename T> static bool iterate_some(const Rests<T> &rests,
 #if defined(__x86_64__)
 /* The same in fewer instructions, where the processor has them. */
 template <bool rubs>
-[[gnu::target("avx2"), gnu::flatten]] static bool iterate_some_avx2(const Rests<float> &rests, Lanes<float> *loads, int32_t from, int32_t to,
-	int32_t number)
+[[gnu::target("avx2"), gnu::flatten]] static bool iterate_some_avx2(const Rests<float> &rests, const Joints<float> &joints, Lanes<float> *loads,
+	int32_t from, int32_t to, int32_t number)
 {
-	return iterate_some<rubs>(rests, loads, from, to, number);
+	return iterate_some<rubs>(rests, joints, loads, from, to, number);
 }
 
 template <bool rubs> static auto best_iteration(float)
@@ -294,14 +288,16 @@ template <bool rubs, typename T> static auto best_iteration(T)
 /* One iteration, of all that want it. */
 template <typename T> static void iterate(const Job<T> &job)
 {
-	const Rests<T> rests(job);
+	Rests<T> rests(job);
+	rests.places = job.list(9);
+	const Joints<T> joints(job.records(10), job.list(11));
 	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
 	const int32_t number = job.domain[2];
 	const auto some = rests.rubs ? best_iteration<true>(T()) : best_iteration<false>(T());
 	if (rests.status[STATUS_WANTED] != number)
 		return;
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
-		if (some(rests, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
+		if (some(rests, joints, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
 			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
 	});
 }
@@ -360,6 +356,7 @@ template <typename T> static void release(const Job<T> &job)
 	Kept<T> *kept = reinterpret_cast<Kept<T> *>(job.records(8));
 	const Sleepers<T> sleepers{rests.touching, kept, rests.islands.parents, rests.status};
 	const Warm<T> warm(job.records(12), job.list(13), rests.rubs);
+	const Joints<T> joints(job.records(15), job.list(16));
 	const T length = whole_length(job.texels(1).fact(CLOCK_STEP, STEP_LENGTH), job.texels(0)); /* of the step that is done: the clock has gone on */
 	const Wake *wakes = reinterpret_cast<const Wake *>(job.list(10));
 	const bool again = job.domain[3];
@@ -374,6 +371,8 @@ template <typename T> static void release(const Job<T> &job)
 			if (!again) {
 				const Vec<T> ground = rests.ground_of(s);
 				settle(rests, slots[s], s, ground, kept, length);
+				if (!keep_joined(rests, joints, kept, s, ground, length))
+					sleepers.disturb(s);
 				if (!keep_forces(rests, kept, s, ground, length, warm) || !is_borne || has_event || !kept[s].stays(slots[s]))
 					sleepers.disturb(s);
 			}

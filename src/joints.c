@@ -1,0 +1,389 @@
+/* What holds bodies together: the host's list of joints, and its way to the device (Joints and Joined in kernels/CONTRACT.md) and back. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout.h"
+#include "status.h"
+#include "step/events.h"
+
+#define MOST_JOINTS (1u << 24)
+#define FARTHEST_ANCHOR 1e9f /* m */
+
+size_t carom_joint_count(const carom_world *world)
+{
+	return world->joints.used / sizeof(carom_joint);
+}
+
+/* ---- Pairs that joints keep from hitting each other ---- */
+
+static uint64_t pair_of(uint64_t a, uint64_t b)
+{
+	return a < b ? a << 32 | b : b << 32 | a;
+}
+
+static uint32_t body_of(uint64_t pair, int side)
+{
+	return (uint32_t)(pair >> 32 * side);
+}
+
+static int32_t *except_of(int32_t *filters, uint64_t pair, int side)
+{
+	return &filters[FILTER(body_of(pair, side), FILTER_EXCEPT)];
+}
+
+static int compare_pairs(const void *left, const void *right)
+{
+	const uint64_t a = *(const uint64_t *)left, b = *(const uint64_t *)right;
+	return a < b ? -1 : a > b;
+}
+
+size_t carom_apart_count(const carom_world *world)
+{
+	return world->apart.used / sizeof(uint64_t);
+}
+
+/* Sorted, each once; false if there is no memory, which is never so where they get fewer. */
+static bool find_apart(carom_array *apart, const carom_joint *joints, size_t count)
+{
+	size_t left = 0;
+	apart->used = 0;
+	for (size_t k = 0; k < count; k++) {
+		if (joints[k].collides || joints[k].other == CAROM_GROUND)
+			continue;
+		uint64_t *pair = carom_array_grow(apart, sizeof *pair);
+		if (!pair)
+			return false;
+		*pair = pair_of(joints[k].body, (uint64_t)joints[k].other);
+	}
+	uint64_t *pairs = apart->items;
+	const size_t all = apart->used / sizeof *pairs;
+	if (all > 1)
+		qsort(pairs, all, sizeof *pairs, compare_pairs);
+	for (size_t k = 0; k < all; k++)
+		if (k == 0 || pairs[k] != pairs[k - 1])
+			pairs[left++] = pairs[k];
+	apart->used = left * sizeof *pairs;
+	return true;
+}
+
+bool carom_joints_part(const carom_world *world, size_t a, size_t b)
+{
+	const uint64_t pair = pair_of(a, b);
+	return carom_apart_count(world) > 0 && bsearch(&pair, world->apart.items, carom_apart_count(world), sizeof pair, compare_pairs);
+}
+
+/* Of each body those that it never meets, behind FILTERS_FIRST and the bodies; from the end of each one's on, so that FILTER_EXCEPT is where they begin when all are there. */
+void carom_apart_fill(const carom_world *world, int32_t *filters)
+{
+	const uint64_t *pairs = world->apart.items;
+	const size_t count = carom_apart_count(world);
+	int32_t end = (int32_t)FILTER(world->capacity, 0);
+	if (count == 0)
+		return;
+	for (size_t k = 0; k < count; k++)
+		for (int side = 0; side < 2; side++)
+			++*except_of(filters, pairs[k], side);
+	for (size_t body = 0; body < world->body_count; body++) {
+		int32_t *except = &filters[FILTER(body, FILTER_EXCEPT)];
+		if (*except == 0)
+			continue;
+		*except = end += *except;
+		filters[end++] = -1;
+	}
+	for (size_t k = 0; k < count; k++)
+		for (int side = 0; side < 2; side++)
+			filters[--*except_of(filters, pairs[k], side)] = (int32_t)body_of(pairs[k], 1 - side);
+}
+
+/* ---- The device's copy ---- */
+
+static carom_status no_memory(size_t count, carom_error *error)
+{
+	return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to move %zu joints", count);
+}
+
+static void fill_records(const carom_world *world, float *records)
+{
+	const carom_joint *joints = world->joints.items;
+	for (size_t k = 0; k < carom_joint_count(world); k++, records += 4 * JOINT_WIDTH) {
+		float *parties = records + 4 * JOINT_PARTIES, *anchors = records + 4 * JOINT_ANCHORS;
+		parties[JOINT_BODY] = (float)joints[k].body;
+		parties[JOINT_OTHER] = (float)joints[k].other;
+		parties[JOINT_LENGTH] = joints[k].kind == CAROM_DISTANCE ? joints[k].length : -1.0f;
+		memcpy(anchors, &joints[k].anchor, sizeof joints[k].anchor);
+		memcpy(anchors + 2, &joints[k].other_anchor, sizeof joints[k].other_anchor);
+		memcpy(records + 4 * JOINT_FORCES, joints[k].force, sizeof joints[k].force);
+	}
+}
+
+/* From the last joint on, so that a body's are in order. */
+static void fill_joined(const carom_world *world, int32_t *list)
+{
+	const carom_joint *joints = world->joints.items;
+	const uint32_t bodies = world->capacity;
+	list[JOINED_COUNT] = (int32_t)carom_joint_count(world);
+	list[JOINED_BODIES] = (int32_t)bodies;
+	if (carom_joint_count(world) == 0)
+		return;
+	memset(list + JOINED_FIRST, 0xFF, (size_t)bodies * sizeof *list);
+	for (size_t k = carom_joint_count(world); k-- > 0;)
+		for (int side = 0; side < 2; side++) {
+			const int32_t body = side ? joints[k].other : (int32_t)joints[k].body;
+			if (body == CAROM_GROUND)
+				continue;
+			int32_t *first = &list[JOINED_FIRST + body];
+			list[JOINED_NEXT(bodies, 2 * k + (size_t)side)] = *first;
+			*first = (int32_t)(2 * k) + side;
+		}
+}
+
+/* Items of the two lists: one record at least, and the head. */
+static uint32_t record_count(const carom_world *world)
+{
+	return carom_joint_count(world) > 0 ? JOINT_WIDTH * (uint32_t)carom_joint_count(world) : 1;
+}
+
+static uint32_t joined_count(const carom_world *world)
+{
+	const size_t count = carom_joint_count(world);
+	return count > 0 ? (uint32_t)JOINED_NEXT(world->capacity, 2 * count) : JOINED_FIRST;
+}
+
+/* Room for so many items of a size, in whole rows; to be given to free. */
+static void *rows_create(uint32_t items, size_t size)
+{
+	return calloc((size_t)carom_row_count(items) * carom_row_width(items), size);
+}
+
+static carom_status make_room(carom_world *world, carom_error *error)
+{
+	const uint32_t room = (uint32_t)carom_joint_count(world) + 1; /* 0: not made yet */
+	if (world->events.joint_room == room)
+		return CAROM_OK;
+	world->events.joint_room = 0;
+	TRY(carom_events_create_list(world, ROLE_JOINTS, false, record_count(world), error));
+	TRY(carom_events_create_list(world, ROLE_JOINED, false, joined_count(world), error));
+	world->events.joint_room = room;
+	return CAROM_OK;
+}
+
+carom_status carom_joints_send(carom_world *world, carom_error *error)
+{
+	const carom_device_class *kind = world->device->kind;
+	const uint32_t records = record_count(world), joined = joined_count(world);
+	TRY(make_room(world, error));
+	float *texels = rows_create(records, 4 * sizeof *texels);
+	int32_t *list = rows_create(joined, sizeof *list);
+	carom_status status = texels && list ? CAROM_OK : no_memory(carom_joint_count(world), error);
+	if (!status) {
+		fill_records(world, texels);
+		fill_joined(world, list);
+		status = kind->upload(world->device, world->textures[ROLE_JOINTS].front, carom_row_count(records), texels, error);
+	}
+	if (!status)
+		status = kind->upload(world->device, world->textures[ROLE_JOINED].front, carom_row_count(joined), list, error);
+	free(texels);
+	free(list);
+	return status;
+}
+
+carom_status carom_joints_fetch(carom_world *world, carom_error *error)
+{
+	carom_joint *joints = world->joints.items;
+	const size_t count = carom_joint_count(world);
+	if (count == 0 || world->events.joint_room != count + 1)
+		return CAROM_OK;
+	const uint32_t records = record_count(world);
+	float *texels = rows_create(records, 4 * sizeof *texels);
+	if (!texels)
+		return no_memory(count, error);
+	const carom_status status = world->device->kind->download(world->device, world->textures[ROLE_JOINTS].front, carom_row_count(records), texels,
+		error);
+	for (size_t k = 0; !status && k < count; k++)
+		memcpy(joints[k].force, texels + 4 * (JOINT_WIDTH * k + JOINT_FORCES), sizeof joints[k].force);
+	free(texels);
+	return status;
+}
+
+void carom_joints_close(carom_world *world, const uint32_t *numbers, uint32_t gone)
+{
+	carom_joint *joints = world->joints.items;
+	size_t left = 0;
+	for (size_t k = 0; k < carom_joint_count(world); k++) {
+		carom_joint joint = joints[k];
+		if (numbers[joint.body] == gone || (joint.other != CAROM_GROUND && numbers[joint.other] == gone))
+			continue;
+		joint.body = numbers[joint.body];
+		joint.other = joint.other == CAROM_GROUND ? CAROM_GROUND : (int32_t)numbers[joint.other];
+		joints[left++] = joint;
+	}
+	world->joints.used = left * sizeof *joints;
+	find_apart(&world->apart, joints, left);
+}
+
+/* ---- The interface ---- */
+
+carom_joint carom_default_joint(void)
+{
+	return (carom_joint){.other = CAROM_GROUND, .other_anchor = {NAN, NAN}, .length = NAN};
+}
+
+size_t carom_world_joint_count(const carom_world *world)
+{
+	return world ? carom_joint_count(world) : 0;
+}
+
+carom_status carom_world_get_joints(carom_world *world, size_t first, size_t count, carom_joint *joints, carom_error *error)
+{
+	GIVEN(world, error);
+	if (count > 0)
+		GIVEN(joints, error);
+	TRY(carom_contacts_fetch(world, error)); /* with which the forces come */
+	TRY(carom_check_span("joints", first, count, "the world has", carom_joint_count(world), error));
+	if (count > 0)
+		memcpy(joints, (const carom_joint *)world->joints.items + first, count * sizeof *joints);
+	return CAROM_OK;
+}
+
+static carom_status check_parties(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	if ((int)joint->kind != CAROM_REVOLUTE && (int)joint->kind != CAROM_DISTANCE)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].kind: found %d, must be CAROM_REVOLUTE or CAROM_DISTANCE", k, (int)joint->kind);
+	if (joint->body >= world->body_count)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].body: found %u, the world has %zu bodies", k, joint->body, world->body_count);
+	if (joint->other != CAROM_GROUND && (joint->other < 0 || (size_t)joint->other >= world->body_count || (uint32_t)joint->other == joint->body))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].other: found %d, must be the index of another one of %zu bodies", k,
+			(int)joint->other, world->body_count);
+	if (!carom_is_dynamic(&bodies[joint->body]) && (joint->other == CAROM_GROUND || !carom_is_dynamic(&bodies[joint->other])))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu]: one of the two must be dynamic, and body %u is %s", k, joint->body,
+			bodies[joint->body].is_static ? "static" : "kinematic");
+	return CAROM_OK;
+}
+
+static bool may_be_anchor(carom_vec2 v)
+{
+	return fabsf(v.x) <= FARTHEST_ANCHOR && fabsf(v.y) <= FARTHEST_ANCHOR;
+}
+
+static carom_status check_numbers(size_t k, const carom_joint *joint, carom_error *error)
+{
+	const carom_vec2 anchors[] = {joint->anchor, joint->other_anchor};
+	static const char *const anchor_names[] = {"anchor", "other_anchor"};
+	for (int side = 0; side < 2; side++)
+		if (!may_be_anchor(anchors[side]))
+			return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].%s: found (%g, %g), must be two numbers from -1e9 to 1e9 (m)", k,
+				anchor_names[side], (double)anchors[side].x, (double)anchors[side].y);
+	if (joint->kind == CAROM_DISTANCE && !(joint->length > 0.0f && joint->length <= FARTHEST_ANCHOR))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].length: found %g, must be a number above 0, up to 1e9 (m)", k,
+			(double)joint->length);
+	if (!isfinite(joint->force[0]) || !isfinite(joint->force[1]))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].force: must be two finite numbers (N)", k);
+	return CAROM_OK;
+}
+
+/* Where a body's anchor is now. */
+static carom_status place_anchor(carom_world *world, int32_t body, carom_vec2 anchor, double *x, double *y, carom_error *error)
+{
+	carom_body_state state = {.angle = 0.0f};
+	if (body != CAROM_GROUND)
+		TRY(carom_world_get_states(world, (uint32_t)body, 1, &state, error));
+	const double c = cos((double)state.angle), s = sin((double)state.angle);
+	*x = (double)state.position.x + (c * (double)anchor.x - s * (double)anchor.y);
+	*y = (double)state.position.y + (s * (double)anchor.x + c * (double)anchor.y);
+	return CAROM_OK;
+}
+
+/* What was not said is as it is now. */
+static carom_status complete(carom_world *world, carom_joint *joint, carom_error *error)
+{
+	double x, y, other_x, other_y;
+	TRY(place_anchor(world, (int32_t)joint->body, joint->anchor, &x, &y, error));
+	if (isnan(joint->other_anchor.x) && isnan(joint->other_anchor.y)) {
+		carom_body_state state = {.angle = 0.0f};
+		if (joint->other != CAROM_GROUND)
+			TRY(carom_world_get_states(world, (uint32_t)joint->other, 1, &state, error));
+		const double c = cos((double)state.angle), s = sin((double)state.angle), dx = x - (double)state.position.x, dy = y - (double)state.position.y;
+		joint->other_anchor = (carom_vec2){(float)(c * dx + s * dy), (float)(c * dy - s * dx)};
+	}
+	if (joint->kind != CAROM_DISTANCE) {
+		joint->length = 0.0f;
+		return CAROM_OK;
+	}
+	TRY(place_anchor(world, joint->other, joint->other_anchor, &other_x, &other_y, error));
+	joint->length = isnan(joint->length) ? (float)hypot(x - other_x, y - other_y) : joint->length;
+	joint->force[1] = 0.0f;
+	return CAROM_OK;
+}
+
+static carom_status check_all(carom_world *world, size_t count, carom_joint *joints, carom_error *error)
+{
+	if (world->step != &carom_step_contacts)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints: the step %s holds none; take the step contacts", world->step->name);
+	for (size_t k = 0; k < count; k++) {
+		TRY(check_parties(world, k, &joints[k], error));
+		TRY(complete(world, &joints[k], error));
+		TRY(check_numbers(k, &joints[k], error));
+	}
+	return CAROM_OK;
+}
+
+/* In the order of their bodies, of one body as they are: so they are written, and read again. */
+static carom_status sort(const carom_world *world, const carom_joint *joints, size_t count, carom_joint *sorted, carom_error *error)
+{
+	size_t *ends = calloc(world->body_count + 1, sizeof *ends); /* of the joints of each body, so far */
+	if (!ends)
+		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu joints", count);
+	for (size_t k = 0; k < count; k++)
+		ends[joints[k].body + 1]++;
+	for (size_t body = 1; body < world->body_count; body++)
+		ends[body] += ends[body - 1];
+	for (size_t k = 0; k < count; k++)
+		sorted[ends[joints[k].body]++] = joints[k];
+	free(ends);
+	return CAROM_OK;
+}
+
+/* Bodies hit each other that did not, or do not that did. */
+static bool are_others(const carom_array *a, const carom_array *b)
+{
+	return a->used != b->used || (a->used > 0 && memcmp(a->items, b->items, a->used) != 0);
+}
+
+carom_status carom_world_set_joints(carom_world *world, size_t count, const carom_joint *joints, carom_error *error)
+{
+	carom_array taken = {0}, sorted = {0}, apart = {0};
+	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
+	if (count > 0)
+		GIVEN(joints, error);
+	TRY(carom_contacts_fetch(world, error)); /* which are sent again with the joints */
+	carom_status status = CAROM_OK;
+	if (count > MOST_JOINTS)
+		status = carom_fail(error, CAROM_LIMIT, "a world holds at most %u joints", MOST_JOINTS);
+	else if (count > 0 && !(carom_array_grow(&taken, count * sizeof *joints) && carom_array_grow(&sorted, count * sizeof *joints)))
+		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu joints", count);
+	if (!status && count > 0) {
+		memcpy(taken.items, joints, count * sizeof *joints);
+		status = check_all(world, count, taken.items, error);
+	}
+	if (!status && count > 0)
+		status = sort(world, taken.items, count, sorted.items, error);
+	if (!status && !find_apart(&apart, sorted.items, count))
+		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu joints", count);
+	free(taken.items);
+	if (status) {
+		free(sorted.items);
+		free(apart.items);
+		return status;
+	}
+	if (are_others(&apart, &world->apart))
+		carom_tell_later(world, UNSENT_FILTERS);
+	free(world->joints.items);
+	free(world->apart.items);
+	world->joints = sorted;
+	world->apart = apart;
+	world->contacts_sent = false;
+	return CAROM_OK;
+}

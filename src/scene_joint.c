@@ -1,0 +1,105 @@
+/* What a scene file may hold of a body's joints, read as bodies are.
+ * SPDX-License-Identifier: MIT */
+#include "scene_json.h"
+
+#include <math.h>
+#include <string.h>
+
+static const struct scene_range index_of_body = {0, INT32_MAX, false, "the index of another body"};
+
+#define KINDS "\"revolute\" or \"distance\""
+
+struct joint {
+	carom_joint joint;
+	const char *kind;
+	uint32_t other; /* UINT32_MAX: a place in the world */
+};
+
+static struct joint begin(const carom_scene *scene)
+{
+	struct joint joint = {carom_default_joint(), NULL, UINT32_MAX};
+	joint.joint.body = (uint32_t)scene->body_count;
+	return joint;
+}
+
+static bool fit_kind(const char *name, carom_joint_kind *kind)
+{
+	for (int k = 0; k < SCENE_JOINT_KINDS; k++) {
+		if (strcmp(name, scene_joint_kinds[k]) == 0) {
+			*kind = (carom_joint_kind)k;
+			return true;
+		}
+	}
+	return false;
+}
+
+/* A pin has no length. */
+static bool is_whole(const struct joint *joint)
+{
+	return joint->joint.kind == CAROM_DISTANCE || isnan(joint->joint.length);
+}
+
+static const struct scene_field fields[] = {
+	{"kind", scene_read_string, scene_quick_string, offsetof(struct joint, kind), NULL, true},
+	{"body", scene_read_whole, scene_quick_whole, offsetof(struct joint, other), &index_of_body, false},
+	{"anchor", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.anchor), &scene_any, false},
+	{"other_anchor", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.other_anchor), &scene_any, false},
+	{"length", scene_read_number, scene_quick_number, offsetof(struct joint, joint.length), &scene_positive, false},
+	{"collides", scene_read_flag, scene_quick_flag, offsetof(struct joint, joint.collides), NULL, false},
+	{"force", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.force), &scene_any, false},
+	SCENE_LAST_FIELD,
+};
+
+static bool add(carom_scene *scene, const struct joint *joint)
+{
+	carom_joint *joints = scene_grow(scene->joints, scene->joint_count, sizeof *joints);
+	if (!joints)
+		return false;
+	scene->joints = joints;
+	joints[scene->joint_count] = joint->joint;
+	joints[scene->joint_count++].other = joint->other == UINT32_MAX ? CAROM_GROUND : (int32_t)joint->other;
+	return true;
+}
+
+static carom_status read_one(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
+	const struct scene_range *range)
+{
+	struct joint joint = begin(reader->scene);
+	(void)target;
+	(void)range;
+	carom_status status = scene_read_object(reader, place, value, &joint, fields);
+	if (status != CAROM_OK)
+		return status;
+	if (!fit_kind(joint.kind, &joint.joint.kind))
+		return scene_fail(reader, &(struct scene_place){place, "kind", 0}, "found \"%.40s\"; allowed: " KINDS, joint.kind);
+	if (!is_whole(&joint))
+		return scene_fail(reader, &(struct scene_place){place, "length", 0}, "found with \"%s\"; allowed: only with \"distance\"", joint.kind);
+	return add(reader->scene, &joint) ? CAROM_OK : scene_fail_memory(reader);
+}
+
+static bool quick_one(struct scene_text *text)
+{
+	struct joint joint = begin(text->scene);
+	return scene_quick_object(text, &joint, fields) && fit_kind(joint.kind, &joint.joint.kind) && is_whole(&joint) && add(text->scene, &joint);
+}
+
+carom_status scene_read_joints(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,
+	const struct scene_range *range)
+{
+	if (!scene_is_array(value))
+		return scene_fail_value(reader, place, value, "an array of joints");
+	return scene_read_array(reader, place, value, target, 0, read_one, range);
+}
+
+bool scene_quick_joints(struct scene_text *text, void *target, const struct scene_range *range)
+{
+	(void)target;
+	(void)range;
+	if (!scene_quick_take(text, '['))
+		return false;
+	do {
+		if (!quick_one(text))
+			return false;
+	} while (scene_quick_take(text, ','));
+	return scene_quick_take(text, ']');
+}
