@@ -195,15 +195,15 @@ float way_along(RECORD_IN(slots), int s, float2 n, float arm, float length)
 		+ arm * (CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) * length);
 }
 
-/* Does what the forces of a side's joint make turn add to itself, in a step? */
-bool joint_is_stiff(RECORD_IN(contacts), RECORD_IN(joints), int side, int first, int point, held own, held other)
+/* Is a step too long for what a side's joint does? What its forces make turn adds to itself, or the anchors are far from where they belong. */
+bool joint_is_stiff(RECORD_IN(contacts), RECORD_IN(joints), int side, int first, int point, held own, held other, hold h)
 {
-	float force = 0.0f, gives = held_gives(own) + held_gives(other);
+	float force = 0.0f, gives = held_gives(own) + held_gives(other), far = JOINT_FAR * (own.radius + other.radius);
 	for (int k = 0; k < joint_points(joints, side); k++)
 		force += magnitude(POINT_IN(contacts, FOUR_WIDTH, first, point + k)[4 * FOUR_FORCE]);
 	if (!joint_is_pin(joints, side))
 		gives += (own.inverse_mass + other.inverse_mass) / CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH);
-	return force * gives > JOINT_STIFF;
+	return force * gives > JOINT_STIFF || magnitude(h.target[0]) > far || magnitude(h.target[1]) > far;
 }
 
 /* What forces are to do, once it is known where all would get with those that there are. */
@@ -217,13 +217,14 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 		held own = held_moving(slots, loads, s, own_anchor, now, length, false), other = held_other(slots, places, joints, side);
 		if (partner >= 0)
 			other = held_moving(slots, loads, partner, other_anchor, now, length, false);
-		bool stiff = joint_is_stiff(contacts, joints, side, first, point, own, other);
+		hold h = hold_of(joints, side, own, other, false);
+		bool stiff = joint_is_stiff(contacts, joints, side, first, point, own, other, h);
 		if (stiff) {
 			own = held_moving(slots, loads, s, own_anchor, now, length, true);
 			if (partner >= 0)
 				other = held_moving(slots, loads, partner, other_anchor, now, length, true);
+			h = hold_of(joints, side, own, other, true);
 		}
-		hold h = hold_of(joints, side, own, other, stiff);
 		float most = JOINT_MOST * (own.radius + other.radius);
 		for (int k = 0; k < joint_points(joints, side); k++, point++) {
 			__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);

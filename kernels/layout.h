@@ -605,13 +605,14 @@
 
 /* Joints. Impulses leave the anchors no speed against each other, within a JOINT_PART of a slop in a step; forces bring them to where they belong by the end of the step, by no more than JOINT_MOST
  * of both radii, along ways that are right in the middle of the step, so that they take no energy and give none; it is looked where that is before the first iterations, JOINT_AIMS at most, each twice as
- * many later, and a body is taken to turn by no more than JOINT_TURN. Where what a force makes turn in a step, by its arm's growth, is as much as JOINT_STIFF, steps are too long for that, and it might grow from
- * step to step: forces take the speed along the ways at the step's end, as impulses do, and bring anchors by EASE of the way. Other ways than a body's share was found with may make it larger,
- * by JOINT_SHARE. */
+ * many later, and a body is taken to turn by no more than JOINT_TURN. A step is too long for that where what a force makes turn in it, by its arm's growth, is more than JOINT_STIFF, and might grow from
+ * step to step, or where anchors are farther from where they belong than JOINT_FAR of both radii: there forces take the speed along the ways at the step's end, as impulses do, and bring
+ * anchors by EASE of the way. Other ways than a body's share was found with may make it larger, by JOINT_SHARE. */
 #define JOINT_PART 1.0f
 #define JOINT_MOST 1.0f
 #define JOINT_AIMS 6
 #define JOINT_TURN 1.0f /* rad */
+#define JOINT_FAR 0.01f
 #define JOINT_STIFF 1.5f
 #define JOINT_SHARE 1.25f
 

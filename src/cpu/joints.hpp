@@ -210,10 +210,13 @@ template <typename T> [[gnu::noinline]] void aim_joined(const Rests<T> &rests, c
 		T gives = own.gives() + other.gives();
 		if (!joint.is_pin())
 			gives += (own.inverse_mass + other.inverse_mass) / joint.parties[JOINT_LENGTH];
-		const bool is_stiff = force * gives > T(JOINT_STIFF);
-		if (is_stiff)
+		Hold<T> hold(joint, is_other, own, other, false);
+		const T far = T(JOINT_FAR) * (own.radius + other.radius);
+		const bool is_stiff = force * gives > T(JOINT_STIFF) || std::abs(hold.target[0]) > far || std::abs(hold.target[1]) > far;
+		if (is_stiff) {
 			own = held(s, joint.anchors[is_other], true), other = held_other(true);
-		const Hold<T> hold(joint, is_other, own, other, is_stiff);
+			hold = Hold<T>(joint, is_other, own, other, true);
+		}
 		const T most = T(JOINT_MOST) * (own.radius + other.radius);
 		for (int32_t k = 0; k < joint.points(); k++, point++) {
 			Points<T> &points = four(0);
