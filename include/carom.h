@@ -377,8 +377,9 @@ typedef struct carom_joint {
 	carom_vec2 anchor; /**< m, from the body's centre of mass, in its own frame (at angle 0), no more than 1e9; default (0, 0) */
 	carom_vec2
 		other_anchor; /**< m, likewise of the other body; for CAROM_GROUND the place. NaN (the default): where `anchor` is as it is given to a world */
-	float length;     /**< m, > 0, no more than 1e9, of CAROM_DISTANCE; NaN (the default): as far as the anchors are from each other then */
-	bool collides;    /**< the two bodies hit each other, too; default false: they pass through each other */
+	float
+		length; /**< m, of CAROM_DISTANCE, from a hundredth of the two radii on, no more than 1e9; NaN (the default): as far as the anchors are from each other then */
+	bool collides;  /**< the two bodies hit each other, too; default false: they pass through each other */
 	float force[2]; /**< N: what the last step ended with: of CAROM_REVOLUTE what acts on `body`, along x and y; of CAROM_DISTANCE what pushes the two
 	                            apart, below 0 where it pulls, and 0. The next step's begin with it */
 } carom_joint;

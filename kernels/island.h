@@ -41,9 +41,14 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 	int wants = TOUCH(done == 0 ? island_root(touching, islands, s) : islands[s], TOUCHING_WANTED);
 	if (PEEK(touching, wants) < number)
 		return false;
-	if (!impulses && is_aimed(done))
+	bool aims = joined[JOINED_COUNT] > 0 && !impulses;
+	if (aims && is_aimed(done) && first_contact(touching, s) > 0) {
 		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, length);
-	if (!rests_iterate(slots, contacts, grips, touching, loads, s, number & 1, done, rub, impulses) || done + 1 >= most)
+		/* with which the next one has its steps */
+		CHANNEL(loads[LOADS_OF(s) + LOADS_ALONE], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
+	}
+	if (!rests_iterate(slots, contacts, grips, touching, loads, s, number & 1, done, rub, impulses, done == 0 || (aims && is_aimed(done - 1)))
+		|| done + 1 >= most)
 		return false;
 	if (PEEK(touching, wants) == number)
 		atomic_max(&touching[wants], number + 1);

@@ -135,7 +135,7 @@ float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_
 		all.yt = response_add(all.yt, n.yt, g.yt);
 		all.tt = response_add(all.tt, n.tt, g.tt);
 	}
-	return first_contact(touching, s) > 0 ? JOINT_SHARE * response_bound(all) : response_bound(all);
+	return response_bound(all);
 }
 
 /* How a body would move by itself: as it stands in that pass. */
@@ -235,16 +235,16 @@ float4 weakest_of(int point, int joined)
 		point + 3 < joined ? -INFINITY : 0.0f);
 }
 
-/* One iteration of a body's points, after so many, from the loads of one parity to the other. True if another is wanted. */
+/* One iteration of a body's points, after so many, from the loads of one parity to the other; `anew`: with other steps than the one before. True if another is wanted. */
 bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), int s, int now, int done,
-	bool rub, bool impulses)
+	bool rub, bool impulses, bool anew)
 {
 	float closer = impulses || done == 0 ? 1.0f : CONTACT_CLOSER;
 	float beta = (float)done / (float)(done + 2);
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], none = (float4)(0.0f);
 	sums next = {none, none, none};
 	int4 wanted = (int4)(0);
-	if (done == 0)
+	if (anew)
 		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
 	for (int first = first_four(touching, s), four = first; four < end_four(touching, s); four++) {
 		__global float4 *at = contacts + FOUR(four, 0);

@@ -9,6 +9,7 @@
 
 #define MOST_JOINTS (1u << 24)
 #define FARTHEST_ANCHOR 1e9f /* m */
+#define SHORTEST_PART 0.01f  /* of the bodies' radii, a rod */
 
 size_t carom_joint_count(const carom_world *world)
 {
@@ -267,7 +268,14 @@ static bool may_be_anchor(carom_vec2 v)
 	return fabsf(v.x) <= FARTHEST_ANCHOR && fabsf(v.y) <= FARTHEST_ANCHOR;
 }
 
-static carom_status check_numbers(size_t k, const carom_joint *joint, carom_error *error)
+/* A shorter rod has no way that it is sure of. */
+static float least_length(const carom_world *world, const carom_joint *joint)
+{
+	const carom_body *bodies = carom_world_bodies(world);
+	return SHORTEST_PART * (bodies[joint->body].bound + (joint->other == CAROM_GROUND ? 0.0f : bodies[joint->other].bound));
+}
+
+static carom_status check_numbers(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error)
 {
 	const carom_vec2 anchors[] = {joint->anchor, joint->other_anchor};
 	static const char *const anchor_names[] = {"anchor", "other_anchor"};
@@ -275,9 +283,10 @@ static carom_status check_numbers(size_t k, const carom_joint *joint, carom_erro
 		if (!may_be_anchor(anchors[side]))
 			return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].%s: found (%g, %g), must be two numbers from -1e9 to 1e9 (m)", k,
 				anchor_names[side], (double)anchors[side].x, (double)anchors[side].y);
-	if (joint->kind == CAROM_DISTANCE && !(joint->length > 0.0f && joint->length <= FARTHEST_ANCHOR))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].length: found %g, must be a number above 0, up to 1e9 (m)", k,
-			(double)joint->length);
+	if (joint->kind == CAROM_DISTANCE && !(joint->length >= least_length(world, joint) && joint->length <= FARTHEST_ANCHOR))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT,
+			"joints[%zu].length: found %g, must be a number from %g, a hundredth of the bodies' radii, to 1e9 (m)", k, (double)joint->length,
+			(double)least_length(world, joint));
 	if (!isfinite(joint->force[0]) || !isfinite(joint->force[1]))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].force: must be two finite numbers (N)", k);
 	return CAROM_OK;
@@ -324,7 +333,7 @@ static carom_status check_all(carom_world *world, size_t count, carom_joint *joi
 	for (size_t k = 0; k < count; k++) {
 		TRY(check_parties(world, k, &joints[k], error));
 		TRY(complete(world, &joints[k], error));
-		TRY(check_numbers(k, &joints[k], error));
+		TRY(check_numbers(world, k, &joints[k], error));
 	}
 	return CAROM_OK;
 }

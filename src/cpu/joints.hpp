@@ -75,10 +75,12 @@ template <typename T> class Joints
 public:
 	Joints(T *records, const int32_t *joined) : joints(reinterpret_cast<Joint<T> *>(records)), list(joined) {}
 
+	bool has_any() const { return list[JOINED_COUNT] > 0; }
+
 	/* Calls `visit(joint, is it the joint's other body)` for each of a body's, in order. */
 	template <typename Visit> void each(int32_t body, const Visit &visit) const
 	{
-		if (list[JOINED_COUNT] == 0)
+		if (!has_any())
 			return;
 		for (int32_t side = list[JOINED_FIRST + body]; side >= 0; side = list[JOINED_NEXT(list[JOINED_BODIES], side)])
 			visit(joints[side / 2], side % 2 == 1);
@@ -182,8 +184,6 @@ inline bool is_aimed(int32_t done)
 template <typename T> [[gnu::noinline]] void aim_joined(const Rests<T> &rests, const Joints<T> &joints, const Lanes<T> *loads, int32_t s, int32_t now)
 {
 	int32_t point = 0;
-	if (rests.touching[s].joined == 0)
-		return;
 	joints.each(rests.slots[s].body(), [&](const Joint<T> &joint, bool is_other) {
 		const int32_t first = rests.touching[s].first, other_body = Joints<T>::partner_of(joint, is_other);
 		const auto four = [&](int32_t k) -> Points<T> & { return rests.points[first + (point + k) / lane_count]; };

@@ -101,7 +101,7 @@ template <typename T> static void find(const Job<T> &job)
 }
 
 /* A bound of what all points do together, each as if it alone gave way by 1. */
-template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
+template <typename T> [[gnu::noinline]] static T share_of(const Rests<T> &rests, int32_t s)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const T straight = slot.mass[MASS_INVERSE], turning = slot.mass[MASS_INVERSE_INERTIA], both = std::sqrt(straight) * std::sqrt(turning);
@@ -120,7 +120,7 @@ template <typename T> static T share_of(const Rests<T> &rests, int32_t s)
 				along.add(i, all);
 		}
 	});
-	return rests.touching[s].joined > 0 ? T(JOINT_SHARE) * all.bound() : all.bound();
+	return all.bound();
 }
 
 template <typename T> static void join(const Job<T> &job)
@@ -204,8 +204,8 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 	grips.force = held;
 }
 
-/* One iteration of one body, after so many. True if another is wanted. */
-template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *loads, int32_t s, int32_t now, int32_t done)
+/* One iteration of one body, after so many; `anew`: with other steps than the one before. True if another is wanted. */
+template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *loads, int32_t s, int32_t now, int32_t done, bool anew)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
@@ -219,7 +219,7 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 		for (int32_t i = 0; i < lane_count; i++)
 			others[i] = loads[LOADS_OF(Partner(points.partner[i]).slot()) + now];
 		transpose<T>(others);
-		if (done == 0)
+		if (anew)
 			set_steps(rests, points, grips, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
 		Lanes<T> rate;
 		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
@@ -249,15 +249,18 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 {
 	const int32_t done = number - rests.status[STATUS_FIRST];
 	const bool is_last = done + 1 >= (rubs && rests.impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS);
+	const bool aims = joints.has_any() && !rests.impulses, anew = done == 0 || (aims && is_aimed(done - 1));
 	bool wanted = false;
 	for (int32_t k = from; k < to; k++) {
 		const int32_t s = rests.touching[k].slot;
 		int32_t *const island_wants = &rests.touching[done == 0 ? settled_root(rests, s) : rests.islands.parents[s]].wanted;
 		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) < number)
 			continue;
-		if (is_aimed(done) && !rests.impulses)
+		if (aims && is_aimed(done) && rests.touching[s].joined > 0) {
 			aim_joined(rests, joints, loads, s, number & 1);
-		if (!iterate_one<rubs>(rests, loads, s, number & 1, done) || is_last)
+			loads[LOADS_OF(s) + LOADS_ALONE][LOAD_SHARE] = share_of(rests, s); /* with which the next one has its steps */
+		}
+		if (!iterate_one<rubs>(rests, loads, s, number & 1, done, anew) || is_last)
 			continue;
 		wanted = true;
 		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
