@@ -608,7 +608,7 @@
  * many later, and a body is taken to turn by no more than JOINT_TURN. A step is too long for that where what a force makes turn in it, by its arm's growth, is more than JOINT_STIFF, and might grow from
  * step to step, or where anchors are farther from where they belong than JOINT_FAR of both radii: there forces take the speed along the ways at the step's end, as impulses do, and bring
  * anchors by EASE of the way. */
-#define JOINT_PART 1.0f
+#define JOINT_PART 0.25f
 #define JOINT_MOST 1.0f
 #define JOINT_AIMS 6
 #define JOINT_TURN 1.0f /* rad */

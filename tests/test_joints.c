@@ -240,6 +240,310 @@ static void what_is_too_fast_loses_energy(void **unused)
 	}
 }
 
+/* ---- What is joined, and what it touches */
+
+enum { PLANKS = 8 };
+
+/* Planks of 1 m between two posts that are 7.6 m apart, and a box on them. */
+static carom_world *bridge(const scenery_device *device, float damping)
+{
+	carom_world_def def = free_space(RUNS_GRAVITY);
+	carom_body_def bodies[PLANKS + 3];
+	carom_joint joints[PLANKS + 1];
+	const carom_body_def plank = scenery_box(0.0f, -0.1f, 0.0f, 0.0f, 1.0f, 0.1f), post = scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 0.4f, 0.4f);
+	def.restitution = 0.0f;
+	def.friction = 0.5f;
+	def.linear_damping = def.angular_damping = damping;
+	for (int i = 0; i < PLANKS; i++) {
+		bodies[i] = plank;
+		bodies[i].position.x = 0.95f * ((float)i - 3.5f);
+		joints[i] = pin((uint32_t)i, i > 0 ? i - 1 : PLANKS, -0.5f, 0.0f);
+		joints[i].other_anchor = i > 0 ? (carom_vec2){0.5f, 0.0f} : (carom_vec2){0.2f, 0.0f};
+	}
+	joints[PLANKS] = pin(PLANKS - 1, PLANKS + 1, 0.5f, 0.0f);
+	joints[PLANKS].other_anchor = (carom_vec2){-0.2f, 0.0f};
+	for (int side = 0; side < 2; side++) {
+		bodies[PLANKS + side] = post;
+		bodies[PLANKS + side].position.x = side ? 4.0f : -4.0f;
+		bodies[PLANKS + side].is_static = true;
+	}
+	bodies[PLANKS + 2] = scenery_box(0.3f, 0.6f, 0.0f, 0.0f, 0.8f, 0.8f);
+	carom_world *world = runs_world(&def, device, bodies, PLANKS + 3);
+	if (world)
+		set(world, PLANKS + 1, joints);
+	return world;
+}
+
+/* Its ends bear what it and the box weigh together, and the box lies on it. */
+static void a_bridge_bears(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = bridge(device, 2.0f);
+		carom_joint ends[PLANKS + 1];
+		carom_error error;
+		if (!world)
+			continue;
+		runs_step(world, 600);
+		scenery_check(carom_world_get_joints(world, 0, PLANKS + 1, ends, &error), &error);
+		runs_near((double)ends[0].force[1] + (double)ends[PLANKS].force[1], (PLANKS * 0.1 + 0.64) * (double)RUNS_GRAVITY, 0.2);
+		for (uint32_t i = 0; i < PLANKS + 3; i++) {
+			const carom_body_state state = runs_state(world, i);
+			assert_true(fabsf(state.velocity.x) < 0.01f && fabsf(state.velocity.y) < 0.01f);
+		}
+		assert_true(slack(world) < 1e-4);
+		const float height = runs_state(world, PLANKS + 2).position.y;
+		assert_true(height < 0.2f && height > -1.5f);
+		assert_true(runs_measure(world).max_penetration < 1e-3); /* joined planks overlap, and do not count */
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
+/* A bar that turns about a post in which it is goes on, unless the two collide; and once they are joined no more it flies away. */
+static void the_joined_pass_each_other(void **unused)
+{
+	(void)unused;
+	for (int collides = 0; collides < 2; collides++) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = free_space(0.0f);
+			carom_body_def bodies[2] = {scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 0.3f, 0.3f), scenery_box(0.5f, 0.0f, 0.0f, 0.5f, 1.0f, 0.1f)};
+			carom_joint joint = pin(1, 0, -0.5f, 0.0f);
+			bodies[0].is_static = true;
+			bodies[1].angular_velocity = 1.0f;
+			joint.collides = collides;
+			carom_world *world = runs_world(&def, device, bodies, 2);
+			if (!world)
+				continue;
+			set(world, 1, &joint);
+			const uint64_t hits = runs_step(world, 60).hits;
+			assert_true((hits > 0) == collides);
+			if (!collides)
+				runs_near((double)runs_state(world, 1).angle, 1.0, 1e-3);
+			set(world, 0, NULL);
+			assert_int_equal(carom_world_joint_count(world), 0);
+			runs_step(world, 60);
+			const carom_vec2 away = runs_state(world, 1).position;
+			assert_true(collides || hypotf(away.x, away.y) > 0.6f);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
+/* What is joined with a kinematic body goes where that takes it, and pulls along what is joined with it. */
+static void the_kinematic_leads(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world_def def = free_space(0.0f);
+		carom_body_def bodies[3] = {scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.2f), scenery_circle(1.0f, 0.0f, 0.0f, 0.0f, 0.2f),
+			scenery_box(2.5f, 0.0f, 0.0f, 0.0f, 1.0f, 0.2f)};
+		carom_joint joints[2] = {rod(1, 0, 0.0f, 0.0f), pin(2, 1, -0.5f, 0.0f)};
+		bodies[0].is_kinematic = true;
+		bodies[0].velocity.x = -2.0f;
+		def.linear_damping = def.angular_damping = 1.0f;
+		carom_world *world = runs_world(&def, device, bodies, 3);
+		if (!world)
+			continue;
+		joints[1].other_anchor = (carom_vec2){1.0f, 0.0f};
+		set(world, 2, joints);
+		runs_step(world, 120);
+		runs_near((double)runs_state(world, 0).position.x, -4.0, 1e-4);
+		runs_near((double)runs_state(world, 1).position.x, -3.0, 1e-4);
+		runs_near((double)runs_state(world, 2).position.x, -1.5, 1e-4);
+		assert_true(slack(world) < 1e-5);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
+/* Two boxes on the ground with a rod between them come to rest and sleep; who pushes one wakes both, and so does who takes the rod away. */
+static void what_is_joined_sleeps_together(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world_def def = runs_resting("contacts", 20.0f, 10.0f);
+		carom_body_def bodies[2] = {scenery_box(0.0f, 0.6f, 0.5f, 0.0f, 1.0f, 1.0f), scenery_box(3.0f, 0.5f, 0.0f, 0.0f, 1.0f, 1.0f)};
+		const carom_joint joint = rod(1, 0, 0.0f, 0.0f);
+		def.friction = 0.5f;
+		carom_world *world = runs_world(&def, device, bodies, 2);
+		if (!world)
+			continue;
+		set(world, 1, &joint);
+		runs_step(world, 240);
+		const uint64_t hash = runs_hash(world);
+		runs_step(world, 60);
+		assert_true(runs_hash(world) == hash);
+		carom_body_state state = runs_state(world, 0);
+		const float before = runs_state(world, 1).position.x;
+		carom_error error;
+		state.velocity.x = 3.0f;
+		scenery_check(carom_world_set_states(world, 0, 1, &state, &error), &error);
+		runs_step(world, 30);
+		assert_true(runs_state(world, 1).position.x > before + 0.1f);
+		assert_true(slack(world) < 1e-4);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
+/* ---- The state, and who changes it */
+
+enum { CROWD = 40 };
+
+/* Bodies of all kinds in a room, each joined with one before it, or with the world. */
+static carom_world *tangle(const scenery_device *device, uint64_t seed)
+{
+	carom_world_def def = runs_resting("contacts", 10.0f, 12.0f);
+	carom_body_def bodies[CROWD];
+	carom_joint joints[CROWD];
+	scenery_random random = {seed};
+	size_t count = 0;
+	def.friction = 0.4f;
+	scenery_bodies(&random, SCENERY_MIXED, CROWD, 1.4f, 2.0f, bodies);
+	for (uint32_t i = 0; i < CROWD; i++) {
+		bodies[i].position.y += 6.0f;
+		const int32_t other = i % 7 == 0 ? CAROM_GROUND : (int32_t)(i - 1);
+		if (bodies[i].is_static)
+			continue;
+		joints[count] = pin(i, other, scenery_uniform(&random, -0.5f, 0.5f), 0.2f);
+		if (i % 2) {
+			joints[count].kind = CAROM_DISTANCE;
+			joints[count].other_anchor = other == CAROM_GROUND ? (carom_vec2){0.0f, 11.0f} : (carom_vec2){0.1f, 0.0f};
+		}
+		joints[count].collides = i % 3 == 0;
+		count++;
+	}
+	carom_world *world = runs_world(&def, device, bodies, CROWD);
+	if (world)
+		set(world, count, joints);
+	return world;
+}
+
+/* Who reads what was written goes on with the same bits: forces are a part of the state. */
+static void what_is_written_goes_on(void **unused)
+{
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world *world = tangle(device, 3), *other;
+		carom_scene *scene = NULL;
+		carom_error error;
+		char *text = NULL;
+		size_t length = 0;
+		if (!world)
+			continue;
+		runs_step(world, 40);
+		scenery_check(carom_scene_text_create(world, NULL, &text, &length, &error), &error);
+		assert_non_null(strstr(text, "{\"kind\": \"revolute\", "));
+		assert_non_null(strstr(text, "\"collides\": true"));
+		scenery_check(carom_scene_parse(text, length, NULL, &scene, &error), &error);
+		carom_scene_text_destroy(text);
+		assert_int_equal(scene->joint_count, carom_world_joint_count(world));
+		scene->world.device = device->name;
+		scene->world.storage = device->storage;
+		scenery_check(carom_scene_create_world(scene, &other, &error), &error);
+		carom_scene_destroy(scene);
+		runs_step(world, 30);
+		runs_step(other, 30);
+		assert_true(runs_hash(world) == runs_hash(other));
+		carom_world_destroy(world);
+		carom_world_destroy(other);
+	}
+}
+
+/* However many threads and calls, in images or buffers, the same bits. */
+static void a_tangle_is_the_same_everywhere(void **unused)
+{
+	(void)unused;
+	for (uint64_t seed = 1; seed <= 4; seed++) {
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world *world = tangle(device, seed);
+			if (world)
+				runs_same_hash(&first, runs_hash_after(world, 90, seed % 2 ? 1 : 9), device);
+		}
+	}
+}
+
+/* A body takes its joints with it; those of others stay, by their new indices, and the world goes on as one that is made so. */
+static void who_goes_takes_its_joints(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		static const uint32_t gone[] = {4};
+		carom_error error;
+		carom_joint before[LINKS], after[LINKS];
+		carom_world *world = chain(device, false, RUNS_GRAVITY, 0.0f);
+		if (!world)
+			continue;
+		runs_step(world, 20);
+		scenery_check(carom_world_get_joints(world, 0, LINKS, before, &error), &error);
+		scenery_check(carom_world_remove(world, gone, 1, &error), &error);
+		assert_int_equal(carom_world_joint_count(world), LINKS - 2);
+		scenery_check(carom_world_get_joints(world, 0, LINKS - 2, after, &error), &error);
+		assert_true(after[3].body == 3 && after[3].other == 2 && after[4].body == 5 && after[4].other == 4);
+		assert_memory_equal(after[4].force, before[6].force, sizeof after[4].force);
+		runs_step(world, 60);
+		assert_true(slack(world) < 1e-3);
+		assert_true(runs_state(world, 8).position.y < -5.0f); /* what hung on it falls */
+		const carom_body_def more = scenery_circle(20.0f, 0.0f, 0.0f, 0.0f, 0.5f);
+		scenery_check(carom_world_add(world, &more, 1, NULL, &error), &error);
+		runs_step(world, 10);
+		assert_true(slack(world) < 1e-3);
+		runs_same_hash(&first, runs_hash(world), device);
+		carom_world_destroy(world);
+	}
+}
+
+/* What is wrong with a joint is said, and nothing is changed. */
+static void wrong_joints_are_errors(void **unused)
+{
+	static const struct {
+		const char *text;
+		carom_joint joint;
+	} cases[] = {
+		{"joints[1].kind: found 7, must be", {.kind = (carom_joint_kind)7, .body = 1}},
+		{"joints[1].body: found 3, the world has 3 bodies", {.body = 3}},
+		{"joints[1].other: found 1, must be the index of another one of 3 bodies", {.body = 1, .other = 1}},
+		{"joints[1].other: found -2, must be", {.body = 1, .other = -2}},
+		{"joints[1].other: found 3, must be", {.body = 1, .other = 3}},
+		{"joints[1]: one of the two must be dynamic, and body 2 is static", {.body = 2, .other = CAROM_GROUND}},
+		{"joints[1].anchor: found (2e+09, 0)", {.body = 1, .other = 0, .anchor = {2e9f, 0.0f}}},
+		{"joints[1].other_anchor: found (0, inf)", {.body = 1, .other = 0, .other_anchor = {0.0f, INFINITY}}},
+		{"joints[1].length: found 0.001, must be a number from 0.01", {.kind = CAROM_DISTANCE, .body = 1, .length = 0.001f}},
+		{"joints[1].length: found inf", {.kind = CAROM_DISTANCE, .body = 1, .length = INFINITY}},
+		{"joints[1].force: must be two finite numbers (N)", {.body = 1, .other = 0, .force = {0.0f, NAN}}},
+	};
+	carom_body_def bodies[3] = {
+		scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(2.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(4.0f, 0.0f, 0.0f, 0.0f, 0.5f)};
+	carom_world_def def = free_space(0.0f);
+	carom_error error;
+	(void)unused;
+	bodies[2].is_static = true;
+	carom_world *world = runs_world(&def, scenery_devices, bodies, 3);
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		const carom_joint joints[2] = {rod(0, 1, 0.0f, 0.0f), cases[i].joint};
+		assert_int_equal(carom_world_set_joints(world, 2, joints, &error), CAROM_INVALID_ARGUMENT);
+		if (!strstr(error.text, cases[i].text))
+			fail_msg("%zu: %s", i, error.text);
+		assert_int_equal(carom_world_joint_count(world), 0);
+	}
+	carom_world_destroy(world);
+	def.pipeline.step = "events";
+	world = runs_world(&def, scenery_devices, bodies, 3);
+	const carom_joint joint = rod(0, 1, 0.0f, 0.0f);
+	assert_int_equal(carom_world_set_joints(world, 1, &joint, &error), CAROM_INVALID_ARGUMENT);
+	assert_string_equal(error.text, "joints: the step events holds none; take the step contacts");
+	scenery_check(carom_world_set_joints(world, 0, NULL, &error), &error);
+	carom_world_destroy(world);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -248,6 +552,14 @@ int main(void)
 		cmocka_unit_test(a_chain_that_turns_goes_on),
 		cmocka_unit_test(a_chain_that_falls_holds),
 		cmocka_unit_test(what_is_too_fast_loses_energy),
+		cmocka_unit_test(a_bridge_bears),
+		cmocka_unit_test(the_joined_pass_each_other),
+		cmocka_unit_test(the_kinematic_leads),
+		cmocka_unit_test(what_is_joined_sleeps_together),
+		cmocka_unit_test(what_is_written_goes_on),
+		cmocka_unit_test(a_tangle_is_the_same_everywhere),
+		cmocka_unit_test(who_goes_takes_its_joints),
+		cmocka_unit_test(wrong_joints_are_errors),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
