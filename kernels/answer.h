@@ -145,10 +145,17 @@ float weight_of(TEX_IN(uniforms), float length)
 	return norm((float2)((CHANNEL(world, WORLD_GRAVITY_X) * length) * length, (CHANNEL(world, WORLD_GRAVITY_Y) * length) * length));
 }
 
+/* How the two of an event moved before it, and what it did: the impulse is on the row body. */
+typedef struct answered {
+	trajectory own, other;
+	impact hit;
+	float2 impulse;
+} answered;
+
 /* Answers the event `next` of the member in slot s; `other_id` is the partner's number, if it has one. True if it is a shock. If a body leaves its reach the step begins again, but
  * goes on as long as it tells what others need, too. */
 bool answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_OUT(work), LIST_OUT(need), RECORD_OUT(hits), float4 rules, int s, int id, int other_id, float4 next, float length)
+	RECORD_OUT(work), LIST_OUT(need), RECORD_OUT(hits), float4 rules, int s, int id, int other_id, float4 next, float length, answered *what)
 {
 	int other = (int)CHANNEL(next, NEXT_PARTNER), events = members[MEMBER(id, MEMBER_EVENTS)];
 	bool borne = status[STATUS_BORNE]; /* do forces bear what rests? */
@@ -179,6 +186,10 @@ bool answer(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), R
 		rules_of_hit how = event_rules(larger(b.restitution, c.restitution), rub, enough && !shocks, events, borne, weight);
 		j = first ? pair_push(VERTICES, b, c, 0.0f, how, length, &hit) : pair_push(VERTICES, c, b, 0.0f, how, length, &hit);
 	}
+	what->own = k;
+	what->other = o;
+	what->hit = hit;
+	what->impulse = (float2)(CHANNEL(j, IMPULSE_X), CHANNEL(j, IMPULSE_Y));
 	if (hit.total > 0.0f)
 		stays = hit_count(status, members, hits, id, next, j, hit);
 	if (can_change(slots, s, was)) {

@@ -545,7 +545,10 @@
  *
  * There what would be elastic is a shock instead, under gravity: the hit passes on at once to what is nearer than what gravity makes in a step (or CONTACT_NEAR of the smaller radius),
  * by impulses at the points that approach, without a bounce, until each parts with SHOCK_PARTING of the speed that gravity makes in the rest of the step, within SHOCK_WITHIN of that,
- * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies. */
+ * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies.
+ *
+ * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,
+ * or, in the last of TUG_SWEEPS, TUG_ENOUGH times that: where that is not enough, or not possible, joints pass on nothing, and the next step's impulses do. A body has TUG_POINTS. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -559,6 +562,10 @@
 #define CROWD_DOUBLINGS 10
 #define SHOCK_PARTIES 64
 #define SHOCK_SWEEPS 32
+#define TUG_SWEEPS 256
+#define TUG_ENOUGH 1024.0f
+#define TUG_POINTS 11 /* one fewer than SHOCK_POINTS */
+#define TUG_WITHIN 0.0000152587890625f
 #define SHOCK_PARTING 0.5f
 #define SHOCK_WITHIN 0.5f
 #define HOLD_LIMIT 4096

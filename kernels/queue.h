@@ -180,11 +180,43 @@ bool goes_on(RECORD_OUT(work), int first, float until)
 	return first >= 0 && CHANNEL(work[WORK_WIDTH * first + WORK_NEXT], NEXT_TIME) <= until;
 }
 
+/* Is a hit of these two, the second of which may be none, -1, passed on by joints? */
+bool is_tug(LIST_IN(status), LIST_IN(active), LIST_IN(touching), int id, int other_id, const answered *what)
+{
+	if (!status[STATUS_BORNE] || !(what->hit.total > 0.0f))
+		return false;
+	return touching[TOUCH(active[id], TOUCHING_JOINED)] > 0 || (other_id >= 0 && touching[TOUCH(active[other_id], TOUCHING_JOINED)] > 0);
+}
+
+/* Passes it on, from the row body if that is dynamic; false if the cluster has to be given up. */
+bool cluster_tug(TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), LIST_OUT(owners),
+	LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), LIST_IN(touching), RECORD_IN(contacts), int id, int other_id, int partner,
+	const answered *what, shock *all, int *first)
+{
+	int s = active[id], own = slot_body(slots, s), others = partner < 0 ? partner : slot_body(slots, partner);
+	bool is_row = own > others, is_first = is_row || other_id < 0;
+	float sign = is_row == is_first ? 1.0f : -1.0f;
+	struck hit = {s, partner < 0 ? PARTNER_WALL(-1 - partner) : partner, what->own, what->other, what->hit.where.xy,
+		(float2)(sign * what->hit.where.z, sign * what->hit.where.w), (float2)(sign * what->impulse.x, sign * what->impulse.y),
+		friction_of(TEX(uniforms), TEX(friction), own, max(others, -1))};
+	if (!is_first) {
+		hit.one = partner;
+		hit.other = s;
+		hit.before = what->other;
+		hit.other_before = what->own;
+	}
+	if (!tug_spread(slots, LISTS, work, owners, parents, shocks, touching, contacts, is_first ? id : other_id, is_first ? other_id : id, &hit, all,
+			first))
+		return false;
+	tug_end(slots, reach, status, members, active, work, need, hits, shocks, id, sign, &hit, all);
+	return true;
+}
+
 /* Answers the first event of a cluster. Who is to look then: both parties, whom it changed, or the one whose event was not known, or two of a shock's, and others from *party
  * on; nobody where the cluster is given up. */
 int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), float4 rules, int leader, int head, int round, float length,
-	int *first, int *party)
+	LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), LIST_IN(touching), RECORD_IN(contacts), float4 rules, int leader,
+	int head, int round, float length, int *first, int *party)
 {
 	int id = *first, other_id = -1;
 	float4 next = work[WORK_WIDTH * id + WORK_NEXT];
@@ -198,11 +230,21 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 	}
 	if (!is_known)
 		return (int2)(id, LOOKS_NOT);
-	if (!answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, hits, rules, active[id], id, other_id, next,
-			length))
+	answered what;
+	bool shocks_others = answer(VERTICES, TEX(uniforms), TEX(friction), slots, reach, status, members, work, need, hits, rules, active[id], id,
+		other_id, next, length, &what);
+	bool tugs = !shocks_others && is_tug(status, active, touching, id, other_id, &what);
+	if (!shocks_others && !tugs)
 		return (int2)(id, other_id);
 	shock all;
 	shock_begin(TEX(uniforms), CHANNEL(next, NEXT_TIME), leader, head, round, length, &all);
+	if (tugs) {
+		if (!cluster_tug(TEX(uniforms), TEX(friction), slots, LISTS, work, reach, need, owners, parents, hits, shocks, touching, contacts, id,
+				other_id, other, &what, &all, first))
+			return (int2)(LOOKS_LATER, LOOKS_NOT);
+		*party = all.first;
+		return parties_take(members, party);
+	}
 	bool in_order = other_id < 0 || slot_body(slots, active[id]) > slot_body(slots, other);
 	if (!shock_spread(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, parents, shocks, in_order ? id : other_id,
 			in_order ? other_id : id, &all, first))
@@ -214,7 +256,8 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 
 /* Runs the clusters of `all`. A team's first lane does what is done one after the other; all look. */
 void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach), LIST_OUT(need), TEX_IN(friction),
-	LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), int round, int lanes, float length, SHARED crew *all)
+	LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), LIST_IN(touching), RECORD_IN(contacts), int round, int lanes,
+	float length, SHARED crew *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	float until = slice_end(status, status[STATUS_SLICE]);
@@ -247,8 +290,8 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 			if (party >= 0)
 				who = parties_take(members, &party);
 			else if (first >= 0)
-				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, hits, shocks, rules,
-					leader, head, round, length, &first, &party);
+				who = cluster_answer(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, hits, shocks, touching,
+					contacts, rules, leader, head, round, length, &first, &party);
 			if (who.x == LOOKS_LATER)
 				first = -1;
 			looks[0] = who.x;

@@ -52,7 +52,7 @@ typedef enum carom_role {
 	ROLE_HITS,       /* records, HITS_WIDTH a hit; one alone where none are kept */
 	/* of the step contacts, likewise */
 	ROLE_GRIPS,      /* records, GRIP_WIDTH a four of points; of one alone where nothing rubs */
-	ROLE_CONTACTS,   /* records, FOUR_WIDTH a four of points */
+	ROLE_CONTACTS,   /* records, FOUR_WIDTH a four of points; of one alone by events */
 	ROLE_TOUCHING,   /* list, TOUCHING_WIDTH a slot; of one int by events */
 	ROLE_ISLANDS,    /* list, one a slot */
 	ROLE_SHOCKS,     /* records, SHOCK_POINTS of SHOCK_WIDTH a number; one alone by events; the CPU keeps its own */

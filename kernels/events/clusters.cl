@@ -88,7 +88,8 @@ __kernel void events_muster(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 }
 
 __kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
-	LIST_OUT(need), TEX_IN(friction), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), int4 domain)
+	LIST_OUT(need), TEX_IN(friction), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(hits), RECORD_OUT(shocks), LIST_IN(touching),
+	RECORD_IN(contacts), int4 domain)
 {
 	if (PEEK(status, STATUS_ROUND) < domain.z)
 		return;
@@ -98,8 +99,8 @@ __kernel void events_resolve(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECOR
 	for (int begin = GROUP_INDEX; begin < seeds; begin += LEADERS_EACH * GROUP_LANES * GROUP_COUNT) {
 		fetch_active(slots, LISTS, owners, begin, seeds, domain.z, SPAN_END);
 		leaders_gather(members, begin, seeds, domain.z, &all);
-		clusters_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, hits, shocks, domain.z,
-			TEAM_SIZE(domain.w), length, &all);
+		clusters_run(VERTICES, TEX(uniforms), slots, LISTS, work, reach, need, TEX(friction), owners, parents, hits, shocks, touching, contacts,
+			domain.z, TEAM_SIZE(domain.w), length, &all);
 	}
 }
 

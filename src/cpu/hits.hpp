@@ -39,6 +39,13 @@ public:
 		member.kept = k;
 	}
 
+	/* The member's last hit had another impulse. */
+	void amend(const Member &member, const Vec<T> &impulse) const
+	{
+		if (are_kept() && member.kept >= 0)
+			hits[member.kept].impulse_x = impulse.x(), hits[member.kept].impulse_y = impulse.y();
+	}
+
 	/* The member's hits came to pass, in the step that the clock has counted last. */
 	void confirm(const Member &member, const Texels<T> &clock) const
 	{

@@ -9,6 +9,7 @@
 #include "cpu/membership.hpp"
 #include "cpu/shock.hpp"
 #include "cpu/sieve.hpp"
+#include "cpu/tug.hpp"
 #include "cpu/ways.hpp"
 
 #include <optional>
@@ -19,10 +20,11 @@ namespace carom::cpu {
 template <typename T> class Queue
 {
 public:
-	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Ways<T> &all_ways, const Hits<T> &kept, int32_t number,
-		int32_t in_round, std::vector<int32_t> &room)
-		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), slots(all.slots), members(all.members), work(work_of), ways(all_ways),
-		  heap(all.members, work_of, room), membership(all, work_of, number, in_round), is_borne(all.status[STATUS_BORNE] > 0), until(all.until())
+	Queue(const Clusters<T> &all, const Rubs<T> &friction, Work<T> *work_of, const Ways<T> &all_ways, const Hits<T> &kept, const JointPoints<T> &held,
+		int32_t number, int32_t in_round, std::vector<int32_t> &room)
+		: clusters(all), rubs(friction), impacts(all, friction), hits(kept), joints(held), slots(all.slots), members(all.members), work(work_of),
+		  ways(all_ways), heap(all.members, work_of, room), membership(all, work_of, number, in_round), is_borne(all.status[STATUS_BORNE] > 0),
+		  until(all.until())
 	{
 	}
 
@@ -65,10 +67,13 @@ private:
 			}
 		}
 		const T u = next[NEXT_TIME];
-		const bool is_shock = answer(id, other_id);
+		Answered answered(work[id].trajectory(slots[clusters.active[id]]));
+		const bool is_shock = answer(id, other_id, answered);
 		with_partner.reset();
 		if (is_shock)
 			return pass_on(id, other_id, u);
+		if (is_borne && answered.hit.total > 0 && (is_joined(id) || is_joined(other_id)))
+			return tug(id, other_id, other, u, answered);
 		look_again(id, other_id);
 		if (other_id >= 0)
 			look_again(other_id, id);
@@ -184,8 +189,16 @@ private:
 
 	bool had_enough(int32_t id) const { return members[id].rapid >= RAPID_MOST; }
 
+	/* What the parties of a hit were like, and what it was. */
+	struct Answered {
+		Trajectory<T> own, other;
+		Impact<T> hit{};
+
+		explicit Answered(const Trajectory<T> &way) : own(way), other(way) {}
+	};
+
 	/* Answers the member's event; true if it is a shock. */
-	bool answer(int32_t id, int32_t other_id)
+	bool answer(int32_t id, int32_t other_id, Answered &answered)
 	{
 		const int32_t s = clusters.active[id], other = static_cast<int32_t>(work[id].next[NEXT_PARTNER]);
 		const T u = work[id].next[NEXT_TIME];
@@ -196,7 +209,8 @@ private:
 		Past<T> past{rapid && had_enough(id), members[id].events, is_borne, false};
 		past.shock = past.borne && clusters.weight() > 0;
 		clusters.move(slots[s], way, u);
-		Impact<T> hit{};
+		Impact<T> &hit = answered.hit;
+		answered.own = way;
 		if (other < 0) {
 			if (!pause)
 				hit = impacts.at_wall(s, way, -1 - other, past);
@@ -207,6 +221,7 @@ private:
 			past.rapid |= other_rapid && had_enough(other_id);
 			past.events = other_id >= 0 ? std::max(past.events, members[other_id].events) : past.events;
 			clusters.move(slots[other], other_way, u);
+			answered.other = other_way;
 			const bool is_row = slots[s].body() > slots[other].body();
 			if (!pause)
 				hit = is_row ? impacts.of_pair(s, way, other, other_way, past) : impacts.of_pair(other, other_way, s, way, past);
@@ -258,6 +273,36 @@ private:
 			widen(s, m, way, shock.margin(m));
 		});
 		shock.each([&](int32_t m) { look_again(m); });
+		return true;
+	}
+
+	bool is_joined(int32_t id) const { return id >= 0 && joints.touching[clusters.active[id]].joined > 0; }
+
+	/* What the hit of these two did passes on to what is joined with them; false if the cluster has to be given up. */
+	bool tug(int32_t id, int32_t other_id, int32_t partner, T u, const Answered &answered)
+	{
+		const int32_t s = clusters.active[id], own = slots[s].body(), others = partner < 0 ? partner : slots[partner].body();
+		const bool is_row = own > others, is_first = is_row || other_id < 0;
+		const T sign = is_row == is_first ? T(1) : T(-1);
+		const Impact<T> &hit = answered.hit;
+		const Struck<T> struck{hit.at.point, Vec<T>(sign * hit.at.normal), Vec<T>(sign * hit.x, sign * hit.y),
+			partner < 0 ? rubs.at_wall(own) : rubs.between(own, others)};
+		const auto join = [&](int32_t slot) { return member(slot, id); };
+		Tug<T> all(clusters, work, joints);
+		const bool done = is_first ? all.spread(id, other_id, partner, struck, answered.own, answered.other, u, membership, join)
+								   : all.spread(other_id, id, s, struck, answered.other, answered.own, u, membership, join);
+		if (!done)
+			return false;
+		hits.amend(members[id], Vec<T>(sign * all.impulse()));
+		all.each([&](int32_t m) {
+			const int32_t slot = clusters.active[m];
+			Trajectory<T> way = work[m].trajectory(slots[slot]);
+			members[m].events += 2; /* as of a shock */
+			hold_at_last(members[m], STUCK_BORNE, Trajectory<T>(slots[slot]), way);
+			work[m].keep(way);
+			widen(slot, m, way);
+		});
+		all.each([&](int32_t m) { look_again(m); });
 		return true;
 	}
 
@@ -317,6 +362,7 @@ private:
 	const Rubs<T> &rubs;
 	const Impacts<T> impacts;
 	const Hits<T> &hits;
+	const JointPoints<T> &joints;
 	const Slot<T> *const slots;
 	Member *const members;
 	Work<T> *const work;

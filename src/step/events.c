@@ -359,6 +359,7 @@ carom_status carom_events_prepare(carom_world *world, carom_error *error)
 	TRY(carom_events_create_list(world, ROLE_CELLS, false, CELL_WIDTH * (uint64_t)events->columns * CELL_ROWS(events->rows), error));
 	TRY(carom_events_create_list(world, ROLE_HITS, false, events->hit_room ? HITS_WIDTH * (uint64_t)events->hit_room : 1, error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, 1, error)); /* those of contacts are in their place */
+	TRY(carom_events_create_list(world, ROLE_CONTACTS, false, 1, error));
 	TRY(carom_events_create_list(world, ROLE_SHOCKS, false, 1, error));
 	return carom_events_create_list(world, ROLE_STATUS, false, STATUS_WIDTH, error);
 }

@@ -294,6 +294,7 @@ template <typename T> static void resolve(const Job<T> &job)
 	Work<T> *work = reinterpret_cast<Work<T> *>(job.records(12));
 	const Ways<T> ways(clusters, job.records(13), job.list(14));
 	const Hits<T> hits(job.records(18), job.list(6));
+	const JointPoints<T> joints{reinterpret_cast<const Touching *>(job.list(20)), reinterpret_cast<const Points<T> *>(job.records(21))};
 	const int32_t count = clusters.status[STATUS_SEEDS];
 	const bool is_to_fetch = fetches(clusters, count, round);
 	job.pool.run(count, 64, [&](int32_t begin, int32_t end) {
@@ -304,7 +305,7 @@ template <typename T> static void resolve(const Job<T> &job)
 			if (is_to_fetch)
 				fetch_active(clusters, id, count, false);
 			if (__atomic_load_n(&member.head, __ATOMIC_RELAXED) >= 0 && __atomic_load_n(&member.round, __ATOMIC_RELAXED) == round)
-				tally += Queue<T>(clusters, rubs, work, ways, hits, id, round, room).run();
+				tally += Queue<T>(clusters, rubs, work, ways, hits, joints, id, round, room).run();
 		}
 		tally.add_to(clusters.status);
 	});

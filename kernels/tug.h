@@ -1,0 +1,219 @@
+/* A hit that joints pass on at once: CONTRACT.md, "The step contacts", Tugs. Its parties are a list as a shock's are, and so are their points, of which the first one's first is where the
+ * two hit each other, and the others are of joints; behind them is what each began with. */
+
+#define TUG_JOINT (-1.0f) /* for a coefficient of friction */
+
+/* The two that were hit, the first of which is dynamic: their slots, and how they moved before. */
+typedef struct struck {
+	int one, other;
+	trajectory before, other_before;
+	float2 point, n; /* n: towards the first */
+	float2 impulse;  /* on it */
+	float friction;
+} struck;
+
+/* How the body in a slot moves at the tug's time: as it was before it was hit, or is now. */
+trajectory tug_way(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), int s, bool was, const struck *hit,
+	const shock *all)
+{
+	if (was && s == hit->one)
+		return hit->before;
+	return was && s == hit->other ? hit->other_before : shock_way(slots, status, members, work, owners, s, all);
+}
+
+/* Has a party, if it is one, points of joints with slot s? Then that is party id by now. */
+bool joints_meet(RECORD_OUT(shocks), int party, int s, int id)
+{
+	bool any = false;
+	for (int point = 0; party >= 0 && point < TUG_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
+		__global float4 *at = shocks + SHOCK(party, point);
+		if (CHANNEL(at[SHOCK_GRIP], SHOCK_FRICTION) == TUG_JOINT && CHANNEL(at[SHOCK_PUSH], SHOCK_PARTNER) == (float)s) {
+			at[SHOCK_PUSH] = (float4)((float)s, (float)id, 0.0f, 0.0f);
+			any = true;
+		}
+	}
+	return any;
+}
+
+/* A party more: it is moved to the time, and its points of joints come behind so many others. */
+void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
+	LIST_IN(touching), RECORD_IN(contacts), int id, int point, const struck *hit, shock *all)
+{
+	int s = active[id], first = touching[TOUCH(s, TOUCHING_FIRST)];
+	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
+	work_store(work, id, k);
+	for (int other = 0; other < point; other++) { /* until they are there */
+		shocks[SHOCK(id, other) + SHOCK_GRIP] = (float4)(0.0f);
+		shocks[SHOCK(id, other) + SHOCK_PUSH] = (float4)((float)PARTNER_WALL(0), -1.0f, 0.0f, 0.0f);
+	}
+	shocks[SHOCK(id, TUG_POINTS)] = (float4)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY), k.velocity, 0.0f);
+	for (int lane = 0; lane < touching[TOUCH(s, TOUCHING_JOINED)] && point < TUG_POINTS; lane++) {
+		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, lane);
+		int partner = (int)at[4 * FOUR_PARTNER], party = partner >= 0 ? party_of(members, owners, partner, all) : -1;
+		if (joints_meet(shocks, party, s, id))
+			continue;
+		float2 n = (float2)(at[4 * FOUR_NORMAL_X], at[4 * FOUR_NORMAL_Y]);
+		float arm = at[4 * FOUR_ARM], other_arm = at[4 * FOUR_OTHER_ARM], coming = 0.0f;
+		float part = way_speed(tug_way(slots, status, members, work, owners, s, true, hit, all), n, arm);
+		if (partner >= 0) {
+			part -= way_speed(tug_way(slots, status, members, work, owners, partner, true, hit, all), n, other_arm);
+			if (party < 0)
+				coming = way_speed(tug_way(slots, status, members, work, owners, partner, false, hit, all), n, other_arm);
+		}
+		__global float4 *to = shocks + SHOCK(id, point++);
+		to[SHOCK_NORMAL] = (float4)(n.x, n.y, arm, other_arm);
+		to[SHOCK_GRIP] = (float4)(0.0f, 0.0f, TUG_JOINT, part);
+		to[SHOCK_PUSH] = (float4)((float)partner, (float)party, party < 0 && partner >= 0 && slot_is_dynamic(slots, partner) ? coming : 0.0f, 0.0f);
+	}
+	if (point < TUG_POINTS)
+		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
+	members[MEMBER(id, MEMBER_SEEN)] = -1;
+	if (all->count++ > 0)
+		members[MEMBER(all->last, MEMBER_SEEN)] = -2 - id;
+	else
+		all->first = id;
+	all->last = id;
+}
+
+/* Where the two hit each other; how small a change of a rate is too little to count. */
+float tug_strike(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int id,
+	int other, const struck *hit, const shock *all)
+{
+	__global float4 *to = shocks + SHOCK(id, 0);
+	float4 place = work[WORK_WIDTH * id + WORK_PLACE];
+	float2 n = hit->n, along = aside(n), lever = (float2)(hit->point.x - CHANNEL(place, LINEAR_X), hit->point.y - CHANNEL(place, LINEAR_Y));
+	float arm = cross2(lever, n), other_arm = 0.0f, other_grip_arm = 0.0f, total = inner(hit->impulse, n);
+	if (hit->other >= 0) {
+		float4 at = tug_way(slots, status, members, work, owners, hit->other, false, hit, all).place;
+		float2 other_lever = (float2)(hit->point.x - CHANNEL(at, LINEAR_X), hit->point.y - CHANNEL(at, LINEAR_Y));
+		other_arm = cross2(other_lever, n);
+		other_grip_arm = cross2(other_lever, along);
+	}
+	float4 push = (float4)((float)hit->other, (float)other, total, inner(hit->impulse, along));
+	to[SHOCK_NORMAL] = (float4)(n.x, n.y, arm, other_arm);
+	to[SHOCK_GRIP] = (float4)(cross2(lever, along), other_grip_arm, hit->friction, parting(slots, work, id, push, n, arm, other_arm));
+	to[SHOCK_PUSH] = push;
+	float gives = gives_at(member_gives(slots, active, work, id), arm) + gives_at(member_gives(slots, active, work, other), other_arm);
+	return TUG_WITHIN * (total * gives);
+}
+
+/* Gives an open point the rate that it is to have; false if that is too little to count. */
+bool tug_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float least)
+{
+	__global float4 *at = shocks + SHOCK(id, point);
+	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
+	float friction = CHANNEL(grip, SHOCK_FRICTION), before = CHANNEL(push, SHOCK_IMPULSE), part = CHANNEL(grip, SHOCK_PART);
+	int other = (int)CHANNEL(push, SHOCK_NUMBER);
+	float2 gives = member_gives(slots, active, work, id), other_gives = member_gives(slots, active, work, other);
+	float arm = CHANNEL(normal, SHOCK_ARM), other_arm = CHANNEL(normal, SHOCK_OTHER_ARM);
+	float give = gives_at(gives, arm) + gives_at(other_gives, other_arm);
+	if (!(give > 0.0f))
+		return false;
+	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y)), along = aside(n);
+	float impulse = before + (part - parting(slots, work, id, push, n, arm, other_arm)) / give;
+	impulse = friction == TUG_JOINT ? impulse : larger(impulse, 0.0f);
+	float more = impulse - before;
+	if (!(magnitude(more) * give >= least))
+		return false;
+	CHANNEL(push, SHOCK_IMPULSE) = impulse;
+	member_push(work, id, gives, (float2)(more * n.x, more * n.y), more * arm);
+	member_push(work, other, other_gives, (float2)(-(more * n.x), -(more * n.y)), -(more * other_arm));
+	if (friction > 0.0f) {
+		float grip_arm = CHANNEL(grip, SHOCK_GRIP_ARM), other_grip_arm = CHANNEL(grip, SHOCK_OTHER_GRIP_ARM), rubbed = CHANNEL(push, SHOCK_RUB);
+		float slip = parting(slots, work, id, push, along, grip_arm, other_grip_arm), most = friction * impulse;
+		float rub = larger(smaller(rubbed - slip / (gives_at(gives, grip_arm) + gives_at(other_gives, other_grip_arm)), most), -most);
+		float change = rub - rubbed;
+		CHANNEL(push, SHOCK_RUB) = rub;
+		member_push(work, id, gives, (float2)(change * along.x, change * along.y), change * grip_arm);
+		member_push(work, other, other_gives, (float2)(-(change * along.x), -(change * along.y)), -(change * other_grip_arm));
+	}
+	at[SHOCK_PUSH] = push;
+	return true;
+}
+
+/* Is a party's point one of a joint with a body that the hit has not got to, and which it would move? */
+bool tug_goes_on(RECORD_IN(slots), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float least)
+{
+	__global float4 *at = shocks + SHOCK(id, point);
+	float rate = point_rate(slots, work, id, at[SHOCK_NORMAL], at[SHOCK_PUSH]);
+	return magnitude(CHANNEL(at[SHOCK_GRIP], SHOCK_PART) - rate) >= least;
+}
+
+/* It has come to no end: all move as before it, and the hit is what it was. */
+void tug_give_up(LIST_OUT(members), RECORD_OUT(work), RECORD_OUT(shocks), const struck *hit, const shock *all)
+{
+	for (int id = all->first; id >= 0; id = party_next(members, id)) {
+		float4 first = shocks[SHOCK(id, TUG_POINTS)];
+		trajectory k = work_load(work, id);
+		CHANNEL(k.place, LINEAR_VX) = first.x;
+		CHANNEL(k.place, LINEAR_VY) = first.y;
+		k.velocity = first.z;
+		work_store(work, id, k);
+	}
+	float4 push = shocks[SHOCK(all->first, 0) + SHOCK_PUSH];
+	CHANNEL(push, SHOCK_IMPULSE) = inner(hit->impulse, hit->n);
+	CHANNEL(push, SHOCK_RUB) = inner(hit->impulse, aside(hit->n));
+	shocks[SHOCK(all->first, 0) + SHOCK_PUSH] = push;
+}
+
+/* From the two of a hit, of which the second may be none, -1; false if the cluster has to be given up. */
+bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
+	RECORD_IN(contacts), int one, int other, const struck *hit, shock *all, int *first)
+{
+	bool more = true;
+	tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, one, 1, hit, all);
+	if (other >= 0)
+		tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, other, 0, hit, all);
+	float least = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all);
+	for (int sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
+		more = false;
+		if (sweep + 1 == TUG_SWEEPS)
+			least *= TUG_ENOUGH;
+		for (int id = all->first; id >= 0; id = party_next(members, id))
+			for (int point = id == one ? 1 : 0; point < TUG_POINTS; point++) {
+				float4 push = shocks[SHOCK(id, point) + SHOCK_PUSH];
+				if (point_is_none(push))
+					break;
+				if (!point_is_open(slots, push)) {
+					if (all->count == SHOCK_PARTIES || !tug_goes_on(slots, work, shocks, id, point, least))
+						continue;
+					if (party_of(members, owners, (int)CHANNEL(push, SHOCK_PARTNER), all) >= 0)
+						continue; /* which has no room for a point with this one */
+					int joined = join(slots, LISTS, work, owners, parents, (int)CHANNEL(push, SHOCK_PARTNER), one, all->leader, all->head, all->round,
+						first);
+					if (joined < 0)
+						return false;
+					tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, joined, 0, hit, all);
+				}
+				more |= tug_push(slots, active, work, shocks, id, point, least);
+			}
+		more |= tug_push(slots, active, work, shocks, one, 0, least); /* in the end the two part, whatever joints wanted */
+	}
+	if (more)
+		tug_give_up(members, work, shocks, hit, all);
+	return true;
+}
+
+/* Counts what it did, and to whom; the hit, which is the last one that was counted of a member, has another impulse now. */
+void tug_end(RECORD_IN(slots), RECORD_IN(reach), LIST_OUT(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_OUT(need),
+	RECORD_OUT(hits), RECORD_OUT(shocks), int id, float sign, const struck *hit, const shock *all)
+{
+	float4 push = shocks[SHOCK(all->first, 0) + SHOCK_PUSH];
+	float2 along = aside(hit->n);
+	float total = CHANNEL(push, SHOCK_IMPULSE), rub = CHANNEL(push, SHOCK_RUB);
+	int kept = members[MEMBER(id, MEMBER_KEPT)];
+	if (status[STATUS_KEPT_ROOM] > 0 && kept >= 0) {
+		float4 what = hits[HITS_WIDTH * kept + HITS_WHAT];
+		hits[HITS_WIDTH * kept + HITS_WHAT] = (float4)(sign * (total * hit->n.x + rub * along.x), sign * (total * hit->n.y + rub * along.y), what.z,
+			what.w);
+	}
+	for (int m = all->first; m >= 0; m = party_next(members, m)) {
+		int s = active[m];
+		trajectory k = work_load(work, m);
+		members[MEMBER(m, MEMBER_EVENTS)] += 2; /* as of a shock */
+		k = held_at_last(slots, members, s, m, k, STUCK_BORNE);
+		work_store(work, m, k);
+		if (!way_grow(slots, reach, status, work, need, s, m, k, 0.0f, all->length))
+			atomic_or(&status[STATUS_LEFT], 1);
+	}
+}

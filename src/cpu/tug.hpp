@@ -1,0 +1,270 @@
+/* A hit that joints pass on at once: CONTRACT.md, "The step contacts", Tugs. */
+#ifndef CAROM_CPU_TUG_HPP
+#define CAROM_CPU_TUG_HPP
+
+#include "cpu/membership.hpp"
+#include "cpu/resting.hpp"
+
+namespace carom::cpu {
+
+/* What a hit did, seen from the first of its two. */
+template <typename T> struct Struck {
+	Vec<T> point, n; /* n: towards the first, */
+	Vec<T> impulse;  /* and what it got */
+	T friction;
+};
+
+/* The points of joints, as they are in this step; touching one int alone by the step events. */
+template <typename T> struct JointPoints {
+	const Touching *touching;
+	const Points<T> *points;
+};
+
+/* One after the other, of one cluster. */
+template <typename T> class Tug
+{
+public:
+	Tug(const Clusters<T> &all, Work<T> *work_of, const JointPoints<T> &joints)
+		: clusters(all), work(work_of), touching(joints.touching), lanes(joints.points)
+	{
+	}
+
+	/* From those two, of which the second may be none, -1, that were hit at time u, and were on such ways before; `partner` is the slot of what hit the first, or a wall. `own` are the
+	 * cluster's members, and `join(slot)` is the number of one that becomes one; false if it can't. */
+	template <typename Join>
+	bool spread(int32_t one, int32_t other, int32_t partner, const Struck<T> &struck, const Trajectory<T> &one_before,
+		const Trajectory<T> &other_before, T u, const Membership<T> &own, const Join &join)
+	{
+		time = u;
+		first_slot = clusters.active[one], second_slot = partner;
+		before[0] = &one_before, before[1] = &other_before;
+		open(one, 1, own);
+		if (other >= 0)
+			open(other, 0, own);
+		strike(struck, partner, own);
+		bool more = true;
+		for (int32_t sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
+			more = false;
+			if (sweep + 1 == TUG_SWEEPS)
+				least *= T(TUG_ENOUGH);
+			for (int32_t k = 0; k < count; k++)
+				for (int32_t point = 0; point < parties[k].points; point++) {
+					Point &p = points[parties[k].first + point];
+					if (p.other == closed) {
+						if (!(std::abs(p.part - parting(parties[k], p)) >= least) || count == SHOCK_PARTIES)
+							continue;
+						if (own.own_number(p.slot) >= 0 && party_of(own.own_number(p.slot)) >= 0)
+							continue; /* which has no room for a point with this one */
+						const int32_t id = join(p.slot);
+						if (id < 0)
+							return false;
+						open(id, 0, own);
+					}
+					more |= push(parties[k], p, false);
+				}
+			more |= push(parties[0], contact, true); /* in the end the two part, whatever joints wanted */
+		}
+		if (more) /* they have come to no end */
+			give_up();
+		for (int32_t k = 0; k < count; k++)
+			if (!parties[k].is_held) {
+				Work<T> &to = work[parties[k].id];
+				to.place[LINEAR_VX] = parties[k].vx, to.place[LINEAR_VY] = parties[k].vy, to.velocity = parties[k].w;
+			}
+		return true;
+	}
+
+	/* Calls `visit(number)` for all that it moved to that time. */
+	template <typename Visit> void each(const Visit &visit) const
+	{
+		for (int32_t k = 0; k < count; k++)
+			visit(parties[k].id);
+	}
+
+	/* What the first got in all by the hit. */
+	Vec<T> impulse() const { return Vec<T>(contact.impulse * contact.n + contact.rub * along(contact.n)); }
+
+private:
+	struct Party {
+		int32_t id, first, points;
+		bool is_held;
+		T vx, vy, w, inverse_mass, inverse_inertia;
+		T first_vx, first_vy, first_w;
+
+		T gives(T arm) const { return inverse_mass + inverse_inertia * (arm * arm); }
+		T speed(const Vec<T> &n, T arm) const { return inner(n, Vec<T>(vx, vy)) + w * arm; }
+	};
+
+	/* A point of a joint, or where the two hit each other. */
+	struct Point {
+		int32_t slot, other; /* the partner, -1 for none that moves; and as a party, or: */
+		Vec<T> n;
+		T arm, other_arm, part, coming, impulse; /* part: the rate that it is to have; coming: how fast a partner that is no party moves along n */
+		T grip_arm, other_grip_arm, friction, slipping, rub;
+	};
+
+	static constexpr int32_t fixed = -1, closed = -2;
+
+	static Vec<T> along(const Vec<T> &n) { return {-n.y(), n.x()}; }
+
+	static T speed(const Trajectory<T> &way, const Vec<T> &n, T arm)
+	{
+		return way.held > 0 ? T(0) : inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
+	}
+
+	/* How the body in a slot moves at that time: as it was before it was hit, or is now. */
+	Trajectory<T> way_of(int32_t s, const Membership<T> &own, bool was) const
+	{
+		if (was && s == first_slot)
+			return *before[0];
+		if (was && s == second_slot)
+			return *before[1];
+		Trajectory<T> way = own.way_seen(s);
+		clusters.move(clusters.slots[s], way, time);
+		return way;
+	}
+
+	int32_t party_of(int32_t id) const
+	{
+		for (int32_t k = 0; k < count; k++)
+			if (parties[k].id == id)
+				return k;
+		return fixed;
+	}
+
+	/* Moves a body to the time, and looks what it is joined with; so many of its points are others. */
+	void open(int32_t id, int32_t others, const Membership<T> &own)
+	{
+		const int32_t s = clusters.active[id], k = count;
+		const Slot<T> &slot = clusters.slots[s];
+		Trajectory<T> way = work[id].trajectory(slot);
+		clusters.move(slot, way, time);
+		work[id].keep(way);
+		const bool is_held = way.held > 0;
+		parties[k] = {id, taken, 0, is_held, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, is_held ? T(0) : slot.mass[MASS_INVERSE],
+			is_held ? T(0) : slot.mass[MASS_INVERSE_INERTIA], 0, 0, 0};
+		if (is_held)
+			parties[k].vx = parties[k].vy = parties[k].w = 0;
+		parties[k].first_vx = parties[k].vx, parties[k].first_vy = parties[k].vy, parties[k].first_w = parties[k].w;
+		count++;
+		for (int32_t lane = 0; lane < touching[s].joined && parties[k].points < TUG_POINTS - others; lane++) {
+			const Points<T> &four = lanes[touching[s].first + lane / lane_count];
+			const int32_t i = lane % lane_count;
+			const Partner partner(four.partner[i]);
+			const bool moves = partner.moves();
+			const int32_t party = moves && own.own_number(partner.slot()) >= 0 ? party_of(own.own_number(partner.slot())) : fixed;
+			if (party >= 0 && meets(parties[party], s, k))
+				continue;
+			Point &p = points[taken++];
+			parties[k].points++;
+			p = {moves ? partner.slot() : -1,
+				party >= 0                                                 ? party
+					: moves && clusters.slots[partner.slot()].is_dynamic() ? closed
+																		   : fixed,
+				Vec<T>(four.normal_x[i], four.normal_y[i]), four.arm[i], four.other_arm[i], 0, 0, 0, 0, 0, 0, 0, 0};
+			p.part = speed(way_of(s, own, true), p.n, p.arm);
+			if (moves) {
+				p.part -= speed(way_of(partner.slot(), own, true), p.n, p.other_arm);
+				p.coming = speed(way_of(partner.slot(), own, false), p.n, p.other_arm);
+			}
+		}
+	}
+
+	/* Has a party points of joints with slot s? Then these are with party k. */
+	bool meets(const Party &party, int32_t s, int32_t k)
+	{
+		bool any = false;
+		for (Point *p = points + party.first; p < points + party.first + party.points; p++)
+			if (p->slot == s)
+				p->other = k, any = true;
+		return any;
+	}
+
+	/* Where the two hit each other. */
+	void strike(const Struck<T> &struck, int32_t partner, const Membership<T> &own)
+	{
+		const Work<T> &one = work[parties[0].id];
+		const Vec<T> n = struck.n, way = along(n), lever = struck.point - Vec<T>(one.place[LINEAR_X], one.place[LINEAR_Y]);
+		const T total = inner(struck.impulse, n);
+		contact = {partner >= 0 ? partner : -1, count > 1 ? 1 : fixed, n, cross(lever, n), 0, 0, 0, total, cross(lever, way), 0, struck.friction, 0,
+			inner(struck.impulse, way)};
+		if (partner >= 0) {
+			const Trajectory<T> other = way_of(partner, own, false);
+			const Vec<T> other_lever = struck.point - Vec<T>(other.place[LINEAR_X], other.place[LINEAR_Y]);
+			contact.other_arm = cross(other_lever, n), contact.other_grip_arm = cross(other_lever, way);
+			contact.coming = speed(other, n, contact.other_arm), contact.slipping = speed(other, way, contact.other_grip_arm);
+		}
+		first_impulse = contact.impulse, first_rub = contact.rub;
+		contact.part = parting(parties[0], contact);
+		least = T(TUG_WITHIN) * (total * gives(parties[0], contact.other, contact.arm, contact.other_arm));
+	}
+
+	void give_up()
+	{
+		for (int32_t k = 0; k < count; k++)
+			parties[k].vx = parties[k].first_vx, parties[k].vy = parties[k].first_vy, parties[k].w = parties[k].first_w;
+		contact.impulse = first_impulse, contact.rub = first_rub;
+	}
+
+	T parting(const Party &party, const Point &p) const
+	{
+		return party.speed(p.n, p.arm) - (p.other >= 0 ? parties[p.other].speed(p.n, p.other_arm) : p.coming);
+	}
+
+	T gives(const Party &party, int32_t other, T arm, T other_arm) const
+	{
+		return party.gives(arm) + (other >= 0 ? parties[other].gives(other_arm) : T(0));
+	}
+
+	/* Gives a point the rate that it is to have; false if that is too little to count. */
+	bool push(Party &party, Point &p, bool is_contact)
+	{
+		const T all = gives(party, p.other, p.arm, p.other_arm);
+		if (!(all > 0))
+			return false;
+		const T wanted = p.impulse + (p.part - parting(party, p)) / all, impulse = is_contact ? larger(wanted, T(0)) : wanted,
+				more = impulse - p.impulse;
+		if (!(std::abs(more) * all >= least))
+			return false;
+		p.impulse = impulse;
+		act(party, p.other, more * p.n, more * p.arm, more * p.other_arm);
+		if (!(p.friction > 0))
+			return true;
+		const Vec<T> way = along(p.n);
+		const T slip = party.speed(way, p.grip_arm) - (p.other >= 0 ? parties[p.other].speed(way, p.other_grip_arm) : p.slipping);
+		const T most = p.friction * impulse, rub = larger(smaller(p.rub - slip / gives(party, p.other, p.grip_arm, p.other_grip_arm), most), -most);
+		const T change = rub - p.rub;
+		p.rub = rub;
+		act(party, p.other, change * way, change * p.grip_arm, change * p.other_grip_arm);
+		return true;
+	}
+
+	void act(Party &party, int32_t other, const Vec<T> &impulse, T torque, T other_torque)
+	{
+		turn(party, impulse, torque);
+		if (other >= 0)
+			turn(parties[other], -impulse, -other_torque);
+	}
+
+	static void turn(Party &party, const Vec<T> &impulse, T torque)
+	{
+		party.vx += party.inverse_mass * impulse.x();
+		party.vy += party.inverse_mass * impulse.y();
+		party.w += party.inverse_inertia * torque;
+	}
+
+	const Clusters<T> &clusters;
+	Work<T> *const work;
+	const Touching *const touching;
+	const Points<T> *const lanes;
+	int32_t count = 0, taken = 0, first_slot = -1, second_slot = -1;
+	const Trajectory<T> *before[2] = {nullptr, nullptr};
+	T time = 0, least = 0, first_impulse = 0, first_rub = 0;
+	Point contact{};
+	Party parties[SHOCK_PARTIES];
+	Point points[SHOCK_PARTIES * TUG_POINTS]; /* those of one party follow each other */
+};
+
+}
+
+#endif
