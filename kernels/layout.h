@@ -548,7 +548,7 @@
  * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies.
  *
  * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,
- * or, in the last of TUG_SWEEPS, TUG_ENOUGH times that: where that is not enough, or not possible, joints pass on nothing, and the next step's impulses do. A body has TUG_POINTS. */
+ * or, in the last of TUG_SWEEPS, TUG_ENOUGH times that: where that is not enough, or not possible, or where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, they pass on nothing, and the next step's impulses do. A body has TUG_POINTS. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -564,6 +564,7 @@
 #define SHOCK_SWEEPS 32
 #define TUG_SWEEPS 256
 #define TUG_ENOUGH 1024.0f
+#define TUG_GAIN 0.015625f
 #define TUG_POINTS 11 /* one fewer than SHOCK_POINTS */
 #define TUG_WITHIN 0.0000152587890625f
 #define SHOCK_PARTING 0.5f

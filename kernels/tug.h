@@ -75,7 +75,7 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 	all->last = id;
 }
 
-/* Where the two hit each other; how small a change of a rate is too little to count. */
+/* Where the two hit each other; how much the hit has changed their rate. */
 float tug_strike(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int id,
 	int other, const struck *hit, const shock *all)
 {
@@ -94,7 +94,7 @@ float tug_strike(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(a
 	to[SHOCK_GRIP] = (float4)(cross2(lever, along), other_grip_arm, hit->friction, parting(slots, work, id, push, n, arm, other_arm));
 	to[SHOCK_PUSH] = push;
 	float gives = gives_at(member_gives(slots, active, work, id), arm) + gives_at(member_gives(slots, active, work, other), other_arm);
-	return TUG_WITHIN * (total * gives);
+	return total * gives;
 }
 
 /* Gives an open point the rate that it is to have; false if that is too little to count. */
@@ -139,7 +139,21 @@ bool tug_goes_on(RECORD_IN(slots), RECORD_OUT(work), RECORD_OUT(shocks), int id,
 	return magnitude(CHANNEL(at[SHOCK_GRIP], SHOCK_PART) - rate) >= least;
 }
 
-/* It has come to no end: all move as before it, and the hit is what it was. */
+/* What joints gave: their anchors have speeds against each other where they are being brought to where they belong. */
+float tug_gain(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(shocks), int one, const shock *all)
+{
+	float gain = 0.0f;
+	for (int id = all->first; id >= 0; id = party_next(members, id))
+		for (int point = id == one ? 1 : 0; point < TUG_POINTS; point++) {
+			float4 push = shocks[SHOCK(id, point) + SHOCK_PUSH];
+			if (point_is_none(push))
+				break;
+			gain += point_is_open(slots, push) ? CHANNEL(push, SHOCK_IMPULSE) * CHANNEL(shocks[SHOCK(id, point) + SHOCK_GRIP], SHOCK_PART) : 0.0f;
+		}
+	return gain;
+}
+
+/* It has come to no end, or to none that may be: all move as before it, and the hit is what it was. */
 void tug_give_up(LIST_OUT(members), RECORD_OUT(work), RECORD_OUT(shocks), const struck *hit, const shock *all)
 {
 	for (int id = all->first; id >= 0; id = party_next(members, id)) {
@@ -164,7 +178,7 @@ bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), 
 	tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, one, 1, hit, all);
 	if (other >= 0)
 		tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, other, 0, hit, all);
-	float least = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all);
+	float changed = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all), least = TUG_WITHIN * changed;
 	for (int sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
 		more = false;
 		if (sweep + 1 == TUG_SWEEPS)
@@ -189,7 +203,7 @@ bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), 
 			}
 		more |= tug_push(slots, active, work, shocks, one, 0, least); /* in the end the two part, whatever joints wanted */
 	}
-	if (more)
+	if (more || tug_gain(slots, members, shocks, one, all) > TUG_GAIN * (CHANNEL(shocks[SHOCK(one, 0) + SHOCK_PUSH], SHOCK_IMPULSE) * changed))
 		tug_give_up(members, work, shocks, hit, all);
 	return true;
 }

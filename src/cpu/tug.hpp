@@ -64,7 +64,7 @@ public:
 				}
 			more |= push(parties[0], contact, true); /* in the end the two part, whatever joints wanted */
 		}
-		if (more) /* they have come to no end */
+		if (more || gain() > T(TUG_GAIN) * (contact.impulse * changed)) /* it came to no end, or to none that may be */
 			give_up();
 		for (int32_t k = 0; k < count; k++)
 			if (!parties[k].is_held) {
@@ -196,7 +196,18 @@ private:
 		}
 		first_impulse = contact.impulse, first_rub = contact.rub;
 		contact.part = parting(parties[0], contact);
-		least = T(TUG_WITHIN) * (total * gives(parties[0], contact.other, contact.arm, contact.other_arm));
+		changed = total * gives(parties[0], contact.other, contact.arm, contact.other_arm);
+		least = T(TUG_WITHIN) * changed;
+	}
+
+	/* What joints gave: their anchors have speeds against each other where they are being brought to where they belong. */
+	T gain() const
+	{
+		T all = 0;
+		for (int32_t k = 0; k < count; k++)
+			for (int32_t point = 0; point < parties[k].points; point++)
+				all += points[parties[k].first + point].impulse * points[parties[k].first + point].part;
+		return all;
 	}
 
 	void give_up()
@@ -259,7 +270,8 @@ private:
 	const Points<T> *const lanes;
 	int32_t count = 0, taken = 0, first_slot = -1, second_slot = -1;
 	const Trajectory<T> *before[2] = {nullptr, nullptr};
-	T time = 0, least = 0, first_impulse = 0, first_rub = 0;
+	T time = 0, changed = 0, least = 0, /* how much the hit changed a rate, and what of that is too little */
+		first_impulse = 0, first_rub = 0;
 	Point contact{};
 	Party parties[SHOCK_PARTIES];
 	Point points[SHOCK_PARTIES * TUG_POINTS]; /* those of one party follow each other */
