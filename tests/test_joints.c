@@ -286,6 +286,55 @@ static void the_kinematic_leads(void **unused)
 	}
 }
 
+/* A ball that hits a dumbbell along its rod hits both: of three equal masses one comes back with a third of its speed, as theory says, and no energy is lost; nor from the side, which sets it
+ * spinning, nor by a chain. The hit that is kept has all of the impulse. */
+static void a_hit_goes_through_a_rod(void **unused)
+{
+	static const struct {
+		uint32_t count;
+		float y;
+	} cases[] = {{2, 0.0f}, {2, 0.4f}, {5, 0.3f}};
+	(void)unused;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		const uint32_t n = cases[i].count;
+		uint64_t first = 0;
+		SCENERY_EACH_DEVICE(device) {
+			carom_world_def def = joined_free(0.0f);
+			carom_body_def bodies[6];
+			carom_joint joints[5];
+			def.keep_hits = true;
+			for (uint32_t k = 0; k <= n; k++) {
+				bodies[k] = k < n ? scenery_circle(1.5f * (float)k, 0.0f, 0.0f, 0.0f, 0.5f) : scenery_circle(-2.0f, cases[i].y, 3.0f, 0.0f, 0.5f);
+				bodies[k].mass = 1.0f;
+				if (k > 0 && k < n)
+					joints[k] = joined_rod(k, (int32_t)k - 1, 0.0f, 0.0f);
+			}
+			carom_world *world = runs_world(&def, device, bodies, n + 1);
+			if (!world)
+				continue;
+			joined_set(world, n - 1, joints + 1);
+			const carom_measure before = runs_measure(world);
+			assert_int_equal(runs_advance(world, 0.5).hits, 1);
+			size_t count;
+			carom_hit *hits = runs_hits(world, &count);
+			const carom_measure after = runs_measure(world);
+			const carom_body_state ball = runs_state(world, n);
+			assert_int_equal(count, 1);
+			runs_near((double)hits->impulse.x, (double)ball.velocity.x - 3.0, 1e-4);
+			runs_near((double)hits->impulse.y, (double)ball.velocity.y, 1e-4);
+			free(hits);
+			runs_near(after.kinetic_energy, before.kinetic_energy, 1e-3);
+			runs_near(after.momentum_x, before.momentum_x, 1e-5);
+			runs_near(after.angular_momentum, before.angular_momentum, 1e-4);
+			if (n == 2 && cases[i].y == 0.0f)
+				runs_near((double)ball.velocity.x, -1.0, 1e-4);
+			assert_true(joined_slack(world) < 1e-5);
+			runs_same_hash(&first, runs_hash(world), device);
+			carom_world_destroy(world);
+		}
+	}
+}
+
 /* Two boxes on the ground with a rod between them come to rest and sleep; who pushes one wakes both, and so does who takes the rod away. */
 static void what_is_joined_sleeps_together(void **unused)
 {
@@ -328,6 +377,7 @@ int main(void)
 		cmocka_unit_test(a_bridge_bears),
 		cmocka_unit_test(the_joined_pass_each_other),
 		cmocka_unit_test(the_kinematic_leads),
+		cmocka_unit_test(a_hit_goes_through_a_rod),
 		cmocka_unit_test(what_is_joined_sleeps_together),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

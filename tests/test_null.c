@@ -82,6 +82,7 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	carom_body_info info;
 	carom_body_state state;
 	carom_contact contact;
+	carom_joint joint;
 	carom_hit hit;
 	uint32_t index = 0;
 	carom_device_info device;
@@ -112,6 +113,10 @@ static void what_has_to_be_given_of_worlds(void **unused)
 	REFUSE("hits", carom_world_get_hits(world, 0, 1, NULL, &error));
 	REFUSE("world", carom_world_set_contacts(NULL, 0, NULL, &error));
 	REFUSE("contacts", carom_world_set_contacts(world, 1, NULL, &error));
+	REFUSE("world", carom_world_get_joints(NULL, 0, 0, &joint, &error));
+	REFUSE("joints", carom_world_get_joints(world, 0, 1, NULL, &error));
+	REFUSE("world", carom_world_set_joints(NULL, 0, NULL, &error));
+	REFUSE("joints", carom_world_set_joints(world, 1, NULL, &error));
 	REFUSE("world", carom_world_step(NULL, 1, NULL, &error));
 	REFUSE("world", carom_world_advance(NULL, 1.0, NULL, &error));
 	REFUSE("world", carom_world_advance_to(NULL, 1.0, 1, NULL, &error));
@@ -227,6 +232,8 @@ static void what_need_not_be_given(void **unused)
 	assert_int_equal(carom_world_remove(world, NULL, 0, NULL), CAROM_OK);
 	assert_int_equal(carom_world_hit_count(NULL), 0);
 	assert_int_equal(carom_world_set_contacts(world, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_get_joints(world, 0, 0, NULL, NULL), CAROM_OK);
+	assert_int_equal(carom_world_set_joints(world, 0, NULL, NULL), CAROM_OK);
 	carom_world_set_progress(NULL, NULL, NULL);
 	assert_int_equal(carom_world_body_count(NULL), 0);
 	assert_true(carom_world_time(NULL) == 0.0);

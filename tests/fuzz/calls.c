@@ -187,6 +187,38 @@ static void set_contacts(calls *c)
 	calls_same(c, before);
 }
 
+/* What is set can be read, and set again; else nothing is changed. */
+static void set_joints(calls *c)
+{
+	carom_joint joints[3], now[COUNT(joints)], again[COUNT(joints)];
+	carom_error error = fuzz_blank();
+	const size_t count = bytes_below(&c->bytes, COUNT(joints) + 1), had = carom_world_joint_count(*c->slot);
+	const snapshot before = calls_look(c);
+	for (size_t k = 0; k < count; k++) {
+		joints[k] = carom_default_joint();
+		joints[k].kind = (carom_joint_kind)bytes_below(&c->bytes, c->bytes.tame ? 2 : 4);
+		joints[k].body = any_index(c);
+		joints[k].other = (int32_t)any_index(c) - 1;
+		joints[k].collides = bytes_below(&c->bytes, 2) > 0;
+		joints[k].anchor.x = c->bytes.tame ? bytes_between(&c->bytes, -2, 2) : bytes_wild(&c->bytes);
+		if (bytes_below(&c->bytes, 2) > 0)
+			joints[k].length = c->bytes.tame ? bytes_between(&c->bytes, 1, 3) : bytes_wild(&c->bytes);
+		joints[k].force[0] = c->bytes.tame ? bytes_between(&c->bytes, -50, 50) : bytes_wild(&c->bytes);
+	}
+	if (!calls_judge(c, carom_world_set_joints(*c->slot, count, joints, &error), &error)) {
+		FUZZ_EXPECT(carom_world_joint_count(*c->slot) == had);
+		calls_same(c, before);
+		return;
+	}
+	FUZZ_EXPECT(carom_world_joint_count(*c->slot) == count);
+	FUZZ_EXPECT(carom_world_get_joints(*c->slot, 0, count, now, NULL) == CAROM_OK);
+	FUZZ_EXPECT(carom_world_get_joints(*c->slot, 0, count + 1, again, NULL) == CAROM_INVALID_ARGUMENT);
+	FUZZ_EXPECT(carom_world_set_joints(*c->slot, count, now, NULL) == CAROM_OK);
+	FUZZ_EXPECT(carom_world_get_joints(*c->slot, 0, count, again, NULL) == CAROM_OK);
+	FUZZ_EXPECT(count == 0 || memcmp(now, again, count * sizeof *now) == 0);
+	calls_same(c, before);
+}
+
 static void set_force(calls *c)
 {
 	carom_error error = fuzz_blank();
@@ -351,7 +383,7 @@ static const call all[] = {{create, false}, {add, true}, {add, true}, {add, true
 	{calls_step, true}, {calls_advance, true}, {calls_advance_to, true}, {calls_break_off, true}, {get_body, true}, {get_states, true},
 	{set_states, true}, {set_force, true}, {measure, true}, {calls_render, true}, {calls_scene, true}, {destroy, true}, {add_too_many, true},
 	{calls_parse, false}, {calls_png, false}, {calls_file, false}, {set_pipeline, false}, {list, false}, {ask, false}, {set_contacts, true},
-	{get_contacts, true}, {remove_some, true}, {change, true}, {ask_where, true}};
+	{get_contacts, true}, {remove_some, true}, {change, true}, {ask_where, true}, {set_joints, true}};
 
 void calls_make(calls *c)
 {
