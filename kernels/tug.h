@@ -189,15 +189,17 @@ bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), 
 				if (point_is_none(push))
 					break;
 				if (!point_is_open(slots, push)) {
-					if (all->count == SHOCK_PARTIES || !tug_goes_on(slots, work, shocks, id, point, least))
-						continue;
-					if (party_of(members, owners, (int)CHANNEL(push, SHOCK_PARTNER), all) >= 0)
-						continue; /* which has no room for a point with this one */
-					int joined = join(slots, LISTS, work, owners, parents, (int)CHANNEL(push, SHOCK_PARTNER), one, all->leader, all->head, all->round,
-						first);
-					if (joined < 0)
-						return false;
-					tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, joined, 0, hit, all);
+					int partner = (int)CHANNEL(push, SHOCK_PARTNER), party = party_of(members, owners, partner, all);
+					if (party < 0) {
+						if (all->count == SHOCK_PARTIES || !tug_goes_on(slots, work, shocks, id, point, least))
+							continue;
+						party = join(slots, LISTS, work, owners, parents, partner, one, all->leader, all->head, all->round, first);
+						if (party < 0)
+							return false;
+						tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, party, 0, hit, all);
+					}
+					/* also where that one has no room for this point */
+					shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)partner, (float)party, 0.0f, 0.0f);
 				}
 				more |= tug_push(slots, active, work, shocks, id, point, least);
 			}

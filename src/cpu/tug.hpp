@@ -50,16 +50,10 @@ public:
 			for (int32_t k = 0; k < count; k++)
 				for (int32_t point = 0; point < parties[k].points; point++) {
 					Point &p = points[parties[k].first + point];
-					if (p.other == closed) {
-						if (!(std::abs(p.part - parting(parties[k], p)) >= least) || count == SHOCK_PARTIES)
-							continue;
-						if (own.own_number(p.slot) >= 0 && party_of(own.own_number(p.slot)) >= 0)
-							continue; /* which has no room for a point with this one */
-						const int32_t id = join(p.slot);
-						if (id < 0)
-							return false;
-						open(id, 0, own);
-					}
+					if (p.other == closed && !reach(p, parties[k], own, join))
+						continue;
+					if (is_lost)
+						return false;
 					more |= push(parties[k], p, false);
 				}
 			more |= push(parties[0], contact, true); /* in the end the two part, whatever joints wanted */
@@ -122,6 +116,25 @@ private:
 		Trajectory<T> way = own.way_seen(s);
 		clusters.move(clusters.slots[s], way, time);
 		return way;
+	}
+
+	/* The partner of a point, which is none yet, becomes a party if the hit would move it; false if not, or where there are too many. */
+	template <typename Join> bool reach(Point &p, const Party &party, const Membership<T> &own, const Join &join)
+	{
+		const int32_t known = own.own_number(p.slot);
+		int32_t k = known >= 0 ? party_of(known) : fixed;
+		if (k < 0) {
+			if (!(std::abs(p.part - parting(party, p)) >= least) || count == SHOCK_PARTIES)
+				return false;
+			const int32_t id = join(p.slot);
+			is_lost = id < 0;
+			if (is_lost)
+				return true;
+			k = count;
+			open(id, 0, own);
+		}
+		p.other = k; /* also where that one has no room for this point */
+		return true;
 	}
 
 	int32_t party_of(int32_t id) const
@@ -272,6 +285,7 @@ private:
 	const Trajectory<T> *before[2] = {nullptr, nullptr};
 	T time = 0, changed = 0, least = 0, /* how much the hit changed a rate, and what of that is too little */
 		first_impulse = 0, first_rub = 0;
+	bool is_lost = false; /* the cluster has to be given up */
 	Point contact{};
 	Party parties[SHOCK_PARTIES];
 	Point points[SHOCK_PARTIES * TUG_POINTS]; /* those of one party follow each other */
