@@ -12,13 +12,27 @@ typedef struct struck {
 	float friction;
 } struck;
 
-/* How the body in a slot moves at the tug's time: as it was before it was hit, or is now. */
-trajectory tug_way(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), int s, bool was, const struck *hit,
-	const shock *all)
+/* A party as it became one. */
+trajectory tug_first(RECORD_OUT(work), RECORD_OUT(shocks), int id)
 {
+	float4 first = shocks[SHOCK(id, TUG_POINTS)];
+	trajectory k = work_load(work, id);
+	CHANNEL(k.place, LINEAR_VX) = first.x;
+	CHANNEL(k.place, LINEAR_VY) = first.y;
+	k.velocity = first.z;
+	return k;
+}
+
+/* How the body in a slot moves at the tug's time: as it was before it was hit, or before the tug. */
+trajectory tug_way(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int s, bool was,
+	const struck *hit, const shock *all)
+{
+	int party = party_of(members, owners, s, all);
 	if (was && s == hit->one)
 		return hit->before;
-	return was && s == hit->other ? hit->other_before : shock_way(slots, status, members, work, owners, s, all);
+	if (was && s == hit->other)
+		return hit->other_before;
+	return party >= 0 ? tug_first(work, shocks, party) : shock_way(slots, status, members, work, owners, s, all);
 }
 
 /* Has a party, if it is one, points of joints with slot s? Then that is party id by now. */
@@ -54,11 +68,11 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 			continue;
 		float2 n = (float2)(at[4 * FOUR_NORMAL_X], at[4 * FOUR_NORMAL_Y]);
 		float arm = at[4 * FOUR_ARM], other_arm = at[4 * FOUR_OTHER_ARM], coming = 0.0f;
-		float part = way_speed(tug_way(slots, status, members, work, owners, s, true, hit, all), n, arm);
+		float part = way_speed(tug_way(slots, status, members, work, owners, shocks, s, true, hit, all), n, arm);
 		if (partner >= 0) {
-			part -= way_speed(tug_way(slots, status, members, work, owners, partner, true, hit, all), n, other_arm);
+			part -= way_speed(tug_way(slots, status, members, work, owners, shocks, partner, true, hit, all), n, other_arm);
 			if (party < 0)
-				coming = way_speed(tug_way(slots, status, members, work, owners, partner, false, hit, all), n, other_arm);
+				coming = way_speed(tug_way(slots, status, members, work, owners, shocks, partner, false, hit, all), n, other_arm);
 		}
 		__global float4 *to = shocks + SHOCK(id, point++);
 		to[SHOCK_NORMAL] = (float4)(n.x, n.y, arm, other_arm);
@@ -84,7 +98,7 @@ float tug_strike(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(a
 	float2 n = hit->n, along = aside(n), lever = (float2)(hit->point.x - CHANNEL(place, LINEAR_X), hit->point.y - CHANNEL(place, LINEAR_Y));
 	float arm = cross2(lever, n), other_arm = 0.0f, other_grip_arm = 0.0f, total = inner(hit->impulse, n);
 	if (hit->other >= 0) {
-		float4 at = tug_way(slots, status, members, work, owners, hit->other, false, hit, all).place;
+		float4 at = tug_way(slots, status, members, work, owners, shocks, hit->other, false, hit, all).place;
 		float2 other_lever = (float2)(hit->point.x - CHANNEL(at, LINEAR_X), hit->point.y - CHANNEL(at, LINEAR_Y));
 		other_arm = cross2(other_lever, n);
 		other_grip_arm = cross2(other_lever, along);
@@ -157,12 +171,7 @@ float tug_gain(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(shocks), int one,
 void tug_give_up(LIST_OUT(members), RECORD_OUT(work), RECORD_OUT(shocks), const struck *hit, const shock *all)
 {
 	for (int id = all->first; id >= 0; id = party_next(members, id)) {
-		float4 first = shocks[SHOCK(id, TUG_POINTS)];
-		trajectory k = work_load(work, id);
-		CHANNEL(k.place, LINEAR_VX) = first.x;
-		CHANNEL(k.place, LINEAR_VY) = first.y;
-		k.velocity = first.z;
-		work_store(work, id, k);
+		work_store(work, id, tug_first(work, shocks, id));
 	}
 	float4 push = shocks[SHOCK(all->first, 0) + SHOCK_PUSH];
 	CHANNEL(push, SHOCK_IMPULSE) = inner(hit->impulse, hit->n);
