@@ -21,13 +21,15 @@ static const struct reference {
 	const char *step, *what;
 	uint64_t steps;
 	bool rests; /* all lose energy, and fall faster */
-	bool lies;  /* it is the plank, else the crowd */
+	bool lies;  /* it is the plank, else the crowd, */
+	bool holds; /* of which many are joined */
 	struct outcome expected;
 } references[] = {
-	{"events", "", 60, false, false, {0x72ffa6a29798faca, 0x7dfcc495d9b42702, 0x728f7931a28ac03f}},
-	{"contacts", "", 12, true, false, {0xd440000e9486bcfa, 0xf76c6e9eaefc385a, 0x46431893954bc23d}},
-	{"contacts", " of many", 24, true, true, {0xdef17b566634acb3, 0xea0634c37597d9f4, 0xfe3fb6b321603430}},
-	{"first_impact", "", 60, false, false, {0xe443f056f109fad9, 0x7628f5ddae755cc8, 0x5be3f6b36ea95729}},
+	{"events", "", 60, false, false, false, {0x72ffa6a29798faca, 0x7dfcc495d9b42702, 0x728f7931a28ac03f}},
+	{"contacts", "", 12, true, false, false, {0xd440000e9486bcfa, 0xf76c6e9eaefc385a, 0x46431893954bc23d}},
+	{"contacts", " of many", 24, true, true, false, {0xdef17b566634acb3, 0xea0634c37597d9f4, 0xfe3fb6b321603430}},
+	{"contacts", " and joints", 12, true, false, true, {0x10d3c7a1b72e64c1, 0x9b60723d2dfa615e, 0xf2c69902e49889a5}},
+	{"first_impact", "", 60, false, false, false, {0xe443f056f109fad9, 0x7628f5ddae755cc8, 0x5be3f6b36ea95729}},
 };
 
 static const carom_vec2 kite[4] = {{0.375f, 0}, {0, 0.25f}, {-0.25f, 0}, {0, -0.25f}};
@@ -76,6 +78,27 @@ static carom_body_def lying_body(int k)
 							  : (carom_vec2){k == POSTS ? -2.5f : 2.5f, -3.0625f};
 	body.friction = 0.5f;
 	return body;
+}
+
+/* Pins and rods in the crowd, from every other body to the next one. */
+static carom_status join(carom_world *world, const carom_body_def *bodies, carom_error *error)
+{
+	carom_joint joints[BODIES];
+	size_t count = 0;
+	for (int k = 0; k + 1 < BODIES; k += 2) {
+		if ((bodies[k].is_static || bodies[k].is_kinematic) && (bodies[k + 1].is_static || bodies[k + 1].is_kinematic))
+			continue;
+		joints[count] = carom_default_joint();
+		joints[count].kind = k % 4 ? CAROM_DISTANCE : CAROM_REVOLUTE;
+		joints[count].body = (uint32_t)k;
+		joints[count].other = k % 14 == 12 ? CAROM_GROUND : k + 1;
+		joints[count].anchor = (carom_vec2){0.25f, 0};
+		joints[count].other_anchor = k % 14 == 12 ? (carom_vec2){3, (float)(k % 8) / 2 - 2} : (carom_vec2){-0.25f, 0.125f};
+		joints[count].length = 0.5f;
+		joints[count].collides = k % 3 == 0;
+		count++;
+	}
+	return carom_world_set_joints(world, count, joints, error);
 }
 
 static carom_world_def reference_def(const carom_world_def *where, const struct reference *reference)
@@ -196,6 +219,8 @@ static carom_status run_reference(carom_world *world, const struct reference *re
 	def.width = WIDTH;
 	def.height = HEIGHT;
 	status = carom_world_add(world, bodies, (size_t)count, NULL, error);
+	if (!status && reference->holds)
+		status = join(world, bodies, error);
 	if (!status)
 		status = run_halves(world, reference, &found->hits, error);
 	if (!status)
