@@ -612,14 +612,14 @@
 #define CONTACT_ITERATIONS 256
 
 /* Joints. Impulses leave the anchors no speed against each other, within a JOINT_PART of a slop in a step; forces bring them to where they belong by the end of the step, by no more than JOINT_MOST
- * of both radii, along ways that are right in the middle of the step, so that they take no energy and give none; it is looked where that is before the first iterations, JOINT_AIMS at most, each twice as
- * many later, and a body is taken to turn by no more than JOINT_TURN. A step is too long for that where what a force makes turn in it, by its arm's growth, is more than JOINT_STIFF, and might grow from
+ * of both radii, along ways that are right in the middle of the step, so that they take no energy and give none; it is looked where that is before the iterations of
+ * JOINT_AIMED, and a body is taken to turn by no more than JOINT_TURN. A step is too long for that where what a force makes turn in it, by its arm's growth, is more than JOINT_STIFF, and might grow from
  * step to step, or where anchors are farther from where they belong than JOINT_FAR of both radii: there forces take the speed along the ways at the step's end, as impulses do, and bring
  * anchors by EASE of the way. */
 #define JOINT_PART 0.25f
 #define JOINT_MOST 1.0f
-#define JOINT_AIMS 6
-#define JOINT_TURN 1.0f /* rad */
+#define JOINT_AIMED 0x10117 /* bits: 0, 1, 2, 4, 8, 16 */
+#define JOINT_TURN 1.0f     /* rad */
 #define JOINT_FAR 0.01f
 #define JOINT_STIFF 1.5f
 

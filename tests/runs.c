@@ -55,6 +55,9 @@ carom_scene *runs_read(const char *path)
 carom_world *runs_scene(carom_scene *scene, const scenery_device *device)
 {
 	carom_world *world = runs_world(&scene->world, device, scene->bodies, scene->body_count);
+	carom_error error;
+	if (world && strcmp(carom_pipeline_get(&scene->world.pipeline, "step"), "contacts") == 0)
+		scenery_check(carom_world_set_joints(world, scene->joint_count, scene->joints, &error), &error);
 	carom_scene_destroy(scene);
 	return world;
 }

@@ -18,7 +18,7 @@ carom_world *runs_world(const carom_world_def *def, const scenery_device *device
 /* A crowd of bodies of all kinds that fall in the left part of a room, with friction, with a profile; the right one is free from x = 0 on. NULL likewise. */
 #define RUNS_CROWD 300
 carom_world *runs_crowd(const scenery_device *device, const char *step, bool filtered);
-/* A scene of that path, to be changed at will; and its world, for which it is given up, likewise NULL. */
+/* A scene of that path, to be changed at will; and its world, without contacts, and by other steps than that without joints; for it the scene is given up; likewise NULL. */
 carom_scene *runs_read(const char *path);
 carom_world *runs_scene(carom_scene *scene, const scenery_device *device);
 /* The queue over the same world. */

@@ -98,6 +98,7 @@ static bool change(void *context, const carom_report *so_far)
 	assert_busy(carom_world_set_states(world, 0, 1, &state, &error), &error);
 	assert_busy(carom_world_set_force(world, 0, state.velocity, 0.0f, &error), &error);
 	assert_busy(carom_world_set_contacts(world, 0, NULL, &error), &error);
+	assert_busy(carom_world_set_joints(world, 0, NULL, &error), &error);
 	return true;
 }
 
