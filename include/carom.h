@@ -390,7 +390,7 @@ CAROM_API carom_joint carom_default_joint(void);
 CAROM_API size_t carom_world_joint_count(const carom_world *world);
 /** Reads `count` of them from number `first` on, in the order of `body`, of one body in that in which they were given, without any NaN: the `length` of CAROM_REVOLUTE is 0. Waits for the device. */
 CAROM_API carom_status carom_world_get_joints(carom_world *world, size_t first, size_t count, carom_joint *joints, carom_error *error);
-/** Replaces them, all or none: a joint more is one more behind those that were read. Those of a body that is removed go with it. With states and contacts they are what another world needs to go on with the
+/** Replaces them, all or none: a joint more is one more behind those that were read. Those of a body that is removed go with it. Each takes about 100 bytes on the device, and where there are any a body 16 more. With states and contacts they are what another world needs to go on with the
  * same bits. CAROM_INVALID_ARGUMENT names the joint (as `joints[k]`) and the field, or that the world's step is not contacts: others hold no joints. */
 CAROM_API carom_status carom_world_set_joints(carom_world *world, size_t count, const carom_joint *joints, carom_error *error);
 
@@ -604,7 +604,7 @@ typedef struct carom_inset {
 typedef struct carom_render_def {
 	uint32_t width;      /**< pixels, 1..16384; default 1280 */
 	uint32_t height;     /**< pixels, 1..16384; default 720 */
-	bool has_camera;     /**< default false: the room, or where there is none the bodies, fill the picture */
+	bool has_camera;     /**< default false: the room, or where there is none the bodies, and places they are joined with, fill the picture */
 	carom_camera camera; /**< if has_camera */
 	bool has_inset;      /**< default false: no part is enlarged */
 	carom_inset inset;   /**< if has_inset */
@@ -615,7 +615,7 @@ CAROM_API carom_render_def carom_default_render_def(void);
 /** The camera with which carom_world_render would draw `def` now: its own, or one that shows the room, or where there is none the bodies. The pictures of
  * a film share one; without it bodies that move all the same way would seem to stand still. */
 CAROM_API carom_status carom_world_fit_camera(carom_world *world, const carom_render_def *def, carom_camera *camera, carom_error *error);
-/** Draws the present state into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. What there
+/** Draws the present state, rods as lines below the bodies, into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. What there
  * is no room for at once is drawn in passes, one over the other, and gives the same picture. CAROM_LIMIT: bodies lie so thickly over one
  * another that the lists of those in each tile of pixels have no room. */
 CAROM_API carom_status carom_world_render(carom_world *world, const carom_render_def *def, uint8_t *pixels, carom_error *error);

@@ -52,8 +52,9 @@ static carom_status hold_shapes(carom_world *world, const carom_picture *picture
 	const uint64_t lines = canvas->has_lines ? canvas->all_circles : 0;
 	uint64_t shapes = 0, edges = 0;
 	for (size_t i = 0; i < picture->layer_count; i++) {
-		shapes += picture->layers[i].mark_count + canvas->body_count + lines;
-		edges += LINE_REST * (picture->layers[i].mark_count + lines) + canvas->all_sides;
+		const uint64_t marks = (uint64_t)picture->layers[i].mark_count + picture->layers[i].rod_count;
+		shapes += marks + canvas->body_count + lines;
+		edges += LINE_REST * (marks + lines) + canvas->all_sides;
 	}
 	*at_once = has_room(most, shapes, edges);
 	TRY(carom_canvas_hold(world, ROLE_BOXES, *at_once ? shapes : most / SHAPES_WIDTH, error));
@@ -154,11 +155,41 @@ static carom_status draw_pass(carom_world *world, carom_pixels block, uint32_t g
 	return CAROM_OK;
 }
 
+/* Marks alone, before the bodies are sent. */
+static carom_status draw_marks(carom_world *world, const carom_picture *picture, const carom_layer *layer, carom_pixels block, carom_pass *pass,
+	carom_error *error)
+{
+	carom_canvas *canvas = &world->canvas;
+	canvas->end = canvas->bodies = canvas->vertices = canvas->edges = canvas->shapes = 0;
+	TRY(carom_canvas_hold(world, ROLE_PLACED, 1, error)); /* kernels have them as arguments, read or not */
+	TRY(carom_canvas_hold(world, ROLE_DRAWS, 1, error));
+	if (!has_room(pass->most, pass->shapes + layer->mark_count, pass->edges + LINE_REST * layer->mark_count))
+		TRY(draw_pass(world, block, picture->ground, pass, error));
+	return make_shapes(world, picture, layer, layer->mark_count, pass, error);
+}
+
+/* The layer's marks, and its rods, some at a time. */
+static carom_status draw_rods(carom_world *world, const carom_picture *picture, const carom_layer *layer, carom_pixels block, carom_pass *pass,
+	carom_error *error)
+{
+	carom_layer part = *layer;
+	TRY(draw_marks(world, picture, &part, block, pass, error));
+	for (uint32_t first = 0; first < layer->rod_count; first += part.mark_count) {
+		const uint32_t left = layer->rod_count - first;
+		part.mark_count = left < CAROM_MAX_MARKS ? left : CAROM_MAX_MARKS;
+		memcpy(part.marks, layer->rods + first, part.mark_count * sizeof *part.marks);
+		TRY(draw_marks(world, picture, &part, block, pass, error));
+	}
+	return CAROM_OK;
+}
+
 static carom_status draw_layer(carom_world *world, const carom_picture *picture, const carom_layer *layer, carom_pixels block, carom_pass *pass,
 	carom_error *error)
 {
-	uint32_t marks = layer->mark_count;
+	uint32_t marks = layer->rod_count > 0 ? 0 : layer->mark_count;
 	uint64_t drawn = 0;
+	if (layer->rod_count > 0)
+		TRY(draw_rods(world, picture, layer, block, pass, error));
 	do {
 		TRY(carom_canvas_send_bodies(world, drawn, pass->most - MARK_TEXELS, error));
 		if (!has_room(pass->most, pass->shapes + marks + world->canvas.shapes, pass->edges + LINE_REST * marks + world->canvas.edges))

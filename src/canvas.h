@@ -26,6 +26,8 @@ typedef struct carom_layer {
 	carom_pixels clip; /* of the bodies */
 	uint32_t mark_count;
 	carom_mark marks[CAROM_MAX_MARKS]; /* below the bodies, in the order in which they are drawn */
+	uint32_t rod_count;                /* any number, between those and the bodies */
+	carom_mark *rods;
 } carom_layer;
 
 typedef struct carom_picture {
@@ -36,6 +38,9 @@ typedef struct carom_picture {
 
 /* Draws the present state into height rows of width RGBA bytes. */
 carom_status carom_canvas_draw(carom_world *world, const carom_picture *picture, uint8_t *pixels, carom_error *error);
+
+/* render_rods.c: those of all layers; their memory is to be given to free, whether this succeeds or not. */
+carom_status carom_rods_draw(carom_world *world, size_t layer_count, carom_layer *layers, carom_error *error);
 
 /* canvas_send.c */
 int32_t carom_parts_of(uint32_t whole, uint32_t part); /* how many there are, the last of which may be smaller */

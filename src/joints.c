@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "anchor.h"
 #include "layout.h"
 #include "status.h"
 #include "step/events.h"
@@ -292,36 +293,34 @@ static carom_status check_numbers(const carom_world *world, size_t k, const caro
 	return CAROM_OK;
 }
 
-/* Where a body's anchor is now. */
-static carom_status place_anchor(carom_world *world, int32_t body, carom_vec2 anchor, double *x, double *y, carom_error *error)
+/* The state of a body; of the world, NULL. */
+static carom_status state_of(carom_world *world, int32_t body, carom_body_state *room, const carom_body_state **state, carom_error *error)
 {
-	carom_body_state state = {.angle = 0.0f};
-	if (body != CAROM_GROUND)
-		TRY(carom_world_get_states(world, (uint32_t)body, 1, &state, error));
-	const double c = cos((double)state.angle), s = sin((double)state.angle);
-	*x = (double)state.position.x + (c * (double)anchor.x - s * (double)anchor.y);
-	*y = (double)state.position.y + (s * (double)anchor.x + c * (double)anchor.y);
-	return CAROM_OK;
+	*state = body == CAROM_GROUND ? NULL : room;
+	return body == CAROM_GROUND ? CAROM_OK : carom_world_get_states(world, (uint32_t)body, 1, room, error);
 }
 
 /* What was not said is as it is now. */
 static carom_status complete(carom_world *world, carom_joint *joint, carom_error *error)
 {
-	double x, y, other_x, other_y;
-	TRY(place_anchor(world, (int32_t)joint->body, joint->anchor, &x, &y, error));
+	carom_body_state rooms[2];
+	const carom_body_state *own, *other;
+	double x, y, other_x, other_y, s = 0, c = 1;
+	TRY(state_of(world, (int32_t)joint->body, &rooms[0], &own, error));
+	TRY(state_of(world, joint->other, &rooms[1], &other, error));
+	carom_anchor_place(own, joint->anchor, &x, &y);
 	if (isnan(joint->other_anchor.x) && isnan(joint->other_anchor.y)) {
-		carom_body_state state = {.angle = 0.0f};
-		if (joint->other != CAROM_GROUND)
-			TRY(carom_world_get_states(world, (uint32_t)joint->other, 1, &state, error));
-		const double c = cos((double)state.angle), s = sin((double)state.angle), dx = x - (double)state.position.x, dy = y - (double)state.position.y;
+		if (other)
+			carom_sincos((double)other->angle, &s, &c);
+		const double dx = x - (other ? (double)other->position.x : 0), dy = y - (other ? (double)other->position.y : 0);
 		joint->other_anchor = (carom_vec2){(float)(c * dx + s * dy), (float)(c * dy - s * dx)};
 	}
 	if (joint->kind != CAROM_DISTANCE) {
 		joint->length = 0.0f;
 		return CAROM_OK;
 	}
-	TRY(place_anchor(world, joint->other, joint->other_anchor, &other_x, &other_y, error));
-	joint->length = isnan(joint->length) ? (float)hypot(x - other_x, y - other_y) : joint->length;
+	carom_anchor_place(other, joint->other_anchor, &other_x, &other_y);
+	joint->length = isnan(joint->length) ? (float)sqrt((x - other_x) * (x - other_x) + (y - other_y) * (y - other_y)) : joint->length;
 	joint->force[1] = 0.0f;
 	return CAROM_OK;
 }

@@ -171,6 +171,16 @@ static carom_status include_body(bounds *b, carom_world *world, uint32_t index, 
 	return CAROM_OK;
 }
 
+/* The place in the world that it holds a body at, if that is one. */
+static carom_status include_joint(bounds *b, carom_world *world, size_t index, carom_error *error)
+{
+	carom_joint joint;
+	TRY(carom_world_get_joints(world, index, 1, &joint, error));
+	if (joint.other == CAROM_GROUND)
+		include(b, (double)joint.other_anchor.x, (double)joint.other_anchor.y, 0);
+	return CAROM_OK;
+}
+
 static carom_status bodies_of(carom_world *world, bounds *b, carom_error *error)
 {
 	size_t count = carom_world_body_count(world);
@@ -181,6 +191,8 @@ static carom_status bodies_of(carom_world *world, bounds *b, carom_error *error)
 	*b = (bounds){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 	for (uint32_t k = 0; status == CAROM_OK && k < count; k++)
 		status = include_body(b, world, k, &states[k], error);
+	for (size_t k = 0; status == CAROM_OK && k < carom_world_joint_count(world); k++)
+		status = include_joint(b, world, k, error);
 	if (b->min_x > b->max_x)
 		*b = (bounds){-EMPTY_HEIGHT / 2, -EMPTY_HEIGHT / 2, EMPTY_HEIGHT / 2, EMPTY_HEIGHT / 2};
 	free(states);
@@ -330,5 +342,10 @@ carom_status carom_world_render(carom_world *world, const carom_render_def *def,
 	draw_room(&layers[0], world_def);
 	if (def->has_inset)
 		draw_inset(&layers[1], &layers[0], world_def, &def->inset);
-	return carom_canvas_draw(world, &picture, pixels, error);
+	carom_status status = carom_rods_draw(world, picture.layer_count, layers, error);
+	if (status == CAROM_OK)
+		status = carom_canvas_draw(world, &picture, pixels, error);
+	free(layers[0].rods);
+	free(layers[1].rods);
+	return status;
 }

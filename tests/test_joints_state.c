@@ -113,6 +113,57 @@ static void who_goes_takes_its_joints(void **unused)
 	}
 }
 
+enum { WIDTH = 160, HEIGHT = 120 };
+
+static uint64_t drawn(carom_world *world, const carom_render_def *def)
+{
+	static uint8_t pixels[4 * WIDTH * HEIGHT];
+	uint64_t hash = 14695981039346656037u;
+	carom_error error;
+	scenery_check(carom_world_render(world, def, pixels, &error), &error);
+	for (size_t i = 0; i < sizeof pixels; i++)
+		hash = (hash ^ pixels[i]) * 1099511628211u;
+	return hash;
+}
+
+/* Rods are drawn below the bodies, more of them than are sent at once, and in the inset, too: pins are not. */
+static void rods_are_drawn(void **unused)
+{
+	enum { RODS = 50 };
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_world_def def = joined_free(0.0f);
+		carom_body_def bodies[RODS];
+		carom_joint joints[RODS];
+		carom_render_def picture = carom_default_render_def();
+		picture.width = WIDTH;
+		picture.height = HEIGHT;
+		picture.has_inset = true;
+		picture.inset = (carom_inset){{-1.0f, -1.0f}, {4.0f, 2.0f}};
+		for (int i = 0; i < RODS; i++) {
+			bodies[i] = scenery_circle((float)i, (float)(i * i % 7), 0.0f, 0.0f, 0.2f);
+			joints[i] = joined_rod((uint32_t)i, i - 1, i > 0 ? 0.0f : -3.0f, 0.0f);
+			joints[i].length = NAN;
+		}
+		carom_world *world = runs_world(&def, device, bodies, RODS);
+		if (!world)
+			continue;
+		picture.has_camera = true;
+		picture.camera = (carom_camera){{25.0f, 3.0f}, 30.0f};
+		const uint64_t without = drawn(world, &picture);
+		joined_set(world, RODS, joints);
+		const uint64_t with = drawn(world, &picture);
+		assert_true(with != without && with == drawn(world, &picture));
+		for (int i = 0; i < RODS; i++)
+			joints[i].kind = CAROM_REVOLUTE;
+		joined_set(world, RODS, joints);
+		assert_true(drawn(world, &picture) == without);
+		runs_same_hash(&first, with, device);
+		carom_world_destroy(world);
+	}
+}
+
 /* What is wrong with a joint is said, and nothing is changed. */
 static void wrong_joints_are_errors(void **unused)
 {
@@ -162,6 +213,7 @@ int main(void)
 		cmocka_unit_test(what_is_written_goes_on),
 		cmocka_unit_test(a_tangle_is_the_same_everywhere),
 		cmocka_unit_test(who_goes_takes_its_joints),
+		cmocka_unit_test(rods_are_drawn),
 		cmocka_unit_test(wrong_joints_are_errors),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
