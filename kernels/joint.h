@@ -47,7 +47,7 @@ int joined_find(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(jo
 {
 	int points = 0;
 	bool awake = !touching[TOUCH(s, TOUCHING_ASLEEP)];
-	if (slot_is_static(slots, s))
+	if (joined[JOINED_COUNT] == 0 || slot_is_static(slots, s))
 		return 0;
 	for (int side = first_side(joined, slot_body(slots, s)); side >= 0; side = next_side(joined, side)) {
 		int partner = joint_partner(joints, side);

@@ -81,8 +81,10 @@ template <typename T> static void find(const Job<T> &job)
 				sleepers.kept[s].keep(clusters.slots[s]);
 			sleepers.islands[s] = s;
 			bodies.push_back(finder.find(s, sleepers));
-			bodies.back().joined = count_joined(joints, clusters.slots, places, sleepers, s);
-			bodies.back().points += bodies.back().joined;
+			if (joints.has_any()) {
+				bodies.back().joined = count_joined(joints, clusters.slots, places, sleepers, s);
+				bodies.back().points += bodies.back().joined;
+			}
 		}
 		take_fours(bodies, touching, status);
 		for (const RestingBody &body : bodies) {
