@@ -449,6 +449,7 @@
 #define SHOCK_GRIP_ARM 0
 #define SHOCK_OTHER_GRIP_ARM 1
 #define SHOCK_FRICTION 2
+#define SHOCK_JOINT (-1.0f) /* in its place: it is a point of a joint, of a tug */
 #define SHOCK_PART 3
 #define SHOCK_PARTNER 0
 #define SHOCK_NUMBER 1

@@ -187,8 +187,8 @@ void member_push(RECORD_OUT(work), int id, float2 gives, float2 impulse, float t
 	work_store(work, id, k);
 }
 
-/* Lets a point part, or pull less; false if that is too little to count. */
-bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float rate)
+/* Gives an open point, which has that rate, the one that it is to have; only those of joints pull. False if that is a change of less than `least`. */
+bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float rate, float least)
 {
 	__global float4 *at = shocks + SHOCK(id, point);
 	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
@@ -198,8 +198,9 @@ bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(
 	float give = gives_at(gives, arm) + gives_at(other_gives, other_arm), part = CHANNEL(grip, SHOCK_PART);
 	if (!(give > 0.0f))
 		return false;
-	float impulse = larger(before + (part - rate) / give, 0.0f), more = impulse - before;
-	if (magnitude(more) * give < SHOCK_WITHIN * part)
+	float wanted = before + (part - rate) / give, impulse = CHANNEL(grip, SHOCK_FRICTION) == SHOCK_JOINT ? wanted : larger(wanted, 0.0f);
+	float more = impulse - before;
+	if (!(magnitude(more) * give >= least))
 		return false;
 	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y)), along = aside(n);
 	CHANNEL(push, SHOCK_IMPULSE) = impulse;
@@ -255,7 +256,9 @@ bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 					shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, joined, all);
 					open = true;
 				}
-				more |= open && point_push(slots, active, work, shocks, id, point, rate);
+				more |= open
+					&& point_push(slots, active, work, shocks, id, point, rate,
+						SHOCK_WITHIN * CHANNEL(shocks[SHOCK(id, point) + SHOCK_GRIP], SHOCK_PART));
 			}
 	}
 	return true;

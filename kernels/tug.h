@@ -1,8 +1,6 @@
 /* A hit that joints pass on at once: CONTRACT.md, "The step contacts", Tugs. Its parties are a list as a shock's are, and so are their points, of which the first one's first is where the
  * two hit each other, and the others are of joints; behind them is what each began with. */
 
-#define TUG_JOINT (-1.0f) /* for a coefficient of friction */
-
 /* The two that were hit, the first of which is dynamic: their slots, and how they moved before. */
 typedef struct struck {
 	int one, other;
@@ -41,7 +39,7 @@ bool joints_meet(RECORD_OUT(shocks), int party, int s, int id)
 	bool any = false;
 	for (int point = 0; party >= 0 && point < TUG_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
 		__global float4 *at = shocks + SHOCK(party, point);
-		if (CHANNEL(at[SHOCK_GRIP], SHOCK_FRICTION) == TUG_JOINT && CHANNEL(at[SHOCK_PUSH], SHOCK_PARTNER) == (float)s) {
+		if (CHANNEL(at[SHOCK_GRIP], SHOCK_FRICTION) == SHOCK_JOINT && CHANNEL(at[SHOCK_PUSH], SHOCK_PARTNER) == (float)s) {
 			at[SHOCK_PUSH] = (float4)((float)s, (float)id, 0.0f, 0.0f);
 			any = true;
 		}
@@ -76,7 +74,7 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 		}
 		__global float4 *to = shocks + SHOCK(id, point++);
 		to[SHOCK_NORMAL] = (float4)(n.x, n.y, arm, other_arm);
-		to[SHOCK_GRIP] = (float4)(0.0f, 0.0f, TUG_JOINT, part);
+		to[SHOCK_GRIP] = (float4)(0.0f, 0.0f, SHOCK_JOINT, part);
 		to[SHOCK_PUSH] = (float4)((float)partner, (float)party, party < 0 && partner >= 0 && slot_is_dynamic(slots, partner) ? coming : 0.0f, 0.0f);
 	}
 	if (point < TUG_POINTS)
@@ -111,38 +109,11 @@ float tug_strike(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(a
 	return total * gives;
 }
 
-/* Gives an open point the rate that it is to have; false if that is too little to count. */
+/* Gives an open point the rate that it is to have. */
 bool tug_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float least)
 {
 	__global float4 *at = shocks + SHOCK(id, point);
-	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
-	float friction = CHANNEL(grip, SHOCK_FRICTION), before = CHANNEL(push, SHOCK_IMPULSE), part = CHANNEL(grip, SHOCK_PART);
-	int other = (int)CHANNEL(push, SHOCK_NUMBER);
-	float2 gives = member_gives(slots, active, work, id), other_gives = member_gives(slots, active, work, other);
-	float arm = CHANNEL(normal, SHOCK_ARM), other_arm = CHANNEL(normal, SHOCK_OTHER_ARM);
-	float give = gives_at(gives, arm) + gives_at(other_gives, other_arm);
-	if (!(give > 0.0f))
-		return false;
-	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y)), along = aside(n);
-	float impulse = before + (part - parting(slots, work, id, push, n, arm, other_arm)) / give;
-	impulse = friction == TUG_JOINT ? impulse : larger(impulse, 0.0f);
-	float more = impulse - before;
-	if (!(magnitude(more) * give >= least))
-		return false;
-	CHANNEL(push, SHOCK_IMPULSE) = impulse;
-	member_push(work, id, gives, (float2)(more * n.x, more * n.y), more * arm);
-	member_push(work, other, other_gives, (float2)(-(more * n.x), -(more * n.y)), -(more * other_arm));
-	if (friction > 0.0f) {
-		float grip_arm = CHANNEL(grip, SHOCK_GRIP_ARM), other_grip_arm = CHANNEL(grip, SHOCK_OTHER_GRIP_ARM), rubbed = CHANNEL(push, SHOCK_RUB);
-		float slip = parting(slots, work, id, push, along, grip_arm, other_grip_arm), most = friction * impulse;
-		float rub = larger(smaller(rubbed - slip / (gives_at(gives, grip_arm) + gives_at(other_gives, other_grip_arm)), most), -most);
-		float change = rub - rubbed;
-		CHANNEL(push, SHOCK_RUB) = rub;
-		member_push(work, id, gives, (float2)(change * along.x, change * along.y), change * grip_arm);
-		member_push(work, other, other_gives, (float2)(-(change * along.x), -(change * along.y)), -(change * other_grip_arm));
-	}
-	at[SHOCK_PUSH] = push;
-	return true;
+	return point_push(slots, active, work, shocks, id, point, point_rate(slots, work, id, at[SHOCK_NORMAL], at[SHOCK_PUSH]), least);
 }
 
 /* Is a party's point one of a joint with a body that the hit has not got to, and which it would move? */

@@ -88,11 +88,5 @@ bool scene_quick_contacts(struct scene_text *text, void *target, const struct sc
 {
 	(void)target;
 	(void)range;
-	if (!scene_quick_take(text, '['))
-		return false;
-	do {
-		if (!quick_one(text))
-			return false;
-	} while (scene_quick_take(text, ','));
-	return scene_quick_take(text, ']');
+	return scene_quick_array(text, quick_one);
 }

@@ -95,11 +95,5 @@ bool scene_quick_joints(struct scene_text *text, void *target, const struct scen
 {
 	(void)target;
 	(void)range;
-	if (!scene_quick_take(text, '['))
-		return false;
-	do {
-		if (!quick_one(text))
-			return false;
-	} while (scene_quick_take(text, ','));
-	return scene_quick_take(text, ']');
+	return scene_quick_array(text, quick_one);
 }

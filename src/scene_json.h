@@ -78,6 +78,8 @@ carom_status scene_read_array(struct scene_reader *reader, const struct scene_pl
 
 scene_quick_function scene_quick_number, scene_quick_whole, scene_quick_pair, scene_quick_flag, scene_quick_string, scene_quick_color;
 
+/* One or more elements, each of which `one` reads. */
+bool scene_quick_array(struct scene_text *text, bool (*one)(struct scene_text *text));
 bool scene_quick_object(struct scene_text *text, void *target, const struct scene_field *fields);
 /* The character after spaces, or nothing. */
 bool scene_quick_take(struct scene_text *text, char character);

@@ -110,6 +110,17 @@ static const struct scene_field *quick_key(struct scene_text *text, const struct
 	return NULL;
 }
 
+bool scene_quick_array(struct scene_text *text, bool (*one)(struct scene_text *text))
+{
+	if (!scene_quick_take(text, '['))
+		return false;
+	do {
+		if (!one(text))
+			return false;
+	} while (scene_quick_take(text, ','));
+	return scene_quick_take(text, ']');
+}
+
 bool scene_quick_object(struct scene_text *text, void *target, const struct scene_field *fields)
 {
 	unsigned seen = 0;
