@@ -3,6 +3,7 @@
 #define CAROM_CPU_SHOCK_HPP
 
 #include "cpu/membership.hpp"
+#include "cpu/push.hpp"
 #include "cpu/resting.hpp"
 
 #include <limits>
@@ -34,7 +35,7 @@ public:
 					if (is_settled(parties[k], *p))
 						continue;
 					p->settled = changes;
-					const T rate = parting(parties[k], *p, p->n, p->arm, p->other_arm, p->coming);
+					const T rate = p->parting(parties[k], partner_of(*p));
 					if (!(rate < 0) && !(p->other != closed && p->impulse > 0))
 						continue;
 					if (p->other == closed && count < SHOCK_PARTIES) {
@@ -84,30 +85,19 @@ public:
 	T margin(int32_t id) const { return nearness.force(nearness.weight, clusters.slots[clusters.active[id]].radius()); }
 
 private:
-	/* Whom the shock has got to; what is held stands. */
-	struct Party {
+	/* Whom the shock has got to. */
+	struct Party : Pushed<T> {
 		int32_t id, first, points, changed; /* where its points begin, and how many there are; which of all changes was the last of its velocity */
 		bool is_held;
-		T vx, vy, w, inverse_mass, inverse_inertia;
 
-		T speed(const Vec<T> &n, T at_arm) const { return inner(n, Vec<T>(vx, vy)) + w * at_arm; }
-		void give(T *place, T &turning) const { place[LINEAR_VX] = vx, place[LINEAR_VY] = vy, turning = w; }
-		T gives(T at_arm) const { return inverse_mass + inverse_inertia * (at_arm * at_arm); }
+		void give(T *place, T &turning) const { place[LINEAR_VX] = this->vx, place[LINEAR_VY] = this->vy, turning = this->w; }
 	};
 
-	/* Where a party may be pushed. The impulses are on the party. */
-	struct Point {
+	/* Where a party may be pushed. */
+	struct Point : PushPoint<T> {
 		Partner partner;
-		int32_t other;              /* the partner as a party, or: */
-		int32_t settled;            /* which of all changes was the last before it was looked at */
-		Vec<T> n;                   /* towards the party */
-		T arm, other_arm;           /* of the two, along n, */
-		T grip_arm, other_grip_arm; /* and along the surfaces */
-		T friction, part;           /* part: how fast the point is to part, */
-		T coming, slipping;         /* how fast a partner that is no party moves along n, and along the surfaces */
-		T impulse, rub;
-
-		Vec<T> along() const { return {-n.y(), n.x()}; }
+		int32_t other;   /* the partner as a party, or: */
+		int32_t settled; /* which of all changes was the last before it was looked at */
 	};
 
 	/* A partner that is no party: it never is, or not yet. */
@@ -119,11 +109,7 @@ private:
 		return p.settled >= party.changed && (p.other < 0 || p.settled >= parties[p.other].changed);
 	}
 
-	/* How fast the party parts from the partner, along one of their two ways. */
-	T parting(const Party &party, const Point &p, const Vec<T> &way, T arm, T other_arm, T partners) const
-	{
-		return party.speed(way, arm) - (p.other >= 0 ? parties[p.other].speed(way, other_arm) : partners);
-	}
+	Pushed<T> *partner_of(const Point &p) { return p.other >= 0 ? &parties[p.other] : nullptr; }
 
 	/* Which party the member with a number is, else -1; `id` may be none, -1. */
 	int32_t party_of(int32_t id) const { return id >= 0 && members[id].seen < 0 ? -1 - members[id].seen : -1; }
@@ -151,11 +137,7 @@ private:
 		Trajectory<T> way = work[id].trajectory(slot);
 		clusters.move(slot, way, time);
 		work[id].keep(way);
-		if (way.held > 0)
-			parties[k] = {id, taken, 0, ++changes, true, 0, 0, 0, 0, 0};
-		else
-			parties[k] = {id, taken, 0, ++changes, false, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, slot.mass[MASS_INVERSE],
-				slot.mass[MASS_INVERSE_INERTIA]};
+		parties[k] = {Pushed<T>(slot, way), id, taken, 0, ++changes, way.held > 0};
 		const auto partys = [&](int32_t other) { return party_of(own.own_number(other)); };
 		const auto way_of = [&](int32_t other) {
 			Trajectory<T> other_way = own.way_seen(other);
@@ -175,55 +157,23 @@ private:
 				const auto &at = rest.at[i];
 				Point &p = points[taken++];
 				parties[k].points++;
-				p = {rest.partner, partner, 0, rest.n, at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0};
+				p = {{rest.n, at.arm, at.other_arm, at.slip.arm, at.slip.other_arm, rest.friction, part, 0, 0, 0, 0}, rest.partner, partner, 0};
 				if (moves)
-					p.coming = speed(other_way, p.n, p.other_arm), p.slipping = speed(other_way, p.along(), p.other_grip_arm);
+					p.coming = speed_on(other_way, p.n, p.other_arm), p.slipping = speed_on(other_way, p.along(), p.other_grip_arm);
 			}
 		});
 		members[id].seen = -1 - k;
 	}
 
-	static T speed(const Trajectory<T> &way, const Vec<T> &n, T arm)
-	{
-		return way.held > 0 ? T(0) : inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
-	}
-
 	/* Lets the point part, or pull less; false if that is too little to count. */
 	bool push(Party &party, Point &p, T rate)
 	{
-		static const Party nobody{};
-		const Party &other = p.other >= 0 ? parties[p.other] : nobody;
-		const T gives = party.gives(p.arm) + other.gives(p.other_arm);
-		if (!(gives > 0))
+		if (!p.push(party, partner_of(p), rate, T(SHOCK_WITHIN) * p.part, false))
 			return false;
-		const T impulse = larger(p.impulse + (p.part - rate) / gives, T(0)), more = impulse - p.impulse;
-		if (std::abs(more) * gives < T(SHOCK_WITHIN) * p.part)
-			return false;
-		p.impulse = impulse;
-		act(party, p.other, more * p.n, more * p.arm, more * p.other_arm);
-		if (!(p.friction > 0))
-			return true;
-		const T grip_gives = party.gives(p.grip_arm) + other.gives(p.other_grip_arm);
-		const T slip = parting(party, p, p.along(), p.grip_arm, p.other_grip_arm, p.slipping);
-		const T most = p.friction * impulse, rub = larger(smaller(p.rub - slip / grip_gives, most), -most), change = rub - p.rub;
-		p.rub = rub;
-		act(party, p.other, change * p.along(), change * p.grip_arm, change * p.other_grip_arm);
-		return true;
-	}
-
-	void act(Party &party, int32_t other, const Vec<T> &impulse, T torque, T other_torque)
-	{
-		turn(party, impulse, torque);
-		if (other >= 0)
-			turn(parties[other], -impulse, -other_torque);
-	}
-
-	void turn(Party &party, const Vec<T> &impulse, T torque)
-	{
-		party.vx += party.inverse_mass * impulse.x();
-		party.vy += party.inverse_mass * impulse.y();
-		party.w += party.inverse_inertia * torque;
 		party.changed = ++changes;
+		if (p.other >= 0)
+			parties[p.other].changed = changes;
+		return true;
 	}
 
 	void put_back(const Party &party) const

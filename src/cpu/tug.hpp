@@ -3,6 +3,7 @@
 #define CAROM_CPU_TUG_HPP
 
 #include "cpu/membership.hpp"
+#include "cpu/push.hpp"
 #include "cpu/resting.hpp"
 
 namespace carom::cpu {
@@ -54,9 +55,9 @@ public:
 						continue;
 					if (is_lost)
 						return false;
-					more |= push(parties[k], p, false);
+					more |= push(parties[k], p, p.other, true);
 				}
-			more |= push(parties[0], contact, true); /* in the end the two part, whatever joints wanted */
+			more |= push(parties[0], contact, contact.other, false); /* in the end the two part, whatever joints wanted */
 		}
 		if (more || gain() > T(TUG_GAIN) * (contact.impulse * changed)) /* it came to no end, or to none that may be */
 			give_up();
@@ -76,35 +77,21 @@ public:
 	}
 
 	/* What the first got in all by the hit. */
-	Vec<T> impulse() const { return Vec<T>(contact.impulse * contact.n + contact.rub * along(contact.n)); }
+	Vec<T> impulse() const { return Vec<T>(contact.impulse * contact.n + contact.rub * contact.along()); }
 
 private:
-	struct Party {
-		int32_t id, first, points;
+	struct Party : Pushed<T> {
+		int32_t id, first, points; /* of those of joints */
 		bool is_held;
-		T vx, vy, w, inverse_mass, inverse_inertia;
-		T first_vx, first_vy, first_w;
-
-		T gives(T arm) const { return inverse_mass + inverse_inertia * (arm * arm); }
-		T speed(const Vec<T> &n, T arm) const { return inner(n, Vec<T>(vx, vy)) + w * arm; }
+		Pushed<T> before; /* as it became one */
 	};
 
 	/* A point of a joint, or where the two hit each other. */
-	struct Point {
+	struct Point : PushPoint<T> {
 		int32_t slot, other; /* the partner, -1 for none that moves; and as a party, or: */
-		Vec<T> n;
-		T arm, other_arm, part, coming, impulse; /* part: the rate that it is to have; coming: how fast a partner that is no party moves along n */
-		T grip_arm, other_grip_arm, friction, slipping, rub;
 	};
 
 	static constexpr int32_t fixed = -1, closed = -2;
-
-	static Vec<T> along(const Vec<T> &n) { return {-n.y(), n.x()}; }
-
-	static T speed(const Trajectory<T> &way, const Vec<T> &n, T arm)
-	{
-		return way.held > 0 ? T(0) : inner(n, Vec<T>(way.place[LINEAR_VX], way.place[LINEAR_VY])) + way.velocity * arm;
-	}
 
 	/* How the body in a slot moves at that time: as it was before it was hit, or is now. */
 	Trajectory<T> way_of(int32_t s, const Membership<T> &own, bool was) const
@@ -124,7 +111,7 @@ private:
 		const int32_t known = own.own_number(p.slot);
 		int32_t k = known >= 0 ? party_of(known) : fixed;
 		if (k < 0) {
-			if (!(std::abs(p.part - parting(party, p)) >= least) || count == SHOCK_PARTIES)
+			if (!(std::abs(p.part - p.parting(party, nullptr)) >= least) || count == SHOCK_PARTIES)
 				return false;
 			const int32_t id = join(p.slot);
 			is_lost = id < 0;
@@ -153,12 +140,8 @@ private:
 		Trajectory<T> way = work[id].trajectory(slot);
 		clusters.move(slot, way, time);
 		work[id].keep(way);
-		const bool is_held = way.held > 0;
-		parties[k] = {id, taken, 0, is_held, way.place[LINEAR_VX], way.place[LINEAR_VY], way.velocity, is_held ? T(0) : slot.mass[MASS_INVERSE],
-			is_held ? T(0) : slot.mass[MASS_INVERSE_INERTIA], 0, 0, 0};
-		if (is_held)
-			parties[k].vx = parties[k].vy = parties[k].w = 0;
-		parties[k].first_vx = parties[k].vx, parties[k].first_vy = parties[k].vy, parties[k].first_w = parties[k].w;
+		const Pushed<T> now(slot, way);
+		parties[k] = {now, id, taken, 0, way.held > 0, now};
 		count++;
 		for (int32_t lane = 0; lane < touching[s].joined && parties[k].points < TUG_POINTS - others; lane++) {
 			const Points<T> &four = lanes[touching[s].first + lane / lane_count];
@@ -170,15 +153,14 @@ private:
 				continue;
 			Point &p = points[taken++];
 			parties[k].points++;
-			p = {moves ? partner.slot() : -1,
+			p = {{Vec<T>(four.normal_x[i], four.normal_y[i]), four.arm[i], four.other_arm[i], 0, 0, 0, 0, 0, 0, 0, 0}, moves ? partner.slot() : -1,
 				party >= 0                                                 ? party
 					: moves && clusters.slots[partner.slot()].is_dynamic() ? closed
-																		   : fixed,
-				Vec<T>(four.normal_x[i], four.normal_y[i]), four.arm[i], four.other_arm[i], 0, 0, 0, 0, 0, 0, 0, 0};
-			p.part = speed(way_of(s, own, true), p.n, p.arm);
+																		   : fixed};
+			p.part = speed_on(way_of(s, own, true), p.n, p.arm);
 			if (moves) {
-				p.part -= speed(way_of(partner.slot(), own, true), p.n, p.other_arm);
-				p.coming = speed(way_of(partner.slot(), own, false), p.n, p.other_arm);
+				p.part -= speed_on(way_of(partner.slot(), own, true), p.n, p.other_arm);
+				p.coming = speed_on(way_of(partner.slot(), own, false), p.n, p.other_arm);
 			}
 		}
 	}
@@ -197,19 +179,20 @@ private:
 	void strike(const Struck<T> &struck, int32_t partner, const Membership<T> &own)
 	{
 		const Work<T> &one = work[parties[0].id];
-		const Vec<T> n = struck.n, way = along(n), lever = struck.point - Vec<T>(one.place[LINEAR_X], one.place[LINEAR_Y]);
-		const T total = inner(struck.impulse, n);
-		contact = {partner >= 0 ? partner : -1, count > 1 ? 1 : fixed, n, cross(lever, n), 0, 0, 0, total, cross(lever, way), 0, struck.friction, 0,
-			inner(struck.impulse, way)};
+		const Vec<T> n = struck.n, lever = struck.point - Vec<T>(one.place[LINEAR_X], one.place[LINEAR_Y]);
+		contact = {
+			{n, cross(lever, n), 0, 0, 0, struck.friction, 0, 0, 0, inner(struck.impulse, n), 0}, partner >= 0 ? partner : -1, count > 1 ? 1 : fixed};
+		const Vec<T> way = contact.along();
+		contact.grip_arm = cross(lever, way), contact.rub = inner(struck.impulse, way);
 		if (partner >= 0) {
 			const Trajectory<T> other = way_of(partner, own, false);
 			const Vec<T> other_lever = struck.point - Vec<T>(other.place[LINEAR_X], other.place[LINEAR_Y]);
 			contact.other_arm = cross(other_lever, n), contact.other_grip_arm = cross(other_lever, way);
-			contact.coming = speed(other, n, contact.other_arm), contact.slipping = speed(other, way, contact.other_grip_arm);
+			contact.coming = speed_on(other, n, contact.other_arm), contact.slipping = speed_on(other, way, contact.other_grip_arm);
 		}
 		first_impulse = contact.impulse, first_rub = contact.rub;
-		contact.part = parting(parties[0], contact);
-		changed = total * gives(parties[0], contact.other, contact.arm, contact.other_arm);
+		contact.part = contact.parting(parties[0], party(contact.other));
+		changed = contact.impulse * contact.gives(parties[0], party(contact.other), contact.arm, contact.other_arm);
 		least = T(TUG_WITHIN) * changed;
 	}
 
@@ -226,56 +209,13 @@ private:
 	void give_up()
 	{
 		for (int32_t k = 0; k < count; k++)
-			parties[k].vx = parties[k].first_vx, parties[k].vy = parties[k].first_vy, parties[k].w = parties[k].first_w;
+			static_cast<Pushed<T> &>(parties[k]) = parties[k].before;
 		contact.impulse = first_impulse, contact.rub = first_rub;
 	}
 
-	T parting(const Party &party, const Point &p) const
-	{
-		return party.speed(p.n, p.arm) - (p.other >= 0 ? parties[p.other].speed(p.n, p.other_arm) : p.coming);
-	}
+	Pushed<T> *party(int32_t k) { return k >= 0 ? &parties[k] : nullptr; }
 
-	T gives(const Party &party, int32_t other, T arm, T other_arm) const
-	{
-		return party.gives(arm) + (other >= 0 ? parties[other].gives(other_arm) : T(0));
-	}
-
-	/* Gives a point the rate that it is to have; false if that is too little to count. */
-	bool push(Party &party, Point &p, bool is_contact)
-	{
-		const T all = gives(party, p.other, p.arm, p.other_arm);
-		if (!(all > 0))
-			return false;
-		const T wanted = p.impulse + (p.part - parting(party, p)) / all, impulse = is_contact ? larger(wanted, T(0)) : wanted,
-				more = impulse - p.impulse;
-		if (!(std::abs(more) * all >= least))
-			return false;
-		p.impulse = impulse;
-		act(party, p.other, more * p.n, more * p.arm, more * p.other_arm);
-		if (!(p.friction > 0))
-			return true;
-		const Vec<T> way = along(p.n);
-		const T slip = party.speed(way, p.grip_arm) - (p.other >= 0 ? parties[p.other].speed(way, p.other_grip_arm) : p.slipping);
-		const T most = p.friction * impulse, rub = larger(smaller(p.rub - slip / gives(party, p.other, p.grip_arm, p.other_grip_arm), most), -most);
-		const T change = rub - p.rub;
-		p.rub = rub;
-		act(party, p.other, change * way, change * p.grip_arm, change * p.other_grip_arm);
-		return true;
-	}
-
-	void act(Party &party, int32_t other, const Vec<T> &impulse, T torque, T other_torque)
-	{
-		turn(party, impulse, torque);
-		if (other >= 0)
-			turn(parties[other], -impulse, -other_torque);
-	}
-
-	static void turn(Party &party, const Vec<T> &impulse, T torque)
-	{
-		party.vx += party.inverse_mass * impulse.x();
-		party.vy += party.inverse_mass * impulse.y();
-		party.w += party.inverse_inertia * torque;
-	}
+	bool push(Party &body, Point &p, int32_t other, bool pulls) { return p.push(body, party(other), p.parting(body, party(other)), least, pulls); }
 
 	const Clusters<T> &clusters;
 	Work<T> *const work;
