@@ -251,6 +251,27 @@ static void replace(carom_world *world, uint32_t index)
 	scenery_check(carom_world_add(world, &def, 1, NULL, &error), &error);
 }
 
+/* One joint more, as the two are; or all of them go. */
+static void join(carom_world *world, uint32_t step, uint32_t count)
+{
+	carom_joint joints[16];
+	carom_error error;
+	size_t has = carom_world_joint_count(world);
+	if (strcmp(carom_pipeline_get(&carom_world_get_def(world)->pipeline, "step"), "contacts") != 0 || count < 2)
+		return;
+	scenery_check(carom_world_get_joints(world, 0, has, joints, &error), &error);
+	has = has < sizeof joints / sizeof *joints ? has : 0;
+	joints[has] = carom_default_joint();
+	joints[has].kind = step % 2 ? CAROM_DISTANCE : CAROM_REVOLUTE;
+	joints[has].body = 5 * step % count;
+	joints[has].other = step % 11 == 4 ? CAROM_GROUND : (int32_t)((5 * step + 1) % count);
+	joints[has].collides = step % 3 == 0;
+	if (joints[has].kind == CAROM_DISTANCE && step % 11 == 4)
+		joints[has].other_anchor = (carom_vec2){0.0f, 0.0f};
+	if (carom_world_set_joints(world, has + 1, joints, &error)) /* neither moves, or they are at one place */
+		assert_int_equal(error.status, CAROM_INVALID_ARGUMENT);
+}
+
 void wild_change(carom_world *world, uint32_t step, float time_step)
 {
 	static const float lengths[] = {1.1f, 0.6f, 1.6f, 1.0f};
@@ -264,6 +285,8 @@ void wild_change(carom_world *world, uint32_t step, float time_step)
 		scenery_check(carom_world_set_gravity(world, (carom_vec2){(float)(step % 5) - 2.0f, -1.0f}, &error), &error);
 	if (step % 8 == 5)
 		scenery_check(carom_world_set_time_step(world, lengths[step / 8 % 4] * time_step, &error), &error);
+	if (step % 7 == 3)
+		join(world, step, count);
 	if (step % 10 == 7)
 		scenery_check(carom_world_set_filter(world, 5 * step % count, 1 + step % 20 / 10, CAROM_MASK - step % 30 / 10, &error), &error);
 }
