@@ -371,10 +371,10 @@ typedef enum carom_joint_kind {
 /** What holds two bodies together, or one in its place, by the step contacts. Start from carom_default_joint(). It can't break, and takes no energy: forces between the anchors act through each
  * step, and impulses as it begins. Anchors that are not where they belong are brought there, by no more than the bodies' radii a step. */
 typedef struct carom_joint {
-	carom_joint_kind kind;
-	uint32_t body;     /**< its index */
-	int32_t other;     /**< the index of another body; default CAROM_GROUND. One of the two must be dynamic */
-	carom_vec2 anchor; /**< m, from the body's centre of mass, in its own frame (at angle 0), no more than 1e9; default (0, 0) */
+	carom_joint_kind kind; /**< a pin, or a rod */
+	uint32_t body;         /**< its index */
+	int32_t other;         /**< the index of another body; default CAROM_GROUND. One of the two must be dynamic */
+	carom_vec2 anchor;     /**< m, from the body's centre of mass, in its own frame (at angle 0), no more than 1e9; default (0, 0) */
 	carom_vec2
 		other_anchor; /**< m, likewise of the other body; for CAROM_GROUND the place. NaN (the default): where `anchor` is as it is given to a world */
 	float
