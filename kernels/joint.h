@@ -182,7 +182,7 @@ void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(
 /* Is it looked, after so many iterations, where all would get? */
 bool is_aimed(int done)
 {
-	return done >= 0 && done < 32 && (JOINT_AIMED >> done & 1);
+	return done >= 0 && done < 31 && (JOINT_AIMED >> done & 1);
 }
 
 /* What a body moves along n, and turns by its arm, in a step as it moves now. */

@@ -37,7 +37,9 @@ void joined_set(carom_world *world, size_t count, const carom_joint *joints)
 
 static void place(carom_world *world, int32_t body, carom_vec2 anchor, double *x, double *y)
 {
-	const carom_body_state state = body == CAROM_GROUND ? (carom_body_state){.angle = 0.0f} : runs_state(world, (uint32_t)body);
+	carom_body_state state = {.angle = 0.0f};
+	if (body != CAROM_GROUND)
+		state = runs_state(world, (uint32_t)body);
 	const double c = cos((double)state.angle), s = sin((double)state.angle);
 	*x = (double)state.position.x + c * (double)anchor.x - s * (double)anchor.y;
 	*y = (double)state.position.y + s * (double)anchor.x + c * (double)anchor.y;

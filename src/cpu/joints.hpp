@@ -177,7 +177,7 @@ template <typename T> void warm_joined(const Rests<T> &rests, const Joints<T> &j
 /* Is it looked, after so many iterations, where all would get? */
 inline bool is_aimed(int32_t done)
 {
-	return done >= 0 && done < 32 && (JOINT_AIMED >> done & 1) != 0;
+	return done >= 0 && done < 31 && (JOINT_AIMED >> done & 1) != 0;
 }
 
 /* What forces are to do, once it is known where all would get with those that they begin with: by the end of the step each anchor is where it belongs. */
