@@ -17,87 +17,6 @@ size_t carom_joint_count(const carom_world *world)
 	return world->joints.used / sizeof(carom_joint);
 }
 
-/* ---- Pairs that joints keep from hitting each other ---- */
-
-static uint64_t pair_of(uint64_t a, uint64_t b)
-{
-	return a < b ? a << 32 | b : b << 32 | a;
-}
-
-static uint32_t body_of(uint64_t pair, int side)
-{
-	return (uint32_t)(pair >> 32 * side);
-}
-
-static int32_t *except_of(int32_t *filters, uint64_t pair, int side)
-{
-	return &filters[FILTER(body_of(pair, side), FILTER_EXCEPT)];
-}
-
-static int compare_pairs(const void *left, const void *right)
-{
-	const uint64_t a = *(const uint64_t *)left, b = *(const uint64_t *)right;
-	return a < b ? -1 : a > b;
-}
-
-size_t carom_apart_count(const carom_world *world)
-{
-	return world->apart.used / sizeof(uint64_t);
-}
-
-/* Sorted, each once; false if there is no memory, which is never so where they get fewer. */
-static bool find_apart(carom_array *apart, const carom_joint *joints, size_t count)
-{
-	size_t left = 0;
-	apart->used = 0;
-	for (size_t k = 0; k < count; k++) {
-		if (joints[k].collides || joints[k].other == CAROM_GROUND)
-			continue;
-		uint64_t *pair = carom_array_grow(apart, sizeof *pair);
-		if (!pair)
-			return false;
-		*pair = pair_of(joints[k].body, (uint64_t)joints[k].other);
-	}
-	uint64_t *pairs = apart->items;
-	const size_t all = apart->used / sizeof *pairs;
-	if (all > 1)
-		qsort(pairs, all, sizeof *pairs, compare_pairs);
-	for (size_t k = 0; k < all; k++)
-		if (k == 0 || pairs[k] != pairs[k - 1])
-			pairs[left++] = pairs[k];
-	apart->used = left * sizeof *pairs;
-	return true;
-}
-
-bool carom_joints_part(const carom_world *world, size_t a, size_t b)
-{
-	const uint64_t pair = pair_of(a, b);
-	return carom_apart_count(world) > 0 && bsearch(&pair, world->apart.items, carom_apart_count(world), sizeof pair, compare_pairs);
-}
-
-/* Of each body those that it never meets, behind FILTERS_FIRST and the bodies; from the end of each one's on, so that FILTER_EXCEPT is where they begin when all are there. */
-void carom_apart_fill(const carom_world *world, int32_t *filters)
-{
-	const uint64_t *pairs = world->apart.items;
-	const size_t count = carom_apart_count(world);
-	int32_t end = (int32_t)FILTER(world->capacity, 0);
-	if (count == 0)
-		return;
-	for (size_t k = 0; k < count; k++)
-		for (int side = 0; side < 2; side++)
-			++*except_of(filters, pairs[k], side);
-	for (size_t body = 0; body < world->body_count; body++) {
-		int32_t *except = &filters[FILTER(body, FILTER_EXCEPT)];
-		if (*except == 0)
-			continue;
-		*except = end += *except;
-		filters[end++] = -1;
-	}
-	for (size_t k = 0; k < count; k++)
-		for (int side = 0; side < 2; side++)
-			filters[--*except_of(filters, pairs[k], side)] = (int32_t)body_of(pairs[k], 1 - side);
-}
-
 /* ---- The device's copy ---- */
 
 static carom_status no_memory(size_t count, carom_error *error)
@@ -177,14 +96,16 @@ carom_status carom_joints_send(carom_world *world, carom_error *error)
 	TRY(make_room(world, error));
 	float *texels = rows_create(records, 4 * sizeof *texels);
 	int32_t *list = rows_create(joined, sizeof *list);
-	carom_status status = texels && list ? CAROM_OK : no_memory(carom_joint_count(world), error);
-	if (!status) {
+	carom_status status = CAROM_OK;
+	if (texels && list) {
 		fill_records(world, texels);
 		fill_joined(world, list);
 		status = kind->upload(world->device, world->textures[ROLE_JOINTS].front, carom_row_count(records), texels, error);
+		if (!status)
+			status = kind->upload(world->device, world->textures[ROLE_JOINED].front, carom_row_count(joined), list, error);
+	} else {
+		status = no_memory(carom_joint_count(world), error);
 	}
-	if (!status)
-		status = kind->upload(world->device, world->textures[ROLE_JOINED].front, carom_row_count(joined), list, error);
 	free(texels);
 	free(list);
 	return status;
@@ -221,7 +142,7 @@ void carom_joints_close(carom_world *world, const uint32_t *numbers, uint32_t go
 		joints[left++] = joint;
 	}
 	world->joints.used = left * sizeof *joints;
-	find_apart(&world->apart, joints, left);
+	carom_apart_find(&world->apart, joints, left);
 }
 
 /* ---- The interface ---- */
@@ -359,28 +280,36 @@ static bool are_others(const carom_array *a, const carom_array *b)
 	return a->used != b->used || (a->used > 0 && memcmp(a->items, b->items, a->used) != 0);
 }
 
+/* All of them as they are kept, and the pairs that they keep from hitting each other. */
+static carom_status take(carom_world *world, size_t count, const carom_joint *joints, carom_array *sorted, carom_array *apart, carom_error *error)
+{
+	if (count == 0)
+		return CAROM_OK;
+	if (count > MOST_JOINTS)
+		return carom_fail(error, CAROM_LIMIT, "a world holds at most %u joints", MOST_JOINTS);
+	carom_joint *copy = malloc(count * sizeof *copy), *to = carom_array_grow(sorted, count * sizeof *to);
+	carom_status status = CAROM_OUT_OF_MEMORY;
+	if (copy && to) {
+		memcpy(copy, joints, count * sizeof *copy);
+		status = check_all(world, count, copy, error);
+		if (!status)
+			status = sort(world, copy, count, to, error);
+		if (!status && !carom_apart_find(apart, to, count))
+			status = CAROM_OUT_OF_MEMORY;
+	}
+	free(copy);
+	return status == CAROM_OUT_OF_MEMORY ? carom_fail(error, status, "no memory for %zu joints", count) : status;
+}
+
 carom_status carom_world_set_joints(carom_world *world, size_t count, const carom_joint *joints, carom_error *error)
 {
-	carom_array taken = {0}, sorted = {0}, apart = {0};
+	carom_array sorted = {0}, apart = {0};
 	GIVEN(world, error);
 	TRY(carom_check_idle(world, error));
 	if (count > 0)
 		GIVEN(joints, error);
 	TRY(carom_contacts_fetch(world, error)); /* which are sent again with the joints */
-	carom_status status = CAROM_OK;
-	if (count > MOST_JOINTS)
-		status = carom_fail(error, CAROM_LIMIT, "a world holds at most %u joints", MOST_JOINTS);
-	else if (count > 0 && !(carom_array_grow(&taken, count * sizeof *joints) && carom_array_grow(&sorted, count * sizeof *joints)))
-		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu joints", count);
-	if (!status && count > 0) {
-		memcpy(taken.items, joints, count * sizeof *joints);
-		status = check_all(world, count, taken.items, error);
-	}
-	if (!status && count > 0)
-		status = sort(world, taken.items, count, sorted.items, error);
-	if (!status && !find_apart(&apart, sorted.items, count))
-		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu joints", count);
-	free(taken.items);
+	const carom_status status = take(world, count, joints, &sorted, &apart, error);
 	if (status) {
 		free(sorted.items);
 		free(apart.items);

@@ -243,8 +243,8 @@ static carom_status get_contacts(carom_world *world, struct writer *writer, caro
 	if (status != CAROM_OK)
 		return status;
 	writer->joint_count = carom_world_joint_count(world);
-	writer->contacts = malloc((writer->contact_count + 1) * sizeof *writer->contacts);
-	writer->joints = malloc((writer->joint_count + 1) * sizeof *writer->joints);
+	writer->contacts = calloc(writer->contact_count + 1, sizeof *writer->contacts);
+	writer->joints = calloc(writer->joint_count + 1, sizeof *writer->joints);
 	if (!writer->contacts || !writer->joints)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %zu contacts and %zu joints", writer->contact_count, writer->joint_count);
 	status = carom_world_get_joints(world, 0, writer->joint_count, writer->joints, error);

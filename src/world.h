@@ -266,6 +266,8 @@ carom_status carom_joints_fetch(carom_world *world, carom_error *error);
 size_t carom_joint_count(const carom_world *world);
 /* Those of bodies that go, as `numbers` says, go with them; see remove.c. */
 void carom_joints_close(carom_world *world, const uint32_t *numbers, uint32_t gone);
+/* joined_pairs.c: those of so many joints; false if there is no memory, which is never so where they get fewer */
+bool carom_apart_find(carom_array *apart, const carom_joint *joints, size_t count);
 /* Does a joint keep the two from hitting each other? How many pairs there are, and them into Filters, which has room for four times as many ints behind the bodies. */
 bool carom_joints_part(const carom_world *world, size_t a, size_t b);
 size_t carom_apart_count(const carom_world *world);
