@@ -242,14 +242,13 @@ int2 cluster_answer(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, R
 		if (!cluster_tug(TEX(uniforms), TEX(friction), slots, LISTS, work, reach, need, owners, parents, hits, shocks, touching, contacts, id,
 				other_id, other, &what, &all, first))
 			return (int2)(LOOKS_LATER, LOOKS_NOT);
-		*party = all.first;
-		return parties_take(members, party);
+	} else {
+		bool in_order = other_id < 0 || slot_body(slots, active[id]) > slot_body(slots, other);
+		if (!shock_spread(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, parents, shocks, in_order ? id : other_id,
+				in_order ? other_id : id, &all, first))
+			return (int2)(LOOKS_LATER, LOOKS_NOT);
+		shock_end(slots, reach, status, members, active, work, need, hits, shocks, &all);
 	}
-	bool in_order = other_id < 0 || slot_body(slots, active[id]) > slot_body(slots, other);
-	if (!shock_spread(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, parents, shocks, in_order ? id : other_id,
-			in_order ? other_id : id, &all, first))
-		return (int2)(LOOKS_LATER, LOOKS_NOT);
-	shock_end(slots, reach, status, members, active, work, need, hits, shocks, &all);
 	*party = all.first;
 	return parties_take(members, party);
 }

@@ -144,6 +144,17 @@ void shock_rests(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slot
 	}
 }
 
+/* Party id is the last of the list from now on. */
+void party_add(LIST_OUT(members), int id, shock *all)
+{
+	members[MEMBER(id, MEMBER_SEEN)] = -1;
+	if (all->count++ > 0)
+		members[MEMBER(all->last, MEMBER_SEEN)] = -2 - id;
+	else
+		all->first = id;
+	all->last = id;
+}
+
 /* A party more: it is moved to the time, and where it may be pushed, or push, is found. */
 void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
 	int id, shock *all)
@@ -154,12 +165,7 @@ void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots
 	work_store(work, id, k);
 	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, s, id, body_of(slots, s, k, all->length), all, &contacts);
 	points_write(slots, status, members, work, owners, shocks, id, &contacts, all);
-	members[MEMBER(id, MEMBER_SEEN)] = -1;
-	if (all->count++ > 0)
-		members[MEMBER(all->last, MEMBER_SEEN)] = -2 - id;
-	else
-		all->first = id;
-	all->last = id;
+	party_add(members, id, all);
 }
 
 /* (inverse mass, inverse inertia); what is none or is held has none. */

@@ -79,12 +79,7 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 	}
 	if (point < TUG_POINTS)
 		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
-	members[MEMBER(id, MEMBER_SEEN)] = -1;
-	if (all->count++ > 0)
-		members[MEMBER(all->last, MEMBER_SEEN)] = -2 - id;
-	else
-		all->first = id;
-	all->last = id;
+	party_add(members, id, all);
 }
 
 /* Where the two hit each other; how much the hit has changed their rate. */
