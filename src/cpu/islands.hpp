@@ -25,12 +25,16 @@ template <typename T> void unite(const Rests<T> &rests, int32_t s)
 	rests.touching[s].carrier = carrier;
 }
 
-/* The root of a slot's island, which is its parent from then on; of what carries slots it has the largest index. */
+/* The root of a slot's island, which is its parent from then on; of what carries slots it has the largest index. What a root itself is
+ * carried by stays where others may be putting theirs. */
 template <typename T> int32_t settled_root(const Rests<T> &rests, int32_t s)
 {
-	const int32_t root = rests.islands.flat_root_of(s), carrier = rests.touching[s].carrier;
+	const int32_t root = rests.islands.flat_root_of(s);
+	if (root == s)
+		return s;
+	const int32_t carrier = rests.touching[s].carrier;
 	int32_t *const to = &rests.touching[root].carrier;
-	for (int32_t now = __atomic_load_n(to, __ATOMIC_RELAXED); root != s && now < carrier;)
+	for (int32_t now = __atomic_load_n(to, __ATOMIC_RELAXED); now < carrier;)
 		__atomic_compare_exchange_n(to, &now, carrier, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
 	return root;
 }
