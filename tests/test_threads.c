@@ -43,16 +43,43 @@ static size_t bodies_of(int index)
 	return !shared ? 30 : strcmp(step_of(index), "events") == 0 ? 6000 : 600;
 }
 
+static size_t row_of(const carom_world_def *def)
+{
+	return (size_t)(def->room_max.x - def->room_min.x) - 1;
+}
+
 /* Rows of circles that lie on each other, and rub. */
 static void build_wall(carom_body_def *bodies, size_t count, carom_world_def *def)
 {
-	const size_t row = (size_t)(def->room_max.x - def->room_min.x) - 1;
+	const size_t row = row_of(def);
 	def->gravity.y = -10.0f;
 	def->restitution = 0.5f;
 	def->friction = 0.5f;
 	for (size_t i = 0; i < count; i++)
 		bodies[i] = scenery_circle(def->room_min.x + 0.6f + (float)(i % row) * 1.0001f, def->room_min.y + 0.5f + (float)(i / row) * 1.0001f, 0.0f,
 			0.0f, 0.5f);
+}
+
+/* Every other one of the wall's circles is held by a rod to the next, and every sixteenth pinned to one of the row above. */
+static carom_status join_wall(carom_world *world, size_t count, size_t row, carom_error *error)
+{
+	carom_joint *joints = malloc(count * sizeof *joints);
+	size_t joined = 0;
+	for (size_t i = 0; i + row < count; i++) {
+		const bool is_pin = i % 16 == 1;
+		if (!is_pin && (i % 2 != 0 || (i + 1) % row == 0))
+			continue;
+		joints[joined] = carom_default_joint();
+		if (!is_pin) {
+			joints[joined].kind = CAROM_DISTANCE;
+			joints[joined].other_anchor = (carom_vec2){0.0f, 0.0f};
+		}
+		joints[joined].body = (uint32_t)i;
+		joints[joined++].other = (int32_t)(is_pin ? i + row : i + 1);
+	}
+	const carom_status status = carom_world_set_joints(world, joined, joints, error);
+	free(joints);
+	return status;
 }
 
 /* Everything of a world's life. No assertions: those are of the main thread. */
@@ -73,13 +100,16 @@ static carom_status live(int index, outcome *out)
 	def.threads = 3;
 	render.width = WIDTH;
 	render.height = HEIGHT;
-	if (strcmp(step_of(index), "contacts") == 0)
+	const bool touches = strcmp(step_of(index), "contacts") == 0;
+	if (touches)
 		build_wall(bodies, count, &def);
 	else
 		scenery_bodies(&random, SCENERY_MIXED, count, 1.4f, 5.0f, bodies);
 	carom_status status = carom_world_create(&def, &world, &out->error);
 	if (!status)
 		status = carom_world_add(world, bodies, count, NULL, &out->error);
+	if (!status && touches)
+		status = join_wall(world, count, row_of(&def), &out->error);
 	if (!status)
 		status = carom_world_step(world, STEPS, NULL, &out->error);
 	if (!status)
