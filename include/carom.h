@@ -615,7 +615,7 @@ CAROM_API carom_render_def carom_default_render_def(void);
 /** The camera with which carom_world_render would draw `def` now: its own, or one that shows the room, or where there is none the bodies. The pictures of
  * a film share one; without it bodies that move all the same way would seem to stand still. */
 CAROM_API carom_status carom_world_fit_camera(carom_world *world, const carom_render_def *def, carom_camera *camera, carom_error *error);
-/** Draws the present state, rods as lines below the bodies, into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them. What there
+/** Draws the present state, rods as lines below the bodies, into `pixels`: height rows of width RGBA bytes, from the top, opaque. The caller owns them; where it fails, some may have been written. What there
  * is no room for at once is drawn in passes, one over the other, and gives the same picture. CAROM_LIMIT: bodies lie so thickly over one
  * another that the lists of those in each tile of pixels have no room. */
 CAROM_API carom_status carom_world_render(carom_world *world, const carom_render_def *def, uint8_t *pixels, carom_error *error);

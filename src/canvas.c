@@ -81,10 +81,13 @@ static carom_status make_shapes(carom_world *world, const carom_picture *picture
 
 /* ---- Pixels */
 
-static carom_status hold_picture(carom_world *world, uint32_t width, uint32_t height, carom_error *error)
+/* On a device that draws into the host's memory it is there, and until it is taken. */
+static carom_status hold_picture(carom_world *world, uint32_t width, uint32_t height, uint8_t *pixels, carom_error *error)
 {
 	static const float zero[4] = {0};
 	carom_canvas *canvas = &world->canvas;
+	if (world->device->kind->wrap)
+		return carom_textures_wrap(world, ROLE_PICTURE, width, height, pixels, error);
 	if (canvas->width == width && canvas->height == height)
 		return CAROM_OK;
 	carom_textures_drop(world, ROLE_PICTURE);
@@ -92,6 +95,15 @@ static carom_status hold_picture(carom_world *world, uint32_t width, uint32_t he
 	TRY(carom_textures_create(world, ROLE_PICTURE, false, width, height, zero, error));
 	canvas->width = width;
 	canvas->height = height;
+	return CAROM_OK;
+}
+
+static carom_status take_picture(carom_world *world, uint32_t height, uint8_t *pixels, carom_error *error)
+{
+	const carom_device_class *kind = world->device->kind;
+	if (!kind->wrap)
+		return kind->download(world->device, world->textures[ROLE_PICTURE].front, height, pixels, error);
+	carom_textures_drop(world, ROLE_PICTURE);
 	return CAROM_OK;
 }
 
@@ -207,12 +219,12 @@ static carom_status draw_block(carom_world *world, const carom_picture *picture,
 {
 	const uint32_t width = (uint32_t)(block.x1 - block.x0), height = (uint32_t)(block.y1 - block.y0);
 	carom_pass pass = {.most = most, .is_first = true};
-	TRY(hold_picture(world, width, height, error));
+	TRY(hold_picture(world, width, height, pixels, error));
 	for (size_t i = 0; i < picture->layer_count; i++)
 		TRY(draw_layer(world, picture, &picture->layers[i], block, &pass, error));
 	pass.is_last = true;
 	TRY(draw_pass(world, block, picture->ground, &pass, error));
-	return world->device->kind->download(world->device, world->textures[ROLE_PICTURE].front, height, pixels, error);
+	return take_picture(world, height, pixels, error);
 }
 
 /* A block that is not as wide as the picture goes through memory of its own. */

@@ -26,6 +26,9 @@ typedef struct carom_device_class {
 	 * by its name, which stays the caller's. */
 	carom_status (*create)(carom_device *device, const char *name, carom_texel_format format, uint32_t width, uint32_t height, const float fill[4],
 		carom_texture **texture, carom_error *error);
+	/* Makes one of bytes that lie at `texels`, which stay the caller's: what kernels write there need not be downloaded. NULL where the device's memory is not the host's. */
+	carom_status (*wrap)(carom_device *device, const char *name, uint32_t width, uint32_t height, void *texels, carom_texture **texture,
+		carom_error *error);
 	void (*destroy)(carom_device *device, carom_texture *texture);
 	/* Whole rows from row 0 on, 4 x width floats or bytes each, or width ints. Uploading may return before it is done, but not before
 	 * `texels` may be reused; downloading waits. */

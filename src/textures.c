@@ -126,6 +126,15 @@ carom_status carom_textures_create(carom_world *world, carom_role role, bool pai
 	return pair ? world->device->kind->create(world->device, names[role], format_of(role), width, height, fill, &textures->back, error) : CAROM_OK;
 }
 
+carom_status carom_textures_wrap(carom_world *world, carom_role role, uint32_t width, uint32_t height, void *texels, carom_error *error)
+{
+	carom_pair *textures = &world->textures[role];
+	carom_textures_drop(world, role);
+	TRY(world->device->kind->wrap(world->device, names[role], width, height, texels, &textures->front, error));
+	textures->back = textures->front;
+	return CAROM_OK;
+}
+
 carom_status carom_levels_create(carom_world *world, int level, uint32_t size, const float fill[4], carom_error *error)
 {
 	carom_texture **texture = &world->levels[level];

@@ -240,6 +240,8 @@ uint32_t carom_row_count(uint32_t items);
 uint32_t carom_capacity(size_t items); /* the power of two that holds them, at least TILE */
 carom_status carom_textures_create(carom_world *world, carom_role role, bool pair, uint32_t width, uint32_t height, const float fill[4],
 	carom_error *error);
+/* One of bytes that lie at `texels`, where the device can wrap them. */
+carom_status carom_textures_wrap(carom_world *world, carom_role role, uint32_t width, uint32_t height, void *texels, carom_error *error);
 /* A level of the reduction, size x size. */
 carom_status carom_levels_create(carom_world *world, int level, uint32_t size, const float fill[4], carom_error *error);
 void carom_textures_destroy(carom_world *world);

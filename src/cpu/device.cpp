@@ -105,7 +105,7 @@ static std::unique_ptr<void, Free> zeros(uint64_t bytes)
 	constexpr size_t line = 64;
 	char *memory = static_cast<char *>(std::calloc(1, bytes + line));
 	const size_t skipped = memory ? line - reinterpret_cast<uintptr_t>(memory) % line : 0;
-	return {memory ? memory + skipped : nullptr, Free{skipped}};
+	return {memory ? memory + skipped : nullptr, Free{skipped, false}};
 }
 
 template <typename T>
@@ -128,6 +128,14 @@ static carom_status create(carom_device *device, const char *name, carom_texel_f
 		fill_rows<T>(*made, fill); /* else the pages stay the system's until they are written */
 	*texture = reinterpret_cast<carom_texture *>(made.release());
 	return CAROM_OK;
+}
+
+static carom_status wrap(carom_device *, const char *name, uint32_t width, uint32_t height, void *texels, carom_texture **texture, carom_error *error)
+{
+	std::unique_ptr<void, Free> memory(texels, Free{0, true});
+	Texture *made = new (std::nothrow) Texture{TEXELS_BYTE, width, height, std::move(memory)};
+	*texture = reinterpret_cast<carom_texture *>(made);
+	return made ? CAROM_OK : out_of_memory(error, name, "");
 }
 
 static void destroy(carom_device *, carom_texture *texture)
@@ -249,7 +257,8 @@ template <typename T> static void close(carom_device *device)
 }
 
 template <typename T>
-static constexpr carom_device_class device_class{close<T>, create<T>, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile, reads<T>};
+static constexpr carom_device_class device_class{
+	close<T>, create<T>, wrap, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile, reads<T>};
 
 /* The alternative that fills the slot: some stages' is fixed, others' is the pipeline's. */
 static bool is_chosen(const carom_pipeline &pipeline, const Stage &stage, const char *fixed)

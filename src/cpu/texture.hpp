@@ -14,11 +14,16 @@ namespace carom::cpu {
 
 constexpr size_t channel_count = 4;
 
-/* Memory from calloc, of which the first bytes may be left out. */
+/* Memory from calloc, of which the first bytes may be left out, or that is the host's. */
 struct Free {
 	size_t skipped;
+	bool is_wrapped;
 
-	void operator()(void *memory) const { std::free(static_cast<char *>(memory) - skipped); }
+	void operator()(void *memory) const
+	{
+		if (!is_wrapped)
+			std::free(static_cast<char *>(memory) - skipped);
+	}
 };
 
 struct Texture {
