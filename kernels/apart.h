@@ -13,14 +13,14 @@ INLINE void rotations_of(float4 angle, float4 *c, float4 *s)
 	*s = select(sine, cosine, odd) * convert_float4(1 - (quarters & 2));
 }
 
-/* How far a face has to be from the other body at t, and at a time after that, so that it separates them in between, however they turn, and so that a search would get there in
+/* How far a face has to be from the other body at a time of so many steps, and some time after that, so that it separates them in between, however they turn, and so that a search would get there in
  * less than SEARCH_LIMIT steps, each of which is at least 2 gap / (2 rate + sqrt(2 bend gap)) long. Lengths are |x| + |y|, which is no less. */
-float apart_enough(body a, body b, float time, float slop)
+float apart_enough(body a, body b, float steps, float time, float slop)
 {
-	float push = span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), speed = span((float2)(b.v.x - a.v.x, b.v.y - a.v.y)) + push;
-	float reach = span((float2)(b.x.x - a.x.x, b.x.y - a.x.y)) + speed, radius = larger(a.radius, b.radius);
+	float push = span((float2)(b.a.x - a.a.x, b.a.y - a.a.y)), speed = span((float2)(b.v.x - a.v.x, b.v.y - a.v.y)) + push * steps;
+	float reach = span((float2)(b.x.x - a.x.x, b.x.y - a.x.y)) + speed * steps, radius = larger(a.radius, b.radius);
 	float twist = larger(magnitude(a.b), magnitude(b.b)), twisting = magnitude(a.b - b.b);
-	float spin = larger(magnitude(a.w), magnitude(b.w)) + twist, turning = magnitude(a.w - b.w) + twisting;
+	float spin = larger(magnitude(a.w), magnitude(b.w)) + twist * steps, turning = magnitude(a.w - b.w) + twisting * steps;
 	float rate = (speed + spin * reach + turning * radius) * time;
 	float bend = ((turning * turning * radius + spin * spin * reach + 2.0f * spin * speed) + (push + twist * reach + twisting * radius))
 		* (time * time);
@@ -42,11 +42,17 @@ INLINE float4 twice_each(float p, float q)
 	return (float4)(p, p, q, q);
 }
 
+/* Is it exact enough how far a body is turned after so many steps? */
+bool is_turned_exactly(body k, float steps)
+{
+	return magnitude(k.r) + (magnitude(k.w) + magnitude(k.b) * steps) * steps < APART_ANGLE;
+}
+
 /* Do two polygons surely stay apart from t until then? The lanes are: from A at t, from A then, from B at t, from B then. */
 bool polygons_stay_apart(VERTICES_IN, body a, body b, float t, float until, float slop)
 {
-	if (a.count == 1 || b.count == 1
-		|| !(magnitude(a.r) + magnitude(a.w) + magnitude(a.b) < APART_ANGLE && magnitude(b.r) + magnitude(b.w) + magnitude(b.b) < APART_ANGLE))
+	float steps = larger(until, 1.0f);
+	if (a.count == 1 || b.count == 1 || !is_turned_exactly(a, steps) || !is_turned_exactly(b, steps))
 		return false;
 	float2 x = (float2)(b.x.x - a.x.x, b.x.y - a.x.y), v = (float2)(b.v.x - a.v.x, b.v.y - a.v.y), push = (float2)(b.a.x - a.a.x, b.a.y - a.a.y);
 	float2 d = place(x, v, push, t), e = place(x, v, push, until);
@@ -68,6 +74,16 @@ bool polygons_stay_apart(VERTICES_IN, body a, body b, float t, float until, floa
 		low = select(low, low.yxwz, low.yxwz < low);
 		far = select(far, low, low > far);
 	}
-	float enough = apart_enough(a, b, until - t, slop);
+	float enough = apart_enough(a, b, steps, until - t, slop);
 	return far.x > enough || far.z > enough;
+}
+
+/* For how many whole steps from the beginning of this one, 2 to `most`, two polygons surely stay apart, though the end of each is rounded; 0 where that is not proved. */
+float steps_apart(VERTICES_IN, body a, body b, float most)
+{
+	float radii = a.radius + b.radius;
+	float rate = span((float2)(b.v.x - a.v.x, b.v.y - a.v.y)) + larger(magnitude(a.w), magnitude(b.w)) * radii;
+	float steps = trunc(smaller((FORESIGHT * radii) / rate, most));
+	float speed = (span(a.v) + span(b.v)) + steps * (span(a.a) + span(b.a)), slop = (1.0f + steps) * (pair_slop(a, b) + (steps * speed) * SLOP);
+	return steps >= 2.0f && polygons_stay_apart(VERTICES, a, b, 0.0f, steps, slop) ? steps : 0.0f;
 }

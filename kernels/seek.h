@@ -94,20 +94,34 @@ void seeds_keep(LISTS_IN, LIST_OUT(owners), const seeds *all, int entry, int id,
 	}
 }
 
-/* A pair whose discs meet. */
-void seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), float4 rules, int s, int other, float length, int round,
-	seeds *all)
+/* A pair whose discs meet; when to look at it again. */
+float seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), float4 rules, int s, int other, float length,
+	float ahead, int round, seeds *all)
 {
 	bool pause, changes = slot_is_dynamic(slots, s), other_changes = slot_is_dynamic(slots, other);
-	float t = pair_time(VERTICES, slots, rules, s, trajectory_start(slots, s), other, trajectory_start(slots, other), length, 1.0f, &pause);
+	trajectory k = trajectory_start(slots, s), o = trajectory_start(slots, other);
+	float apart = ahead > 0.0f ? steps_apart(VERTICES, body_of(slots, s, k, length), body_of(slots, other, o, length), 1.0f + ahead) : 0.0f;
+	if (apart > 0.0f)
+		return apart;
+	float t = pair_time(VERTICES, slots, rules, s, k, other, o, length, 1.0f, &pause);
 	if (!(t <= 1.0f))
-		return;
+		return 1.0f;
 	if (changes)
 		seeds_add(LISTS, owners, all, s, other, t, pause, round);
 	if (other_changes)
 		seeds_add(LISTS, owners, all, other, s, t, pause, round);
 	if (changes && other_changes && t <= slice_end(status, 0))
 		unite(parents, s, other);
+	return 1.0f;
+}
+
+/* The same of one that was kept for the group. */
+void seek_kept(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), __local const int *kept, float length,
+	int round, seeds *all)
+{
+	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
+	float ahead = steps_ahead(TEX(uniforms), status, length);
+	wake_before(status, wakes, kept[0], seek_pair(VERTICES, slots, LISTS, owners, parents, rules, kept[0], kept[1], length, ahead, round, all));
 }
 
 /* Where the neighbours end whom a slot looks at as a step begins: all, if it was changed, else those that do not look at it. */
@@ -183,19 +197,23 @@ void seek(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(ow
 		discs all_discs = discs_at_start(slots, s, others.slots, length);
 		floats meetings = wanted ? first_meetings(disc_k, &all_discs, ahead) : (floats)(next);
 		ints close = meetings <= (floats)(1.0f);
-		next = smaller(next, least_of(meetings));
+		next = smaller(next, least_of(close ? (floats)(next) : meetings));
 		if (!IS_ANY(wanted & close))
 			continue;
 		for (int n = 0; n < BUNCH; n++, close = TURNED(close), wanted = TURNED(wanted), others.slots = TURNED(others.slots)) {
 			int other = FIRST(others.slots);
-			if (!(FIRST(close) & FIRST(wanted)) || stay_apart(disc_k, disc_at_start(slots, other, length)))
+			if (!(FIRST(close) & FIRST(wanted)))
 				continue;
+			if (stay_apart(disc_k, disc_at_start(slots, other, length))) {
+				next = smaller(next, 1.0f);
+				continue;
+			}
 			int pair = atomic_inc(pair_count);
 			if (pair < PAIRS_MOST) {
 				pairs[2 * pair] = s;
 				pairs[2 * pair + 1] = other;
 			} else {
-				seek_pair(VERTICES, slots, LISTS, owners, parents, rules, s, other, length, round, all);
+				next = smaller(next, seek_pair(VERTICES, slots, LISTS, owners, parents, rules, s, other, length, ahead, round, all));
 			}
 		}
 	}

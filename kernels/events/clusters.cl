@@ -7,7 +7,6 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 	int local_id = get_local_id(0), lanes = get_local_size(0), slots_each = (domain.w - 1) / (int)get_global_size(0) + 1;
 	int begin = (int)get_group_id(0) * (slots_each * lanes);
 	float length = step_length(TEX(uniforms), TEX(clock));
-	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	bool begins = length > 0.0f && lists_are_good(status) && !forces_are_wanted(status) && !status[STATUS_UNDER_WAY];
 	int end = begins ? min(begin + slots_each * lanes, domain.w) : 0;
 	seeds all;
@@ -25,9 +24,9 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 		fetch_awake(slots, LISTS, owners, awake, k, awake_count);
 		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, touching, awake[k], length, domain.z, &all, pairs, &pair_count);
 	}
-	barrier(CLK_LOCAL_MEM_FENCE);
+	barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 	for (int k = local_id; k < min(pair_count, PAIRS_MOST); k += lanes)
-		seek_pair(VERTICES, slots, LISTS, owners, parents, rules, pairs[2 * k], pairs[2 * k + 1], length, domain.z, &all);
+		seek_kept(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, pairs + 2 * k, length, domain.z, &all);
 	wanted[local_id] = seeds_take(owners, &all);
 	barrier(CLK_LOCAL_MEM_FENCE);
 	if (local_id == 0)

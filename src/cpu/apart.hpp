@@ -6,16 +6,16 @@
 
 namespace carom::cpu {
 
-/* How fast a point of one body moves against an axis that turns with the other, and how fast that changes: bounds for a step, whichever is the other. Lengths are
+/* How fast a point of one body moves against an axis that turns with the other, and how fast that changes: bounds for so many steps, whichever is the other. Lengths are
  * |x| + |y|, which is no less. */
 template <typename T> struct Haste {
 	T rate, bend;
 
-	[[gnu::always_inline]] Haste(const Convex<T> &a, const Convex<T> &b)
+	[[gnu::always_inline]] Haste(const Convex<T> &a, const Convex<T> &b, T steps)
 	{
-		const T push = span(b.a - a.a), speed = span(b.v - a.v) + push, reach = span(b.x - a.x) + speed, radius = larger(a.radius, b.radius);
-		const T twist = larger(std::abs(a.b), std::abs(b.b)), relative_twist = std::abs(a.b - b.b);
-		const T spin = larger(std::abs(a.w), std::abs(b.w)) + twist, turning = std::abs(a.w - b.w) + relative_twist;
+		const T push = span(b.a - a.a), speed = span(b.v - a.v) + push * steps, reach = span(b.x - a.x) + speed * steps;
+		const T twist = larger(std::abs(a.b), std::abs(b.b)), relative_twist = std::abs(a.b - b.b), radius = larger(a.radius, b.radius);
+		const T spin = larger(std::abs(a.w), std::abs(b.w)) + twist * steps, turning = std::abs(a.w - b.w) + relative_twist * steps;
 		rate = speed + spin * reach + turning * radius;
 		bend = (turning * turning * radius + spin * spin * reach + 2 * spin * speed) + (push + twist * reach + relative_twist * radius);
 	}
@@ -103,15 +103,29 @@ private:
 	Lanes<T> x[most_corners], y[most_corners], normal_x[most_corners], normal_y[most_corners], offset[most_corners];
 };
 
-/* Do two polygons surely stay apart from t to the end of what is looked for? */
-template <typename T> bool polygons_stay_apart(const Pair<T> &pair, T t)
+template <typename T> bool is_easy(const Convex<T> &body, T steps)
 {
-	const Convex<T> &a = pair.a, &b = pair.b;
-	const auto is_easy = [](const Convex<T> &body) {
-		return !body.is_circle() && body.count <= FourViews<T>::most_corners
-			&& std::abs(body.r) + (std::abs(body.w) + std::abs(body.b)) < T(APART_ANGLE);
-	};
-	return is_easy(a) && is_easy(b) && FourViews<T>(a, b, t, pair.until).are_apart(Haste<T>(a, b).enough(pair.until - t, pair.slop));
+	return body.count <= FourViews<T>::most_corners && std::abs(body.r) + (std::abs(body.w) + std::abs(body.b) * steps) * steps < T(APART_ANGLE);
+}
+
+/* Do two bodies surely stay apart from t to the end of what is looked for? */
+template <typename T> bool polygons_stay_apart(const Convex<T> &a, const Convex<T> &b, T t, T until, T slop)
+{
+	return !a.is_circle() && !b.is_circle() && is_easy(a, T(1)) && is_easy(b, T(1))
+		&& FourViews<T>(a, b, t, until).are_apart(Haste<T>(a, b, T(1)).enough(until - t, slop));
+}
+
+/* For how many whole steps from the beginning of this one, 2 to `most`, two polygons surely stay apart, though the end of each is rounded; 0 where that is not proved. */
+template <typename T> T steps_apart(const Convex<T> &a, const Convex<T> &b, T most)
+{
+	if (a.is_circle() || b.is_circle())
+		return 0;
+	const T radii = a.radius + b.radius, rate = span(b.v - a.v) + larger(std::abs(a.w), std::abs(b.w)) * radii;
+	const T steps = static_cast<T>(static_cast<int32_t>(smaller(T(FORESIGHT) * radii / rate, most)));
+	if (!(steps >= 2) || !is_easy(a, most) || !is_easy(b, most))
+		return 0;
+	const T slop = (1 + steps) * (pair_slop(a, b) + steps * (span(a.v) + span(b.v) + steps * (span(a.a) + span(b.a))) * T(SLOP));
+	return FourViews<T>(a, b, T(0), steps).are_apart(Haste<T>(a, b, steps).enough(steps, slop)) ? steps : T(0);
 }
 
 }

@@ -84,7 +84,7 @@ template <typename T> T safe_time(const Pair<T> &pair, const Pose<T> &pose_of_a,
 template <typename T> HitTime<T> separating_search(const Pair<T> &pair)
 {
 	T t = circles_touch(pair.a, pair.b, pair.slop), creep = 0;
-	if (t <= pair.until && polygons_stay_apart(pair, t))
+	if (t <= pair.until && polygons_stay_apart(pair.a, pair.b, t, pair.until, pair.slop))
 		return no_hit<T>();
 	for (int k = 0; k < 2 * SEARCH_LIMIT; k++) {
 		if (k == SEARCH_LIMIT) {

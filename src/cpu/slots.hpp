@@ -2,6 +2,7 @@
 #ifndef CAROM_CPU_SLOTS_HPP
 #define CAROM_CPU_SLOTS_HPP
 
+#include "cpu/apart.hpp"
 #include "cpu/filters.hpp"
 #include "cpu/impulse.hpp"
 #include "cpu/toi.hpp"
@@ -281,6 +282,15 @@ public:
 		convex.corners = corners + convex.first;
 	}
 
+	/* Two bodies in the order in which a pair has them. */
+	[[gnu::always_inline]] void fill(int32_t s, const Trajectory<T> &way, int32_t other, const Trajectory<T> &other_way, Convex<T> &a,
+		Convex<T> &b) const
+	{
+		const bool in_order = slots[s].body() > slots[other].body();
+		fill(in_order ? a : b, slots[s], way);
+		fill(in_order ? b : a, slots[other], other_way);
+	}
+
 	/* A hit, or only a pause of the search for one. */
 	struct Found {
 		T time; /* NO_HIT if there is none */
@@ -293,15 +303,18 @@ public:
 		const T t0 = larger(way.time, other_way.time), rest = 1 - t0;
 		this->move(slots[s], way, t0);
 		this->move(slots[other], other_way, t0);
-		const T end = smaller(until - t0 + T(1e-6), rest); /* not before, however that is rounded */
 		Convex<T> a, b;
-		const bool in_order = slots[s].body() > slots[other].body();
-		fill(in_order ? a : b, slots[s], way);
-		fill(in_order ? b : a, slots[other], other_way);
+		fill(s, way, other, other_way, a, b);
+		return pair_time(a, b, t0, smaller(until - t0 + T(1e-6), rest)); /* not before, however that is rounded */
+	}
+
+	/* The same of these two, which are there at t0, within a time from then on. */
+	[[gnu::always_inline]] Found pair_time(const Convex<T> &a, const Convex<T> &b, T t0, T within) const
+	{
 		if (!a.is_dynamic() && !b.is_dynamic())
 			return {NO_HIT, false};
-		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside, end), rules);
-		return {found.hit <= rest ? smaller(t0 + found.hit, T(1)) : T(NO_HIT), !(found.done > 0)};
+		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside, within), rules);
+		return {found.hit <= 1 - t0 ? smaller(t0 + found.hit, T(1)) : T(NO_HIT), !(found.done > 0)};
 	}
 
 	/* When the body hits which wall first. */

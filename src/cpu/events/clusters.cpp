@@ -85,10 +85,17 @@ private:
 	{
 		const Slot<T> &slot = clusters.slots[s], &other_slot = clusters.slots[other];
 		const Outlook<T> outlook(approach, slot, {slot, clusters.length}, other_slot, {other_slot, clusters.length});
-		clusters.wake_before(s, outlook.earliest);
-		if (!outlook.may_touch)
+		if (!outlook.may_touch) {
+			clusters.wake_before(s, outlook.earliest);
 			return;
-		const auto hit = clusters.pair_time(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot));
+		}
+		Convex<T> a, b;
+		clusters.fill(s, Trajectory<T>(slot), other, Trajectory<T>(other_slot), a, b);
+		const T apart = clusters.ahead > 0 ? steps_apart(a, b, clusters.ahead + 1) : T(0);
+		clusters.wake_before(s, larger(outlook.earliest, apart));
+		if (apart > 0)
+			return;
+		const auto hit = clusters.pair_time(a, b, T(0), T(1));
 		if (!(hit.time <= 1))
 			return;
 		if (slot.is_dynamic())
