@@ -207,8 +207,9 @@ static carom_status check_numbers(const carom_world *world, size_t k, const caro
 				anchor_names[side], (double)anchors[side].x, (double)anchors[side].y);
 	if (joint->kind == CAROM_DISTANCE && !(joint->length >= least_length(world, joint) && joint->length <= FARTHEST_ANCHOR))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT,
-			"joints[%zu].length: found %g, must be a number from %g, a hundredth of the bodies' radii, to 1e9 (m)", k, (double)joint->length,
-			(double)least_length(world, joint));
+			"joints[%zu].length: found %g, must be a number from %g, a hundredth of the bodies' radii, to 1e9 (m); where it is not given it is from "
+			"anchor to other_anchor",
+			k, (double)joint->length, (double)least_length(world, joint));
 	if (!isfinite(joint->force[0]) || !isfinite(joint->force[1]))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].force: must be two finite numbers (N)", k);
 	return CAROM_OK;

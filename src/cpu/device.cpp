@@ -132,10 +132,11 @@ static carom_status create(carom_device *device, const char *name, carom_texel_f
 
 static carom_status wrap(carom_device *, const char *name, uint32_t width, uint32_t height, void *texels, carom_texture **texture, carom_error *error)
 {
-	std::unique_ptr<void, Free> memory(texels, Free{0, true});
-	Texture *made = new (std::nothrow) Texture{TEXELS_BYTE, width, height, std::move(memory)};
-	*texture = reinterpret_cast<carom_texture *>(made);
-	return made ? CAROM_OK : out_of_memory(error, name, "");
+	std::unique_ptr<Texture> made(new (std::nothrow) Texture{TEXELS_BYTE, width, height, {texels, Free{0, true}}});
+	if (!made)
+		return out_of_memory(error, "the texture ", name);
+	*texture = reinterpret_cast<carom_texture *>(made.release());
+	return CAROM_OK;
 }
 
 static void destroy(carom_device *, carom_texture *texture)
