@@ -748,8 +748,8 @@
 #define APART_RATE 0.03125f
 #define APART_BEND 0.01f
 #define APART_SLOPS 8.0f
-#define FORESIGHT 0.3f      /* of their radii: polygons that move by more, one seen from the other, are likely to get together */
 #define APART_ANGLE 1000.0f /* larger ones are not turned exactly enough */
+#define FORESIGHT 0.3f      /* of their radii: polygons that move by more, one seen from the other, are likely to get together */
 /* From a contact that does not approach a search goes on for the time in which bodies move by the slop, at most CREEP_MOST (2^-12 of a step); from the next
  * for twice as long while that is below CREEP_SHORT (2^-20). */
 #define CREEP_MOST 0.000244140625f

@@ -115,13 +115,16 @@ float seek_pair(VERTICES_IN, RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_
 	return 1.0f;
 }
 
-/* The same of one that was kept for the group. */
-void seek_kept(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), __local const int *kept, float length,
-	int round, seeds *all)
+/* The same of those that the group has kept, by all its work-items. */
+void seek_kept(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, LIST_OUT(owners), LIST_OUT(parents), __local const int *pairs, int count,
+	float length, int round, seeds *all)
 {
 	float4 rules = TEX_LOAD(uniforms, UNIFORMS_RULES, 0);
 	float ahead = steps_ahead(TEX(uniforms), status, length);
-	wake_before(status, wakes, kept[0], seek_pair(VERTICES, slots, LISTS, owners, parents, rules, kept[0], kept[1], length, ahead, round, all));
+	for (int k = get_local_id(0); k < min(count, PAIRS_MOST); k += get_local_size(0)) {
+		int s = pairs[2 * k], other = pairs[2 * k + 1];
+		wake_before(status, wakes, s, seek_pair(VERTICES, slots, LISTS, owners, parents, rules, s, other, length, ahead, round, all));
+	}
 }
 
 /* Where the neighbours end whom a slot looks at as a step begins: all, if it was changed, else those that do not look at it. */

@@ -146,6 +146,14 @@ void scenery_filter(scenery_random *random, carom_body_def *def)
 			def->mask &= ~bits[k];
 }
 
+uint64_t scenery_hash(const uint8_t *bytes, size_t size)
+{
+	uint64_t hash = 14695981039346656037u;
+	for (size_t k = 0; k < size; k++)
+		hash = (hash ^ bytes[k]) * 1099511628211u;
+	return hash;
+}
+
 carom_body_def scenery_circle(float x, float y, float vx, float vy, float radius)
 {
 	carom_body_def def = carom_default_body_def();

@@ -57,6 +57,9 @@ void scenery_filter(scenery_random *random, carom_body_def *def);
 enum { SCENERY_CROWD = 40 };
 carom_world *scenery_crowd(const scenery_device *device, uint64_t seed, uint32_t threads);
 
+/* FNV-1a, of a picture say. */
+uint64_t scenery_hash(const uint8_t *bytes, size_t size);
+
 /* One body, moving with (vx, vy). */
 carom_body_def scenery_circle(float x, float y, float vx, float vy, float radius);
 carom_body_def scenery_box(float x, float y, float vx, float vy, float width, float height);

@@ -118,12 +118,9 @@ enum { WIDTH = 160, HEIGHT = 120 };
 static uint64_t drawn(carom_world *world, const carom_render_def *def)
 {
 	static uint8_t pixels[4 * WIDTH * HEIGHT];
-	uint64_t hash = 14695981039346656037u;
 	carom_error error;
 	scenery_check(carom_world_render(world, def, pixels, &error), &error);
-	for (size_t i = 0; i < sizeof pixels; i++)
-		hash = (hash ^ pixels[i]) * 1099511628211u;
-	return hash;
+	return scenery_hash(pixels, sizeof pixels);
 }
 
 /* Rods are drawn below the bodies, more of them than are sent at once, and in the inset, too: pins are not. */

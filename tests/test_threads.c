@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runs.h"
+#include "joined.h"
 
 enum { WORLDS = 27, THREADS = 4, STEPS = 3, WIDTH = 64, HEIGHT = 48 };
 
@@ -19,14 +19,6 @@ typedef struct outcome {
 static const scenery_device *device_of(int index)
 {
 	return &scenery_devices[(size_t)index % scenery_device_count];
-}
-
-static uint64_t hash_of(const uint8_t *bytes, size_t size)
-{
-	uint64_t hash = 14695981039346656037u;
-	for (size_t k = 0; k < size; k++)
-		hash = (hash ^ bytes[k]) * 1099511628211u;
-	return hash;
 }
 
 static const char *const steps[] = {"events", "first_impact", "contacts"};
@@ -69,13 +61,7 @@ static carom_status join_wall(carom_world *world, size_t count, size_t row, caro
 		const bool is_pin = i % 16 == 1;
 		if (!is_pin && (i % 2 != 0 || (i + 1) % row == 0))
 			continue;
-		joints[joined] = carom_default_joint();
-		if (!is_pin) {
-			joints[joined].kind = CAROM_DISTANCE;
-			joints[joined].other_anchor = (carom_vec2){0.0f, 0.0f};
-		}
-		joints[joined].body = (uint32_t)i;
-		joints[joined++].other = (int32_t)(is_pin ? i + row : i + 1);
+		joints[joined++] = is_pin ? joined_pin((uint32_t)i, (int32_t)(i + row), 0.0f, 0.0f) : joined_rod((uint32_t)i, (int32_t)(i + 1), 0.0f, 0.0f);
 	}
 	const carom_status status = carom_world_set_joints(world, joined, joints, error);
 	free(joints);
@@ -118,7 +104,7 @@ static carom_status live(int index, outcome *out)
 		status = carom_world_hash(world, &out->state, &out->error);
 	if (!status)
 		status = carom_world_render(world, &render, pixels, &out->error);
-	out->picture = hash_of(pixels, sizeof pixels);
+	out->picture = scenery_hash(pixels, sizeof pixels);
 	carom_world_destroy(world);
 	free(bodies);
 	return status;

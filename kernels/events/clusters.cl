@@ -25,8 +25,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 		seek(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, touching, awake[k], length, domain.z, &all, pairs, &pair_count);
 	}
 	barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-	for (int k = local_id; k < min(pair_count, PAIRS_MOST); k += lanes)
-		seek_kept(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, pairs + 2 * k, length, domain.z, &all);
+	seek_kept(VERTICES, TEX(uniforms), slots, LISTS, owners, parents, pairs, pair_count, length, domain.z, &all);
 	wanted[local_id] = seeds_take(owners, &all);
 	barrier(CLK_LOCAL_MEM_FENCE);
 	if (local_id == 0)

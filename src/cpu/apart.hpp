@@ -103,29 +103,24 @@ private:
 	Lanes<T> x[most_corners], y[most_corners], normal_x[most_corners], normal_y[most_corners], offset[most_corners];
 };
 
-template <typename T> bool is_easy(const Convex<T> &body, T steps)
-{
-	return body.count <= FourViews<T>::most_corners && std::abs(body.r) + (std::abs(body.w) + std::abs(body.b) * steps) * steps < T(APART_ANGLE);
-}
-
-/* Do two bodies surely stay apart from t to the end of what is looked for? */
+/* Do two bodies surely stay apart from t to `until`, in steps? */
 template <typename T> bool polygons_stay_apart(const Convex<T> &a, const Convex<T> &b, T t, T until, T slop)
 {
-	return !a.is_circle() && !b.is_circle() && is_easy(a, T(1)) && is_easy(b, T(1))
-		&& FourViews<T>(a, b, t, until).are_apart(Haste<T>(a, b, T(1)).enough(until - t, slop));
+	const T steps = larger(until, T(1));
+	const auto is_easy = [steps](const Convex<T> &body) {
+		return !body.is_circle() && body.count <= FourViews<T>::most_corners
+			&& std::abs(body.r) + (std::abs(body.w) + std::abs(body.b) * steps) * steps < T(APART_ANGLE);
+	};
+	return is_easy(a) && is_easy(b) && FourViews<T>(a, b, t, until).are_apart(Haste<T>(a, b, steps).enough(until - t, slop));
 }
 
 /* For how many whole steps from the beginning of this one, 2 to `most`, two polygons surely stay apart, though the end of each is rounded; 0 where that is not proved. */
 template <typename T> T steps_apart(const Convex<T> &a, const Convex<T> &b, T most)
 {
-	if (a.is_circle() || b.is_circle())
-		return 0;
 	const T radii = a.radius + b.radius, rate = span(b.v - a.v) + larger(std::abs(a.w), std::abs(b.w)) * radii;
 	const T steps = static_cast<T>(static_cast<int32_t>(smaller(T(FORESIGHT) * radii / rate, most)));
-	if (!(steps >= 2) || !is_easy(a, most) || !is_easy(b, most))
-		return 0;
 	const T slop = (1 + steps) * (pair_slop(a, b) + steps * (span(a.v) + span(b.v) + steps * (span(a.a) + span(b.a))) * T(SLOP));
-	return FourViews<T>(a, b, T(0), steps).are_apart(Haste<T>(a, b, steps).enough(steps, slop)) ? steps : T(0);
+	return steps >= 2 && polygons_stay_apart(a, b, T(0), steps, slop) ? steps : T(0);
 }
 
 }
