@@ -204,7 +204,8 @@ static void hits_are_told(void **state)
 	const unsigned long rows = strtoul(call.out, NULL, 10);
 	assert_true(rows > 500 && strtoul(strchr(call.out, '\n'), NULL, 10) == rows);
 	check("$C run scenes/mixed.json --steps 1 --hits - --stats /dev/stdout", 2, "--stats and --hits: both tables go to /dev/stdout");
-	check("$C run scenes/mixed.json --steps 1 --hits $D/t --stats $D/t", 2, "two of --out, --png, --stats, --hits and --frames write there");
+	check("$C run scenes/mixed.json --steps 1 --hits $D/t --stats $D/t", 2,
+		"two of --out, --png, --stats, --hits, --states and --frames write there");
 	check("cp scenes/mixed.json $D/i; $C run $D/i --steps 1 --hits $D/i", 2, "--hits would replace the scene");
 	check("$C run scenes/mixed.json --steps 60 --hits /dev/full --device cpu", 1, "/dev/full: can't be written");
 	check("rm -r $D/frames $D/h $D/i $D/t $D/s", 0, "");

@@ -1,4 +1,4 @@
-/* What `carom run` writes: states, pictures, frames, the tables of the steps and of the hits.
+/* What `carom run` writes: the last state, pictures, frames, tables.
  * SPDX-License-Identifier: MIT */
 #include "carom_run.h"
 
@@ -72,6 +72,8 @@ carom_status prepare_outputs(struct run *run, carom_error *error)
 		status = carom_file_create(options->hits, &run->hits_file, &run->hits, error);
 	if (run->hits)
 		fputs("time_s,body,other,x_m,y_m,normal_x,normal_y,impulse_x_ns,impulse_y_ns,ruled\n", run->hits);
+	if (status == CAROM_OK && options->states)
+		status = states_create(options->states, &run->states, error);
 	return status;
 }
 
@@ -114,12 +116,14 @@ static carom_status write_picture(struct run *run, const char *path, carom_error
 
 double next_frame(const struct run *run)
 {
-	return run->options->frames ? (double)run->frames_done / run->options->fps : INFINITY;
+	return run->film || run->states ? (double)run->frames_done / run->options->fps : INFINITY;
 }
 
 carom_status write_frame(struct run *run, carom_error *error)
 {
-	carom_status status = film_add(run->film, run->world, error);
+	carom_status status = run->film ? film_add(run->film, run->world, error) : CAROM_OK;
+	if (status == CAROM_OK && run->states)
+		status = states_add(run->states, run->world, error);
 	if (status == CAROM_OK)
 		run->frames_done++;
 	return status;
@@ -200,7 +204,11 @@ int write_outputs(struct run *run)
 		code = worse(code, tell(run, carom_file_commit(run->hits_file, &error), options->hits, &error));
 		run->hits_file = NULL;
 	}
-	if (run->frames_done > 0)
+	if (run->states) {
+		code = worse(code, tell(run, states_commit(run->states, &error), options->states, &error));
+		run->states = NULL;
+	}
+	if (run->film && run->frames_done > 0)
 		tell_frames(run);
 	if (options->png)
 		code = worse(code, tell(run, write_picture(run, options->png, &error), options->png, &error));
@@ -215,6 +223,7 @@ void destroy_outputs(struct run *run)
 {
 	carom_file_destroy(run->stats_file);
 	carom_file_destroy(run->hits_file);
+	states_destroy(run->states);
 	film_destroy(run->film);
 	free(run->pixels);
 }

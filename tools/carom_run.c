@@ -72,7 +72,9 @@ static const struct option options_table[] = {
 	{"frames", "DIR", read_path, offsetof(struct run_options, frames),
 		"write pictures at equal simulated times, DIR/frame_000000.png the first; DIR is made if missing; where the scene has neither camera nor "
 		"room, all show what the first does"},
-	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames for a simulated second, at most 1000000; default 30"},
+	{"states", "FILE.csv", read_output, offsetof(struct run_options, states),
+		"write where all bodies are, and how fast, at the times of frames: a table with a row a body, or as FILE.npy an array of NumPy"},
+	{"fps", "F", read_fps, offsetof(struct run_options, fps), "frames, or states, for a simulated second, at most 1000000; default 30"},
 	{"stats", "FILE.csv", read_output, offsetof(struct run_options, stats),
 		"write a table with a row a step: time, hits, energy, momenta, deepest penetration"},
 	{"hits", "FILE.csv", read_output, offsetof(struct run_options, hits),
@@ -94,20 +96,29 @@ static bool is_frame(const char *path, const char *frames)
 	return snprintf(frame, sizeof frame, "%s/%s", frames, name) < (int)sizeof frame && are_one_file(path, frame);
 }
 
+static carom_status check_tables(const struct run_options *options, carom_error *error)
+{
+	const char *const names[] = {"--stats", "--hits", "--states"}, *const paths[] = {options->stats, options->hits, options->states};
+	for (size_t k = 0; k < sizeof paths / sizeof *paths; k++)
+		for (size_t i = 0; paths[k] && i < k; i++)
+			if (paths[i] && are_one_stream(paths[i], paths[k]))
+				return wrong(error, "%s and %s: both tables go to %s, row by row, where their rows would mix; write one to a file", names[i],
+					names[k], paths[i]);
+	return CAROM_OK;
+}
+
 /* Two outputs in one file: the first would be lost. */
 static carom_status check_paths(const struct run_options *options, carom_error *error)
 {
-	const char *const paths[] = {options->out, options->png, options->stats, options->hits, options->frames};
+	const char *const paths[] = {options->out, options->png, options->stats, options->hits, options->states, options->frames};
 	for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
 		bool taken = paths[k] && options->frames && is_frame(paths[k], options->frames);
 		for (size_t i = 0; paths[k] && i < k; i++)
 			taken = taken || (paths[i] && are_one_file(paths[i], paths[k]));
 		if (taken)
-			return wrong(error, "%s: two of --out, --png, --stats, --hits and --frames write there; give each a name of its own", paths[k]);
+			return wrong(error, "%s: two of --out, --png, --stats, --hits, --states and --frames write there; give each a name of its own", paths[k]);
 	}
-	if (options->stats && options->hits && are_one_stream(options->stats, options->hits))
-		return wrong(error, "--stats and --hits: both tables go to %s, row by row, where their rows would mix; write one to a file", options->stats);
-	return CAROM_OK;
+	return check_tables(options, error);
 }
 
 /* A state may take the place of the scene that it came from; what is no scene may not. */
@@ -117,6 +128,7 @@ static carom_status check_scene_stays(const struct run_options *options, carom_e
 	const char *option = options->png && are_one_file(scene, options->png) ? "--png"
 		: options->stats && are_one_file(scene, options->stats)            ? "--stats"
 		: options->hits && are_one_file(scene, options->hits)              ? "--hits"
+		: options->states && are_one_file(scene, options->states)          ? "--states"
 		: options->frames && is_frame(scene, options->frames)              ? "--frames"
 																		   : NULL;
 	return option ? wrong(error, "%s: %s would replace the scene; only --out may, which writes one", scene, option) : CAROM_OK;
@@ -126,8 +138,8 @@ static carom_status check_options(struct run_options *options, carom_error *erro
 {
 	if (options->steps != NO_STEPS && options->time >= 0)
 		return wrong(error, "--steps and --time exclude each other; give one of them");
-	if (options->fps > 0 && !options->frames)
-		return wrong(error, "--fps needs --frames DIR");
+	if (options->fps > 0 && !options->frames && !options->states)
+		return wrong(error, "--fps needs --frames or --states");
 	if ((options->size[0] || options->has_inset) && !options->png && !options->frames)
 		return wrong(error, "%s needs a picture: --png or --frames", options->size[0] ? "--size" : "--inset");
 	if (options->steps == NO_STEPS && options->time < 0)
@@ -303,8 +315,8 @@ const struct command run_command = {
 	.most_arguments = 1,
 	.summary = "Simulates a scene and writes states, pictures and tables",
 	.details = "\nSCENE.json is a file of the format carom-scene/1; - reads standard input.\n"
-			   "As --out, --png, --stats or --hits, - is standard output.\n"
-			   "What several write there follows each other: the table (one of the two), the picture, the state, and the hash as the last line.\n"
+			   "As --out, --png, --stats, --hits or --states, - is standard output.\n"
+			   "What several write there follows each other: the table (one of the three), the picture, the state, and the hash as the last line.\n"
 			   "--out may write over SCENE.json: the state takes its place. No other output may, and each has a file of its own.\n"
 			   "\nA step of `events` or `contacts` lasts the scene's time step; one of `first_impact` ends at the first\n"
 			   "hit, so --steps counts those, and --time counts simulated seconds. With --time, the step before the end\n"

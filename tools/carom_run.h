@@ -7,10 +7,10 @@
 
 struct run_options {
 	struct common_options common;
-	uint64_t steps;                                /* NO_STEPS if not given */
-	double time;                                   /* s; below 0 if not given */
-	const char *out, *png, *stats, *hits, *frames; /* paths; NULL if not asked for */
-	double fps;                                    /* 0 if not given */
+	uint64_t steps;                                         /* NO_STEPS if not given */
+	double time;                                            /* s; below 0 if not given */
+	const char *out, *png, *stats, *hits, *states, *frames; /* paths; NULL if not asked for */
+	double fps;                                             /* 0 if not given */
 	bool hash;
 	uint32_t size[2]; /* pixels; 0 if not given */
 	bool has_inset;
@@ -33,10 +33,11 @@ struct run {
 	carom_world *world;
 	carom_render_def render;
 	struct film *film;                  /* NULL if no frames are asked for */
+	struct states *states;              /* NULL if no states are asked for */
 	uint8_t *pixels;                    /* NULL if no picture of the end is asked for */
 	carom_file *stats_file, *hits_file; /* NULL if no such table is asked for */
 	FILE *stats, *hits;
-	uint64_t frames_done; /* drawn, and when the simulation has ended, written */
+	uint64_t frames_done; /* drawn, or their states taken, and when the simulation has ended, written */
 	carom_report total;
 	bool interrupted;
 	double seconds; /* of wall time spent in steps and what belongs to them */
@@ -56,7 +57,7 @@ carom_status allocate_pixels(const carom_render_def *render, uint8_t **pixels, c
 carom_status prepare_outputs(struct run *run, carom_error *error);
 /* The camera of a film, which the world decides where the scene does not. Says so where the enlarged part is not in the picture. */
 carom_status prepare_camera(struct run *run, carom_error *error);
-/* Simulated seconds at which the next frame is due; infinite if no frames are asked for. */
+/* Simulated seconds at which the next frame is due; infinite if neither frames nor states are asked for. */
 double next_frame(const struct run *run);
 carom_status write_frame(struct run *run, carom_error *error);
 /* A row for the step just done. */
@@ -78,6 +79,15 @@ carom_status film_add(struct film *film, carom_world *world, carom_error *error)
 /* Waits until all are written; *length: so many are, from the first on. Fails as film_add. */
 carom_status film_finish(struct film *film, uint64_t *length, carom_error *error);
 void film_destroy(struct film *film);
+
+/* ---- carom_states.c */
+
+/* A name that ends in .npy is an array, any other one a table. */
+carom_status states_create(const char *path, struct states **states, carom_error *error);
+carom_status states_add(struct states *states, carom_world *world, carom_error *error);
+/* Releases it, also on failure; then what was there before stays. */
+carom_status states_commit(struct states *states, carom_error *error);
+void states_destroy(struct states *states);
 
 /* ---- carom_progress.c */
 

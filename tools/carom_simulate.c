@@ -97,7 +97,7 @@ static uint64_t whole_steps(const struct run *run, double until)
 static uint64_t steps_at_once(const struct run *run, uint64_t left)
 {
 	uint64_t most = most_at_once(run) < left ? most_at_once(run) : left;
-	uint64_t before_frame = run->options->frames ? whole_steps(run, next_frame(run)) : NO_STEPS;
+	uint64_t before_frame = whole_steps(run, next_frame(run));
 	if (before_frame < most)
 		most = before_frame > 0 ? before_frame : 1;
 	return most;

@@ -1,0 +1,107 @@
+/* Writes where all bodies are, at the times of frames: a table, or an array of NumPy, which is read in a fraction of the time.
+ * SPDX-License-Identifier: MIT */
+#include "carom_run.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NUMBERS 6   /* of a body */
+#define HEADER 128u /* bytes; NumPy's data begin at a multiple of 64 */
+
+_Static_assert(sizeof(carom_body_state) == NUMBERS * sizeof(float), "a body's numbers lie in the array as they do here");
+
+struct states {
+	carom_file *file;
+	FILE *stream;
+	bool is_array;
+	uint64_t frames;
+	size_t count;             /* bodies */
+	carom_body_state *bodies; /* NULL before the first frame */
+};
+
+static bool ends_with(const char *path, const char *end)
+{
+	return strlen(path) >= strlen(end) && strcmp(path + strlen(path) - strlen(end), end) == 0;
+}
+
+/* NumPy's format, version 1.0. How many frames there are is known in the end. */
+static void put_header(const struct states *states)
+{
+	const uint16_t one = 1, length = HEADER - 10;
+	char header[HEADER + 1];
+	const bool is_little = *(const unsigned char *)&one == 1;
+	memcpy(header, "\x93NUMPY\x01\x00", 8);
+	header[8] = (char)(length & 0xff), header[9] = (char)(length >> 8);
+	snprintf(header + 10, HEADER - 10, "{'descr': '%cf4', 'fortran_order': False, 'shape': (%llu, %zu, %d), }", is_little ? '<' : '>',
+		(unsigned long long)states->frames, states->count, NUMBERS);
+	memset(header + 10 + strlen(header + 10), ' ', HEADER - 10 - strlen(header + 10));
+	header[HEADER - 1] = '\n';
+	fwrite(header, 1, HEADER, states->stream);
+}
+
+carom_status states_create(const char *path, struct states **states, carom_error *error)
+{
+	struct states *made = calloc(1, sizeof *made);
+	if (!made)
+		return out_of_memory(error, "there is not enough memory for --states");
+	carom_status status = carom_file_create(path, &made->file, &made->stream, error);
+	made->is_array = ends_with(path, ".npy");
+	if (status == CAROM_OK && made->is_array && fseek(made->stream, 0, SEEK_SET) != 0)
+		status = wrong(error, "--states: %s: an array can't go through a pipe, for its head is written in the end; a name without .npy is a table",
+			path);
+	if (status != CAROM_OK) {
+		states_destroy(made);
+		return status;
+	}
+	if (made->is_array)
+		put_header(made);
+	else
+		fputs("time_s,body,x_m,y_m,angle_rad,velocity_x_m_s,velocity_y_m_s,angular_velocity_rad_s\n", made->stream);
+	*states = made;
+	return CAROM_OK;
+}
+
+static void put_row(FILE *stream, double time, size_t body, const carom_body_state *state)
+{
+	fprintf(stream, "%.12g,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", time, body, (double)state->position.x, (double)state->position.y,
+		(double)state->angle, (double)state->velocity.x, (double)state->velocity.y, (double)state->angular_velocity);
+}
+
+carom_status states_add(struct states *states, carom_world *world, carom_error *error)
+{
+	if (!states->bodies) {
+		states->count = carom_world_body_count(world);
+		states->bodies = malloc((states->count + 1) * sizeof *states->bodies);
+		if (!states->bodies)
+			return out_of_memory(error, "there is not enough memory for the states of %zu bodies", states->count);
+	}
+	carom_status status = states->count > 0 ? carom_world_get_states(world, 0, states->count, states->bodies, error) : CAROM_OK;
+	if (status != CAROM_OK)
+		return status;
+	states->frames++;
+	if (states->is_array)
+		fwrite(states->bodies, sizeof *states->bodies, states->count, states->stream);
+	for (size_t k = 0; !states->is_array && k < states->count; k++)
+		put_row(states->stream, carom_world_time(world), k, &states->bodies[k]);
+	return CAROM_OK;
+}
+
+carom_status states_commit(struct states *states, carom_error *error)
+{
+	if (states->is_array && fseek(states->stream, 0, SEEK_SET) == 0)
+		put_header(states);
+	carom_file *const file = states->file;
+	states->file = NULL;
+	states_destroy(states);
+	return carom_file_commit(file, error);
+}
+
+void states_destroy(struct states *states)
+{
+	if (!states)
+		return;
+	carom_file_destroy(states->file);
+	free(states->bodies);
+	free(states);
+}
