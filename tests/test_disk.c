@@ -165,17 +165,21 @@ static void names_that_cannot_be_taken(void **state)
 static void the_command_on_a_full_disk(void **state)
 {
 	(void)state;
-	const char *const files[] = {"s.json", "t.csv", "p.png"};
+	const char *const files[] = {"s.json", "t.csv", "p.png", "a.npy"};
 	for (size_t k = 0; k < COUNT(files); k++)
 		put_old(files[k]);
 	check("ulimit -f 8; $C run scenes/circles_1024.json --steps 3 --device cpu --out $D/s.json", 1, "s.json: can't be written: File too large");
 	check("ulimit -f 1; $C run scenes/mixed.json --steps 30 --device cpu --stats $D/t.csv", 1, "t.csv: can't be written: File too large");
+	check("ulimit -f 1; $C run scenes/mixed.json --steps 30 --device cpu --states $D/t.csv", 1, "t.csv: can't be written: File too large");
+	check("ulimit -f 1; $C run scenes/mixed.json --steps 3 --device cpu --states $D/a.npy", 1, "a.npy: can't be written: File too large");
+	check("ulimit -f 1; $C run scenes/mixed.json --steps 300 --device cpu --states $D/a.npy 2>&1 | grep -c written", 0, "");
+	assert_string_equal(call.out, "1\n");
 	check("ulimit -f 1; $C run scenes/mixed.json --steps 3 --device cpu --png $D/p.png", 1, "p.png: can't be written: ");
 	check("ulimit -f 1; $C generate --shape circle --count 100 --out $D/s.json", 1, "s.json: can't be written: File too large");
 	check("ulimit -f 1; $C run scenes/mixed.json --steps 3 --device cpu --frames $D/film", 1, "frame_000000.png: can't be written: ");
 	for (size_t k = 0; k < COUNT(files); k++)
 		assert_true(is_old(files[k]));
-	check("rm $D/s.json $D/t.csv $D/p.png; rmdir $D/film; ls $D", 0, "");
+	check("rm $D/s.json $D/t.csv $D/p.png $D/a.npy; rmdir $D/film; ls $D", 0, "");
 	assert_string_equal(call.out, "err\nout\n");
 }
 

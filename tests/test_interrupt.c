@@ -88,7 +88,7 @@ static void a_run_can_be_gone_on_with(const char *device, int number)
 	char line[512], hash[32];
 	unsigned long long steps = 0;
 	snprintf(line, sizeof line,
-		"exec $C run scenes/mixed.json --steps 100000000 --device %s --frames $D/film --png $D/p.png --stats $D/t.csv "
+		"exec $C run scenes/mixed.json --steps 100000000 --device %s --frames $D/film --png $D/p.png --stats $D/t.csv --states $D/a.npy "
 		"--out $D/s.json --hash",
 		device);
 	const pid_t process = start(line);
@@ -112,7 +112,8 @@ static void a_run_can_be_gone_on_with(const char *device, int number)
 	snprintf(line, sizeof line, "test $(wc -l <$D/t.csv) -eq %llu && head -c 4 $D/p.png | tail -c 3", steps + 1);
 	check(line, 0, "");
 	assert_string_equal(call.out, "PNG");
-	check("rm -r $D/film $D/p.png $D/t.csv $D/s.json; ls $D", 0, "");
+	check("n=$(ls $D/film | wc -l); test $(wc -c <$D/a.npy) -eq $((128 + n * 111 * 24)) && head -c 128 $D/a.npy | grep -q \"($n, 111, 6)\"", 0, "");
+	check("rm -r $D/film $D/p.png $D/t.csv $D/a.npy $D/s.json; ls $D", 0, "");
 	assert_string_equal(call.out, "err\nout\n");
 }
 

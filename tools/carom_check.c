@@ -25,7 +25,7 @@ static const struct reference {
 	bool holds; /* of which many are joined */
 	struct outcome expected;
 } references[] = {
-	{"events", "", 60, false, false, false, {0x72ffa6a29798faca, 0x7dfcc495d9b42702, 0x728f7931a28ac03f}},
+	{"events", "", 60, false, false, false, {0xae6d85b586319664, 0x3000e89a16e84ce6, 0x2ba53121913d8b51}},
 	{"contacts", "", 12, true, false, false, {0xd440000e9486bcfa, 0xf76c6e9eaefc385a, 0x46431893954bc23d}},
 	{"contacts", " of many", 24, true, true, false, {0xdef17b566634acb3, 0xea0634c37597d9f4, 0xfe3fb6b321603430}},
 	{"contacts", " and joints", 12, true, false, true, {0x10d3c7a1b72e64c1, 0x9b60723d2dfa615e, 0xc2667c529ff37eb8}},

@@ -122,8 +122,13 @@ double next_frame(const struct run *run)
 carom_status write_frame(struct run *run, carom_error *error)
 {
 	carom_status status = run->film ? film_add(run->film, run->world, error) : CAROM_OK;
-	if (status == CAROM_OK && run->states)
+	if (status == CAROM_OK && run->states) {
 		status = states_add(run->states, run->world, error);
+		if (status == CAROM_IO) { /* nothing can be added to it, in the end either */
+			states_destroy(run->states);
+			run->states = NULL;
+		}
+	}
 	if (status == CAROM_OK)
 		run->frames_done++;
 	return status;

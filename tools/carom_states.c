@@ -12,6 +12,7 @@
 _Static_assert(sizeof(carom_body_state) == NUMBERS * sizeof(float), "a body's numbers lie in the array as they do here");
 
 struct states {
+	const char *path; /* the caller's */
 	carom_file *file;
 	FILE *stream;
 	bool is_array;
@@ -46,6 +47,7 @@ carom_status states_create(const char *path, struct states **states, carom_error
 	if (!made)
 		return out_of_memory(error, "there is not enough memory for --states");
 	carom_status status = carom_file_create(path, &made->file, &made->stream, error);
+	made->path = path;
 	made->is_array = ends_with(path, ".npy");
 	if (status == CAROM_OK && made->is_array && fseek(made->stream, 0, SEEK_SET) != 0)
 		status = wrong(error, "--states: %s: an array can't go through a pipe, for its head is written in the end; a name without .npy is a table",
@@ -60,6 +62,14 @@ carom_status states_create(const char *path, struct states **states, carom_error
 		fputs("time_s,body,x_m,y_m,angle_rad,velocity_x_m_s,velocity_y_m_s,angular_velocity_rad_s\n", made->stream);
 	*states = made;
 	return CAROM_OK;
+}
+
+/* Of a write: there is no use in going on. */
+static carom_status fail(const struct states *states, carom_error *error)
+{
+	wrong(error, "--states: %s: can't be written: %s; what was there before stays", states->path, strerror(errno ? errno : ENOSPC));
+	error->status = CAROM_IO;
+	return CAROM_IO;
 }
 
 static void put_row(FILE *stream, double time, size_t body, const carom_body_state *state)
@@ -80,21 +90,28 @@ carom_status states_add(struct states *states, carom_world *world, carom_error *
 	if (status != CAROM_OK)
 		return status;
 	states->frames++;
+	errno = 0;
 	if (states->is_array)
 		fwrite(states->bodies, sizeof *states->bodies, states->count, states->stream);
 	for (size_t k = 0; !states->is_array && k < states->count; k++)
 		put_row(states->stream, carom_world_time(world), k, &states->bodies[k]);
-	return CAROM_OK;
+	return ferror(states->stream) ? fail(states, error) : CAROM_OK;
 }
 
 carom_status states_commit(struct states *states, carom_error *error)
 {
-	if (states->is_array && fseek(states->stream, 0, SEEK_SET) == 0)
-		put_header(states);
-	carom_file *const file = states->file;
-	states->file = NULL;
+	carom_status status = CAROM_OK;
+	errno = 0;
+	if (ferror(states->stream) || (states->is_array && (fflush(states->stream) != 0 || fseek(states->stream, 0, SEEK_SET) != 0)))
+		status = fail(states, error);
+	if (status == CAROM_OK) {
+		if (states->is_array)
+			put_header(states);
+		status = carom_file_commit(states->file, error);
+		states->file = NULL;
+	}
 	states_destroy(states);
-	return carom_file_commit(file, error);
+	return status;
 }
 
 void states_destroy(struct states *states)

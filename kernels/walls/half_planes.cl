@@ -32,9 +32,8 @@ float wall_safe_time(VERTICES_IN, body k, float2 n, float offset, float t, float
 /* As for pairs: conservative advancement. *done is 0 if the search was not finished. */
 SELDOM float polygon_wall(VERTICES_IN, body k, float2 n, float offset, float *done)
 {
-	float slop = wall_slop(k), stillness = wall_stillness(k), creep = 0.0f, t = 0.0f;
-	if (((inner(n, k.x) - offset) - k.radius) - (norm(k.v) + norm(k.a)) > slop)
-		return INFINITY;
+	float slop = wall_slop(k), stillness = wall_stillness(k), creep = 0.0f, way = ((inner(n, k.x) - offset) - k.radius) - slop;
+	float t = way > 0.0f ? first_root(way, inner(n, k.v), -inner(n, k.a)) : 0.0f; /* the circle about it gets there */
 	for (int i = 0; i < SEARCH_LIMIT; i++) {
 		if (!(t <= 1.0f))
 			return INFINITY;

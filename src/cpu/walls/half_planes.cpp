@@ -37,12 +37,17 @@ template <typename T> static T safe_time(const Convex<T> &convex, const Wall<T> 
 	return least;
 }
 
+/* When the circle about a body reaches the wall. */
+template <typename T> static T circle_reaches(const Body<T> &body, const Wall<T> &wall, T slop)
+{
+	const T way = (wall.height(body.x) - body.radius) - slop;
+	return way > 0 ? first_root(way, inner(wall.n, body.v), -inner(wall.n, body.a)) : T(0);
+}
+
 /* As toi separating, with the wall for an axis. */
 template <typename T> static WallHit<T> polygon_hit(const Convex<T> &convex, const Wall<T> &wall, T slop, T stillness)
 {
-	if ((wall.height(convex.x) - convex.radius) - (norm(convex.v) + norm(convex.a)) > slop)
-		return {NO_HIT, 1};
-	T t = 0, creep = 0;
+	T t = circle_reaches(convex, wall, slop), creep = 0;
 	for (int k = 0; k < SEARCH_LIMIT; k++) {
 		if (!(t <= 1))
 			return {NO_HIT, 1};
