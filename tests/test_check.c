@@ -88,7 +88,7 @@ static void wrong_devices_are_found(void **state)
 	spoil("answer.h", "= hit.where;", "= -hit.where;");
 	spoil("pixels/distance.cl", "0.5f", "0.50001f");
 	check_spoilt(1);
-	says("events in buffers: 72ffa6a29798faca, right");
+	says("events in buffers: ae6d85b586319664, right");
 	says_wrong("events in buffers, its hits: ");
 	says_wrong("contacts in buffers: ");
 	says_wrong("first_impact in buffers, drawn: ");
