@@ -96,42 +96,56 @@ static bool is_frame(const char *path, const char *frames)
 	return snprintf(frame, sizeof frame, "%s/%s", frames, name) < (int)sizeof frame && are_one_file(path, frame);
 }
 
-static carom_status check_tables(const struct run_options *options, carom_error *error)
+/* What a run may write, by the options that ask for it; tables are side by side. */
+enum { OUT, PNG, STATS, HITS, STATES, FRAMES, OUTPUTS };
+
+static const char *const output_names[OUTPUTS] = {"--out", "--png", "--stats", "--hits", "--states", "--frames"};
+
+struct outputs {
+	const char *paths[OUTPUTS];
+};
+
+static struct outputs outputs_of(const struct run_options *options)
 {
-	const char *const names[] = {"--stats", "--hits", "--states"}, *const paths[] = {options->stats, options->hits, options->states};
-	for (size_t k = 0; k < sizeof paths / sizeof *paths; k++)
-		for (size_t i = 0; paths[k] && i < k; i++)
-			if (paths[i] && are_one_stream(paths[i], paths[k]))
-				return wrong(error, "%s and %s: both tables go to %s, row by row, where their rows would mix; write one to a file", names[i],
-					names[k], paths[i]);
-	return CAROM_OK;
+	return (struct outputs){{options->out, options->png, options->stats, options->hits, options->states, options->frames}};
+}
+
+/* Does an output go there, too? */
+static bool is_output(const struct outputs *outputs, int k, const char *path)
+{
+	const char *const own = outputs->paths[k];
+	return own && (k == FRAMES ? is_frame(path, own) : are_one_file(own, path));
 }
 
 /* Two outputs in one file: the first would be lost. */
 static carom_status check_paths(const struct run_options *options, carom_error *error)
 {
-	const char *const paths[] = {options->out, options->png, options->stats, options->hits, options->states, options->frames};
-	for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
-		bool taken = paths[k] && options->frames && is_frame(paths[k], options->frames);
-		for (size_t i = 0; paths[k] && i < k; i++)
-			taken = taken || (paths[i] && are_one_file(paths[i], paths[k]));
+	const struct outputs outputs = outputs_of(options);
+	const char *const *paths = outputs.paths;
+	for (int k = 0; k < OUTPUTS; k++) {
+		bool taken = paths[k] && is_output(&outputs, FRAMES, paths[k]);
+		for (int i = 0; paths[k] && i < k; i++)
+			taken = taken || is_output(&outputs, i, paths[k]);
 		if (taken)
 			return wrong(error, "%s: two of --out, --png, --stats, --hits, --states and --frames write there; give each a name of its own", paths[k]);
 	}
-	return check_tables(options, error);
+	for (int k = STATS; k <= STATES; k++)
+		for (int i = STATS; paths[k] && i < k; i++)
+			if (paths[i] && are_one_stream(paths[i], paths[k]))
+				return wrong(error, "%s and %s: both tables go to %s, row by row, where their rows would mix; write one to a file", output_names[i],
+					output_names[k], paths[i]);
+	return CAROM_OK;
 }
 
 /* A state may take the place of the scene that it came from; what is no scene may not. */
 static carom_status check_scene_stays(const struct run_options *options, carom_error *error)
 {
+	const struct outputs outputs = outputs_of(options);
 	const char *scene = options->common.arguments[0];
-	const char *option = options->png && are_one_file(scene, options->png) ? "--png"
-		: options->stats && are_one_file(scene, options->stats)            ? "--stats"
-		: options->hits && are_one_file(scene, options->hits)              ? "--hits"
-		: options->states && are_one_file(scene, options->states)          ? "--states"
-		: options->frames && is_frame(scene, options->frames)              ? "--frames"
-																		   : NULL;
-	return option ? wrong(error, "%s: %s would replace the scene; only --out may, which writes one", scene, option) : CAROM_OK;
+	for (int k = OUT + 1; k < OUTPUTS; k++)
+		if (is_output(&outputs, k, scene))
+			return wrong(error, "%s: %s would replace the scene; only --out may, which writes one", scene, output_names[k]);
+	return CAROM_OK;
 }
 
 static carom_status check_options(struct run_options *options, carom_error *error)

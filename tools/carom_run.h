@@ -84,6 +84,7 @@ void film_destroy(struct film *film);
 
 /* A name that ends in .npy is an array, any other one a table. */
 carom_status states_create(const char *path, struct states **states, carom_error *error);
+/* Where all are now; after CAROM_IO, of what can't be written, it is only to be destroyed. */
 carom_status states_add(struct states *states, carom_world *world, carom_error *error);
 /* Releases it, also on failure; then what was there before stays. */
 carom_status states_commit(struct states *states, carom_error *error);

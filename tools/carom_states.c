@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NUMBERS 6   /* of a body */
-#define HEADER 128u /* bytes; NumPy's data begin at a multiple of 64 */
+#define NUMBERS 6  /* of a body */
+#define HEADER 128 /* bytes; NumPy's data begin at a multiple of 64 */
 
 _Static_assert(sizeof(carom_body_state) == NUMBERS * sizeof(float), "a body's numbers lie in the array as they do here");
 
@@ -21,24 +21,14 @@ struct states {
 	carom_body_state *bodies; /* NULL before the first frame */
 };
 
-static bool ends_with(const char *path, const char *end)
-{
-	return strlen(path) >= strlen(end) && strcmp(path + strlen(path) - strlen(end), end) == 0;
-}
-
-/* NumPy's format, version 1.0. How many frames there are is known in the end. */
+/* NumPy's format, version 1.0: the magic, the length of what follows, and that as text. How many frames there are is known in the end. */
 static void put_header(const struct states *states)
 {
-	const uint16_t one = 1, length = HEADER - 10;
-	char header[HEADER + 1];
-	const bool is_little = *(const unsigned char *)&one == 1;
-	memcpy(header, "\x93NUMPY\x01\x00", 8);
-	header[8] = (char)(length & 0xff), header[9] = (char)(length >> 8);
-	snprintf(header + 10, HEADER - 10, "{'descr': '%cf4', 'fortran_order': False, 'shape': (%llu, %zu, %d), }", is_little ? '<' : '>',
-		(unsigned long long)states->frames, states->count, NUMBERS);
-	memset(header + 10 + strlen(header + 10), ' ', HEADER - 10 - strlen(header + 10));
-	header[HEADER - 1] = '\n';
-	fwrite(header, 1, HEADER, states->stream);
+	const int length = HEADER - 10;
+	char text[HEADER];
+	snprintf(text, sizeof text, "{'descr': '%cf4', 'fortran_order': False, 'shape': (%llu, %zu, %d), }",
+		__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? '<' : '>', (unsigned long long)states->frames, states->count, NUMBERS);
+	fprintf(states->stream, "\x93NUMPY\x01%c%c%c%-*s\n", 0, length, 0, length - 1, text);
 }
 
 carom_status states_create(const char *path, struct states **states, carom_error *error)
@@ -46,9 +36,10 @@ carom_status states_create(const char *path, struct states **states, carom_error
 	struct states *made = calloc(1, sizeof *made);
 	if (!made)
 		return out_of_memory(error, "there is not enough memory for --states");
+	const char *const end = strrchr(path, '.');
 	carom_status status = carom_file_create(path, &made->file, &made->stream, error);
 	made->path = path;
-	made->is_array = ends_with(path, ".npy");
+	made->is_array = end && strcmp(end, ".npy") == 0;
 	if (status == CAROM_OK && made->is_array && fseek(made->stream, 0, SEEK_SET) != 0)
 		status = wrong(error, "--states: %s: an array can't go through a pipe, for its head is written in the end; a name without .npy is a table",
 			path);
@@ -101,12 +92,14 @@ carom_status states_add(struct states *states, carom_world *world, carom_error *
 carom_status states_commit(struct states *states, carom_error *error)
 {
 	carom_status status = CAROM_OK;
-	errno = 0;
-	if (ferror(states->stream) || (states->is_array && (fflush(states->stream) != 0 || fseek(states->stream, 0, SEEK_SET) != 0)))
-		status = fail(states, error);
-	if (status == CAROM_OK) {
-		if (states->is_array)
+	if (states->is_array) {
+		errno = 0;
+		if (fflush(states->stream) != 0 || fseek(states->stream, 0, SEEK_SET) != 0)
+			status = fail(states, error);
+		else
 			put_header(states);
+	}
+	if (status == CAROM_OK) {
 		status = carom_file_commit(states->file, error);
 		states->file = NULL;
 	}
