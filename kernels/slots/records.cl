@@ -92,12 +92,12 @@ __kernel void slots_pick(LIST_IN(places), RECORD_IN(slots), RECORD_OUT(changes),
 	changes[CHANGES_WIDTH * k + CHANGES_TURN] = (float4)(CHANNEL(r, TURN_ANGLE), CHANNEL(r, TURN_VELOCITY), (float)i, 1.0f);
 }
 
-__kernel void slots_unload(RECORD_IN(slots), TEX_OUT(linear), TEX_OUT(rotational), int4 domain)
+__kernel void slots_unload(RECORD_IN(slots), LIST_IN(places), TEX_OUT(linear), TEX_OUT(rotational), int4 domain)
 {
-	int s = get_global_id(0);
-	if (s >= domain.x)
+	int i = get_global_id(0);
+	if (i >= domain.x)
 		return;
-	int i = slot_body(slots, s);
+	int s = places[i];
 	float4 r = SLOT_LOAD(slots, s, SLOT_TURN);
 	ROW_STORE(linear, i, SLOT_LOAD(slots, s, SLOT_PLACE));
 	ROW_STORE(rotational, i, (float4)(CHANNEL(r, TURN_ANGLE), CHANNEL(r, TURN_VELOCITY), CHANNEL(r, TURN_RADIUS), 0.0f));

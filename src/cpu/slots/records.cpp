@@ -1,13 +1,14 @@
+#include "cpu/lanes.hpp"
 #include "cpu/leaver.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <cstring>
 #include <vector>
 
 namespace carom::cpu {
 
 constexpr int32_t chunk = 1024; /* slots */
-constexpr int32_t ahead = 8;    /* so many later ones are fetched already */
+constexpr int32_t ahead = 16;   /* so many later ones are fetched already */
 
 template <typename T> static Slot<T> *slots_of(const Job<T> &job, int index)
 {
@@ -182,33 +183,34 @@ template <typename T> static void pick(const Job<T> &job)
 	});
 }
 
-/* What a slot tells of the state. */
-template <typename T> struct Moved {
-	T place[4], turn[4];
-};
+/* Channels of `count` bodies that lie beside each other, four at most. */
+template <typename T> static void put_channels(const Lanes<T> (&channels)[lane_count], const Texels<T> &to, int32_t first, int32_t count)
+{
+	for (int32_t c = 0; c < lane_count; c++)
+		std::memcpy(&to.of(first, c), &channels[c], sizeof(T) * static_cast<size_t>(count));
+}
 
-/* The state lies channel by channel: bodies are put into order as records first, for to write channels out of order would touch eight lines a body. */
+/* The state lies channel by channel, in the order of the bodies: neighbours there are written together, wherever their slots are. */
 template <typename T> static void unload(const Job<T> &job)
 {
 	const Slot<T> *slots = slots_of(job, 0);
-	const Texels<T> linear = job.texels(1), rotational = job.texels(2);
-	const int32_t count = job.domain[0];
-	const std::unique_ptr<Moved<T>[]> bodies(new Moved<T>[static_cast<size_t>(count)]);
-	job.pool.run(count, chunk, [&](int32_t begin, int32_t end) {
-		for (int32_t s = begin; s < end; s++) {
-			const Slot<T> &slot = slots[s];
-			Moved<T> &body = bodies[static_cast<size_t>(slot.body())];
-			__builtin_prefetch(&bodies[static_cast<size_t>(slots[std::min(s + ahead, end - 1)].body())], 1);
-			std::copy_n(slot.place, 4, body.place);
-			std::copy_n(slot.turn, 4, body.turn);
-		}
-	});
-	job.pool.run(count, chunk, [&](int32_t begin, int32_t end) {
-		for (int32_t i = begin; i < end; i++) {
-			const Moved<T> &body = bodies[static_cast<size_t>(i)];
-			const int32_t x = i & (ROW_SIZE - 1), y = i >> ROW_LOG2;
-			linear.set(x, y, body.place[0], body.place[1], body.place[2], body.place[3]);
-			rotational.set(x, y, body.turn[TURN_ANGLE], body.turn[TURN_VELOCITY], body.turn[TURN_RADIUS], 0);
+	const int32_t *places = job.list(1), count = job.domain[0];
+	const Texels<T> linear = job.texels(2), rotational = job.texels(3);
+	job.pool.run((count + lane_count - 1) / lane_count, chunk / lane_count, [&](int32_t begin, int32_t end) {
+		for (int32_t first = lane_count * begin; first < std::min(lane_count * end, count); first += lane_count) {
+			Lanes<T> place[lane_count], turn[lane_count];
+			for (int32_t k = 0; k < lane_count; k++) {
+				const Slot<T> &slot = slots[places[std::min(first + k, count - 1)]];
+				__builtin_prefetch(&slots[places[std::min(first + k + ahead, count - 1)]]);
+				std::memcpy(&place[k], slot.place, sizeof place[k]);
+				std::memcpy(&turn[k], slot.turn, sizeof turn[k]);
+			}
+			transpose<T>(place);
+			transpose<T>(turn);
+			static_assert(TURN_ANGLE == ROTATIONAL_ANGLE && TURN_VELOCITY == ROTATIONAL_VELOCITY && TURN_RADIUS == ROTATIONAL_RADIUS, "turn");
+			turn[TURN_RESTITUTION] = Lanes<T>{};
+			put_channels<T>(place, linear, first, std::min(lane_count, count - first));
+			put_channels<T>(turn, rotational, first, std::min(lane_count, count - first));
 		}
 	});
 }
