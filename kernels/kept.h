@@ -137,21 +137,49 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 	warm_spans[WARM_SPAN(body, WARM_SPAN_COUNT)] = count;
 }
 
-float joint_force(RECORD_IN(joints), int side, int k)
+/* Where it is kept what a joint's point does. */
+int part_kept(int part)
 {
-	float4 forces = joints[JOINT(side / 2, JOINT_FORCES)];
-	return k ? forces.y : forces.x;
+	return part == PART_MOTOR ? JOINT_TORQUE : part_turns(part) ? JOINT_STOP : part == PART_PIN_Y ? JOINT_FORCE + 1 : JOINT_FORCE;
+}
+
+/* A force at a point with that arm as it is kept: of two stops as a torque in which the other one's, which was kept `beside`, has the opposite sign. */
+float part_keeps(int part, float now, float arm, float beside)
+{
+	float force = magnitude(now) < JOINT_LEAST ? 0.0f : now;
+	if (part == PART_ROPE)
+		return 0.0f - force;
+	if (part == PART_UPPER)
+		return force > 0.0f ? 0.0f - force * magnitude(arm) : beside;
+	return part_turns(part) ? force * magnitude(arm) : force;
+}
+
+float part_begins(int part, float kept, float arm)
+{
+	float force = kept;
+	if (part_turns(part))
+		force = magnitude(arm) > 0.0f ? kept / magnitude(arm) : 0.0f;
+	if (part == PART_LOWER)
+		return larger(force, 0.0f);
+	return part_pushes_one_way(part) ? larger(0.0f - force, 0.0f) : force;
+}
+
+__global float *joint_forces(RECORD_OUT(joints), int side)
+{
+	return (__global float *)(joints + JOINT(side / 2, JOINT_FORCES));
 }
 
 /* Forces begin with the last ones. */
 void joined_warm(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
 {
 	int point = 0, first = first_four(touching, s);
-	for (int side = held_side(slots, touching, joined, s); side >= 0; side = next_side(joined, side))
-		for (int k = 0; k < joint_points(joints, side); k++, point++) {
-			__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
-			at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], joint_force(joints, side, k), length);
-		}
+	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
+		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
+		int part = row_part(joints, &row);
+		float kept = ((__global const float *)(joints + JOINT(row.side / 2, JOINT_FORCES)))[part_kept(part)];
+		at[4 * FOUR_FORCE] = at[4 * FOUR_START] =
+			force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
+	}
 }
 
 /* Keeps the forces for the next step, each at one of its two bodies. If this one did not begin with them its island is not to fall asleep. */
@@ -160,16 +188,19 @@ void joined_keep(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), LIST_OU
 {
 	int point = 0, first = first_four(touching, s);
 	bool bears = first_contact(touching, s) > 0 && island_bears(status, touching, islands, s) && was_moving_at(pushes, s, ground), same = true;
-	for (int side = held_side(slots, touching, joined, s); side >= 0; side = next_side(joined, side))
-		for (int k = 0; k < joint_points(joints, side); k++, point++) {
-			__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
-			int partner = (int)at[4 * FOUR_PARTNER];
-			if ((side & 1 && partner_gives_way(slots, partner)) || (bears && partner_was_at_rest(pushes, partner, ground)))
-				continue;
-			float force = (at[4 * FOUR_FORCE] / length) / length;
-			same = same && force == joint_force(joints, side, k);
-			((__global float *)(joints + JOINT(side / 2, JOINT_FORCES)))[k] = force;
-		}
+	float beside = 0.0f; /* what was kept of the point before */
+	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
+		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point);
+		int partner = (int)at[4 * FOUR_PARTNER], part = row_part(joints, &row);
+		if ((row.side & 1 && partner_gives_way(slots, partner)) || (bears && partner_was_at_rest(pushes, partner, ground)))
+			continue;
+		beside = part_keeps(part, (at[4 * FOUR_FORCE] / length) / length, at[4 * FOUR_ARM], beside);
+		if (part == PART_LOWER)
+			continue; /* it is kept with the upper one */
+		__global float *to = joint_forces(joints, row.side) + part_kept(part);
+		same = same && beside == *to;
+		*to = beside;
+	}
 	if (!same)
 		island_disturb(touching, islands, s);
 }

@@ -382,15 +382,31 @@
 #define WARM_TAKEN 0     /* for all: contacts that there has been asked room for, */
 #define WARM_ROOM 1      /* and that there is room for in Warm */
 
-/* Joints: three records a joint, in the order in which they were given. The step contacts has points of them: in Contacts they come first of a body's, in the order of its joints. */
-#define JOINT_WIDTH 3
+/* Joints: four records a joint, in the order in which they were given. The step contacts has points of them: in Contacts they come first of a body's, in the order of its joints: those that
+ * hold anchors, and behind these what else joints do. */
+#define JOINT_WIDTH 4
 #define JOINT_PARTIES 0 /* record: the two bodies' indices; */
 #define JOINT_BODY 0
-#define JOINT_OTHER 1   /* -1: it is a place in the world; */
-#define JOINT_LENGTH 2  /* m, how far the anchors are from each other; below 0: they are at the same place, */
-#define JOINT_ANCHORS 1 /* record: m, from the centre of mass, in the body's own frame, x and y of each; or of the world */
-#define JOINT_FORCES \
-	2 /* record, part of the state: N, what acted on the body in the last step: away from the other's anchor, or, where both are at the same place, along x and y */
+#define JOINT_OTHER 1  /* -1: it is a place in the world; */
+#define JOINT_LENGTH 2 /* m, how far the anchors are from each other, of a rope at most, of a spring at rest; */
+#define JOINT_KIND 3   /* what it is: */
+#define JOINT_PIN 0
+#define JOINT_ROD 1
+#define JOINT_ROPE 2
+#define JOINT_SPRING 3
+#define JOINT_ANCHORS 1    /* record: m, from the centre of mass, in the body's own frame, x and y of each; or of the world */
+#define JOINT_FORCES 2     /* record, part of the state: what acted on the body in the last step, */
+#define JOINT_FORCE 0      /* N: away from the other's anchor, or of a pin along x, and then along y; */
+#define JOINT_TORQUE 2     /* N m, of a pin's motor; */
+#define JOINT_STOP 3       /* and of its stops */
+#define JOINT_DRIVE 3      /* record: of a pin */
+#define DRIVE_SPEED 0      /* rad/s, of the body against the other one, which a motor wants; */
+#define DRIVE_TORQUE 1     /* N m, with no more than this, 0: there is none; */
+#define DRIVE_MIDDLE 2     /* rad, between the two stops; and */
+#define DRIVE_HALF 3       /* as far from each, 0: it does not turn, below 0: there are none; or of a spring */
+#define SPRING_STIFFNESS 0 /* N/m */
+#define SPRING_GIVES 2     /* 1/kg, how much a force at its anchors parts them, at most */
+#define SPRING_DAMPING 1   /* N s/m */
 
 /* Joined: a list: how many joints there are, and bodies behind that: of each a side of its first joint, -1 for none, and then of each side the same body's next one. Side 2 j is the
  * body's of joint j, 2 j + 1 the other's. */
@@ -400,7 +416,7 @@
 #define JOINED_NEXT(bodies, side) (JOINED_FIRST + (bodies) + (side))
 
 /* Touching: ints of each slot */
-#define TOUCHING_WIDTH 11
+#define TOUCHING_WIDTH 12
 #define TOUCHING_COUNT 0          /* of its points */
 #define TOUCHING_SLOT 1           /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
 #define TOUCHING_WANTED 2         /* of a root: the last iteration that its island wants */
@@ -415,7 +431,8 @@
 #define TOUCHING_MADE 8           /* as long as this is STATUS_MADE */
 #define TOUCHING_CARRIER 9        /* of a root: the largest index of the kinematic bodies that its island touches, -1: none; or: */
 #define CARRIER_STATIC 0x7fffffff /* it touches something static */
-#define TOUCHING_JOINED 10        /* how many of its points, the first ones, are of joints */
+#define TOUCHING_JOINED 10        /* how many of its points, the first ones, are of joints, */
+#define TOUCHING_FIRM 11          /* and of these, the first ones, hold anchors */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
@@ -623,6 +640,11 @@
 #define JOINT_TURN 1.0f     /* rad */
 #define JOINT_FAR 0.01f
 #define JOINT_STIFF 1.5f
+#define JOINT_LEAST 1e-30f /* N or N m, what is less is none: what fades would come where not all devices count */
+#define SPRING_STIFF \
+	2.0f /* what a spring does against a way, by how much its force parts the anchors: above, a step is too long to swing, and it acts as at the step's end */
+#define SPRING_LEAST 1e-30f /* kg, that a spring is taken to answer with, so that it can be divided by, */
+#define SPRING_MOST 1e20f   /* and its stiffness and damping, each, so that it can be multiplied by */
 
 /* ---- Rendering [3] */
 

@@ -185,7 +185,7 @@ bool is_tug(LIST_IN(status), LIST_IN(active), LIST_IN(touching), int id, int oth
 {
 	if (!status[STATUS_BORNE] || !(what->hit.total > 0.0f))
 		return false;
-	return touching[TOUCH(active[id], TOUCHING_JOINED)] > 0 || (other_id >= 0 && touching[TOUCH(active[other_id], TOUCHING_JOINED)] > 0);
+	return touching[TOUCH(active[id], TOUCHING_FIRM)] > 0 || (other_id >= 0 && touching[TOUCH(active[other_id], TOUCHING_FIRM)] > 0);
 }
 
 /* Passes it on, from the row body if that is dynamic; false if the cluster has to be given up. */

@@ -59,7 +59,7 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 		shocks[SHOCK(id, other) + SHOCK_PUSH] = (float4)((float)PARTNER_WALL(0), -1.0f, 0.0f, 0.0f);
 	}
 	shocks[SHOCK(id, TUG_POINTS)] = (float4)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY), k.velocity, 0.0f);
-	for (int lane = 0; lane < touching[TOUCH(s, TOUCHING_JOINED)] && point < TUG_POINTS; lane++) {
+	for (int lane = 0; lane < touching[TOUCH(s, TOUCHING_FIRM)] && point < TUG_POINTS; lane++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, lane);
 		int partner = (int)at[4 * FOUR_PARTNER], party = partner >= 0 ? party_of(members, owners, partner, all) : -1;
 		if (joints_meet(shocks, party, s, id))

@@ -9,8 +9,6 @@
 #include "step/events.h"
 
 #define MOST_JOINTS (1u << 24)
-#define FARTHEST_ANCHOR 1e9f /* m */
-#define SHORTEST_PART 0.01f  /* of the bodies' radii, a rod */
 
 size_t carom_joint_count(const carom_world *world)
 {
@@ -24,6 +22,36 @@ static carom_status no_memory(size_t count, carom_error *error)
 	return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to move %zu joints", count);
 }
 
+static float kind_of(carom_joint_kind kind)
+{
+	return kind == CAROM_REVOLUTE ? JOINT_PIN : kind == CAROM_DISTANCE ? JOINT_ROD : kind == CAROM_ROPE ? JOINT_ROPE : JOINT_SPRING;
+}
+
+/* How much a force at an anchor moves it, at most. */
+static double gives_at(const carom_world *world, int32_t body, carom_vec2 anchor)
+{
+	if (body == CAROM_GROUND)
+		return 0;
+	const carom_body *own = &carom_world_bodies(world)[body];
+	const double x = (double)anchor.x, y = (double)anchor.y;
+	return 1 / (double)own->mass + (x * x + y * y) / (double)own->inertia;
+}
+
+static void fill_drive(const carom_world *world, const carom_joint *joint, float *drive)
+{
+	const double lower = (double)joint->lower_angle, upper = (double)joint->upper_angle;
+	if (joint->kind == CAROM_SPRING) {
+		drive[SPRING_STIFFNESS] = joint->stiffness;
+		drive[SPRING_DAMPING] = joint->damping;
+		drive[SPRING_GIVES] = (float)(gives_at(world, (int32_t)joint->body, joint->anchor) + gives_at(world, joint->other, joint->other_anchor));
+		return;
+	}
+	drive[DRIVE_SPEED] = joint->motor_speed;
+	drive[DRIVE_TORQUE] = joint->motor_torque;
+	drive[DRIVE_MIDDLE] = joint->has_stops ? (float)(0.5 * (lower + upper)) : 0.0f;
+	drive[DRIVE_HALF] = joint->has_stops ? (float)(0.5 * (upper - lower)) : -1.0f;
+}
+
 static void fill_records(const carom_world *world, float *records)
 {
 	const carom_joint *joints = world->joints.items;
@@ -31,10 +59,13 @@ static void fill_records(const carom_world *world, float *records)
 		float *parties = records + 4 * JOINT_PARTIES, *anchors = records + 4 * JOINT_ANCHORS;
 		parties[JOINT_BODY] = (float)joints[k].body;
 		parties[JOINT_OTHER] = (float)joints[k].other;
-		parties[JOINT_LENGTH] = joints[k].kind == CAROM_DISTANCE ? joints[k].length : -1.0f;
+		parties[JOINT_LENGTH] = joints[k].length;
+		parties[JOINT_KIND] = kind_of(joints[k].kind);
 		memcpy(anchors, &joints[k].anchor, sizeof joints[k].anchor);
 		memcpy(anchors + 2, &joints[k].other_anchor, sizeof joints[k].other_anchor);
-		memcpy(records + 4 * JOINT_FORCES, joints[k].force, sizeof joints[k].force);
+		memcpy(records + 4 * JOINT_FORCES + JOINT_FORCE, joints[k].force, sizeof joints[k].force);
+		memcpy(records + 4 * JOINT_FORCES + JOINT_TORQUE, joints[k].torque, sizeof joints[k].torque);
+		fill_drive(world, &joints[k], records + 4 * JOINT_DRIVE);
 	}
 }
 
@@ -123,8 +154,11 @@ carom_status carom_joints_fetch(carom_world *world, carom_error *error)
 		return no_memory(count, error);
 	const carom_status status = world->device->kind->download(world->device, world->textures[ROLE_JOINTS].front, carom_row_count(records), texels,
 		error);
-	for (size_t k = 0; !status && k < count; k++)
-		memcpy(joints[k].force, texels + 4 * (JOINT_WIDTH * k + JOINT_FORCES), sizeof joints[k].force);
+	for (size_t k = 0; !status && k < count; k++) {
+		const float *forces = texels + 4 * (JOINT_WIDTH * k + JOINT_FORCES);
+		memcpy(joints[k].force, forces + JOINT_FORCE, sizeof joints[k].force);
+		memcpy(joints[k].torque, forces + JOINT_TORQUE, sizeof joints[k].torque);
+	}
 	free(texels);
 	return status;
 }
@@ -169,52 +203,6 @@ carom_status carom_world_get_joints(carom_world *world, size_t first, size_t cou
 	return CAROM_OK;
 }
 
-static carom_status check_parties(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error)
-{
-	const carom_body *bodies = carom_world_bodies(world);
-	if ((int)joint->kind != CAROM_REVOLUTE && (int)joint->kind != CAROM_DISTANCE)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].kind: found %d, must be CAROM_REVOLUTE or CAROM_DISTANCE", k, (int)joint->kind);
-	if (joint->body >= world->body_count)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].body: found %u, the world has %zu bodies", k, joint->body, world->body_count);
-	if (joint->other != CAROM_GROUND && (joint->other < 0 || (size_t)joint->other >= world->body_count || (uint32_t)joint->other == joint->body))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].other: found %d, must be the index of another one of %zu bodies", k,
-			(int)joint->other, world->body_count);
-	if (!carom_is_dynamic(&bodies[joint->body]) && (joint->other == CAROM_GROUND || !carom_is_dynamic(&bodies[joint->other])))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu]: one of the two must be dynamic, and body %u is %s", k, joint->body,
-			bodies[joint->body].is_static ? "static" : "kinematic");
-	return CAROM_OK;
-}
-
-static bool may_be_anchor(carom_vec2 v)
-{
-	return fabsf(v.x) <= FARTHEST_ANCHOR && fabsf(v.y) <= FARTHEST_ANCHOR;
-}
-
-/* A shorter rod has no way that it is sure of. */
-static float least_length(const carom_world *world, const carom_joint *joint)
-{
-	const carom_body *bodies = carom_world_bodies(world);
-	return SHORTEST_PART * (bodies[joint->body].bound + (joint->other == CAROM_GROUND ? 0.0f : bodies[joint->other].bound));
-}
-
-static carom_status check_numbers(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error)
-{
-	const carom_vec2 anchors[] = {joint->anchor, joint->other_anchor};
-	static const char *const anchor_names[] = {"anchor", "other_anchor"};
-	for (int side = 0; side < 2; side++)
-		if (!may_be_anchor(anchors[side]))
-			return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].%s: found (%g, %g), must be two numbers from -1e9 to 1e9 (m)", k,
-				anchor_names[side], (double)anchors[side].x, (double)anchors[side].y);
-	if (joint->kind == CAROM_DISTANCE && !(joint->length >= least_length(world, joint) && joint->length <= FARTHEST_ANCHOR))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT,
-			"joints[%zu].length: found %g, must be a number from %g, a hundredth of the bodies' radii, to 1e9 (m); where it is not given it is from "
-			"anchor to other_anchor",
-			k, (double)joint->length, (double)least_length(world, joint));
-	if (!isfinite(joint->force[0]) || !isfinite(joint->force[1]))
-		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].force: must be two finite numbers (N)", k);
-	return CAROM_OK;
-}
-
 /* The state of a body; of the world, NULL. */
 static carom_status state_of(carom_world *world, int32_t body, carom_body_state *room, const carom_body_state **state, carom_error *error)
 {
@@ -237,13 +225,15 @@ static carom_status complete(carom_world *world, carom_joint *joint, carom_error
 		const double dx = x - (other ? (double)other->position.x : 0), dy = y - (other ? (double)other->position.y : 0);
 		joint->other_anchor = (carom_vec2){(float)(c * dx + s * dy), (float)(c * dy - s * dx)};
 	}
-	if (joint->kind != CAROM_DISTANCE) {
+	if (!joint->has_stops)
+		joint->lower_angle = joint->upper_angle = 0.0f;
+	if (joint->kind == CAROM_REVOLUTE) {
 		joint->length = 0.0f;
 		return CAROM_OK;
 	}
 	carom_anchor_place(other, joint->other_anchor, &other_x, &other_y);
 	joint->length = isnan(joint->length) ? (float)sqrt((x - other_x) * (x - other_x) + (y - other_y) * (y - other_y)) : joint->length;
-	joint->force[1] = 0.0f;
+	joint->force[1] = joint->torque[0] = joint->torque[1] = 0.0f;
 	return CAROM_OK;
 }
 
@@ -252,9 +242,9 @@ static carom_status check_all(carom_world *world, size_t count, carom_joint *joi
 	if (world->step != &carom_step_contacts)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints: the step %s holds none; take the step contacts", world->step->name);
 	for (size_t k = 0; k < count; k++) {
-		TRY(check_parties(world, k, &joints[k], error));
+		TRY(carom_joint_check_parties(world, k, &joints[k], error));
 		TRY(complete(world, &joints[k], error));
-		TRY(check_numbers(world, k, &joints[k], error));
+		TRY(carom_joint_check_numbers(world, k, &joints[k], error));
 	}
 	return CAROM_OK;
 }

@@ -1,4 +1,4 @@
-/* The rods of a picture: lines below the bodies, cut where their view ends.
+/* The rods, ropes and springs of a picture: lines below the bodies, cut where their view ends.
  * SPDX-License-Identifier: MIT */
 #include "anchor.h"
 #include "canvas.h"
@@ -61,7 +61,7 @@ carom_status carom_rods_draw(carom_world *world, size_t layer_count, carom_layer
 		status = carom_world_get_states(world, 0, bodies, states, error);
 	for (size_t i = 0; status == CAROM_OK && i < layer_count; i++)
 		for (size_t k = 0; k < count; k++)
-			if (joints[k].kind == CAROM_DISTANCE)
+			if (joints[k].kind != CAROM_REVOLUTE)
 				draw_rod(&layers[i], &joints[k], states);
 	free(joints);
 	free(states);

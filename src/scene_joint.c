@@ -7,17 +7,18 @@
 
 static const struct scene_range index_of_body = {0, INT32_MAX, false, "the index of another body"};
 
-#define KINDS "\"revolute\" or \"distance\""
+#define KINDS "\"revolute\", \"distance\", \"rope\" or \"spring\""
 
 struct joint {
 	carom_joint joint;
 	const char *kind;
-	uint32_t other; /* UINT32_MAX: a place in the world */
+	uint32_t other;     /* UINT32_MAX: a place in the world */
+	float lower, upper; /* rad, of the stops; NaN: none */
 };
 
 static struct joint begin(const carom_scene *scene)
 {
-	struct joint joint = {carom_default_joint(), NULL, UINT32_MAX};
+	struct joint joint = {carom_default_joint(), NULL, UINT32_MAX, NAN, NAN};
 	joint.joint.body = (uint32_t)scene->body_count;
 	return joint;
 }
@@ -33,10 +34,28 @@ static bool fit_kind(const char *name, carom_joint_kind *kind)
 	return false;
 }
 
-/* A pin has no length. */
-static bool is_whole(const struct joint *joint)
+/* A key that can't be there, and why; NULL: all may be. */
+static const char *find_misplaced(const struct joint *joint, const char **why)
 {
-	return joint->joint.kind == CAROM_DISTANCE || isnan(joint->joint.length);
+	const carom_joint *given = &joint->joint;
+	const bool is_pin = given->kind == CAROM_REVOLUTE, is_spring = given->kind == CAROM_SPRING;
+	const char *const stop = !isnan(joint->lower) ? "lower_angle" : !isnan(joint->upper) ? "upper_angle" : NULL;
+	*why = is_pin ? "only with \"distance\", \"rope\" or \"spring\"" : "only with \"revolute\"";
+	if (is_pin && !isnan(given->length))
+		return "length";
+	if (!is_pin && given->motor_speed != 0.0f)
+		return "motor_speed";
+	if (!is_pin && given->motor_torque != 0.0f)
+		return "motor_torque";
+	if (!is_pin && stop)
+		return stop;
+	*why = "only with \"spring\"";
+	if (!is_spring && given->stiffness != 0.0f)
+		return "stiffness";
+	if (!is_spring && given->damping != 0.0f)
+		return "damping";
+	*why = "lower_angle and upper_angle, or neither";
+	return isnan(joint->lower) != isnan(joint->upper) ? stop : NULL;
 }
 
 static const struct scene_field fields[] = {
@@ -45,8 +64,15 @@ static const struct scene_field fields[] = {
 	{"anchor", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.anchor), &scene_any, false},
 	{"other_anchor", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.other_anchor), &scene_any, false},
 	{"length", scene_read_number, scene_quick_number, offsetof(struct joint, joint.length), &scene_positive, false},
+	{"stiffness", scene_read_number, scene_quick_number, offsetof(struct joint, joint.stiffness), &scene_damping, false},
+	{"damping", scene_read_number, scene_quick_number, offsetof(struct joint, joint.damping), &scene_damping, false},
+	{"motor_speed", scene_read_number, scene_quick_number, offsetof(struct joint, joint.motor_speed), &scene_any, false},
+	{"motor_torque", scene_read_number, scene_quick_number, offsetof(struct joint, joint.motor_torque), &scene_damping, false},
+	{"lower_angle", scene_read_number, scene_quick_number, offsetof(struct joint, lower), &scene_any, false},
+	{"upper_angle", scene_read_number, scene_quick_number, offsetof(struct joint, upper), &scene_any, false},
 	{"collides", scene_read_flag, scene_quick_flag, offsetof(struct joint, joint.collides), NULL, false},
 	{"force", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.force), &scene_any, false},
+	{"torque", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.torque), &scene_any, false},
 	SCENE_LAST_FIELD,
 };
 
@@ -56,8 +82,11 @@ static bool add(carom_scene *scene, const struct joint *joint)
 	if (!joints)
 		return false;
 	scene->joints = joints;
-	joints[scene->joint_count] = joint->joint;
-	joints[scene->joint_count++].other = joint->other == UINT32_MAX ? CAROM_GROUND : (int32_t)joint->other;
+	carom_joint *added = &joints[scene->joint_count++];
+	*added = joint->joint;
+	added->other = joint->other == UINT32_MAX ? CAROM_GROUND : (int32_t)joint->other;
+	if (!isnan(joint->lower))
+		added->has_stops = true, added->lower_angle = joint->lower, added->upper_angle = joint->upper;
 	return true;
 }
 
@@ -72,15 +101,18 @@ static carom_status read_one(struct scene_reader *reader, const struct scene_pla
 		return status;
 	if (!fit_kind(joint.kind, &joint.joint.kind))
 		return scene_fail(reader, &(struct scene_place){place, "kind", 0}, "found \"%.40s\"; allowed: " KINDS, joint.kind);
-	if (!is_whole(&joint))
-		return scene_fail(reader, &(struct scene_place){place, "length", 0}, "found with \"%s\"; allowed: only with \"distance\"", joint.kind);
+	const char *why, *misplaced = find_misplaced(&joint, &why);
+	if (misplaced)
+		return scene_fail(reader, &(struct scene_place){place, misplaced, 0}, "found with \"%s\"; allowed: %s", joint.kind, why);
 	return add(reader->scene, &joint) ? CAROM_OK : scene_fail_memory(reader);
 }
 
 static bool quick_one(struct scene_text *text)
 {
 	struct joint joint = begin(text->scene);
-	return scene_quick_object(text, &joint, fields) && fit_kind(joint.kind, &joint.joint.kind) && is_whole(&joint) && add(text->scene, &joint);
+	const char *why;
+	return scene_quick_object(text, &joint, fields) && fit_kind(joint.kind, &joint.joint.kind) && !find_misplaced(&joint, &why)
+		&& add(text->scene, &joint);
 }
 
 carom_status scene_read_joints(struct scene_reader *reader, const struct scene_place *place, const json_t *value, void *target,

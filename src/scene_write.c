@@ -68,11 +68,18 @@ static void put_joints(FILE *stream, const carom_joint *joints, size_t count)
 		scene_put_pair_key(stream, "anchor", joint->anchor, none);
 		fputs(", \"other_anchor\": ", stream);
 		scene_put_pair(stream, joint->other_anchor);
-		if (joint->kind == CAROM_DISTANCE)
+		if (joint->kind != CAROM_REVOLUTE)
 			scene_put_number_key(stream, "length", joint->length, NAN);
+		scene_put_number_key(stream, "stiffness", joint->stiffness, 0);
+		scene_put_number_key(stream, "damping", joint->damping, 0);
+		scene_put_number_key(stream, "motor_speed", joint->motor_speed, 0);
+		scene_put_number_key(stream, "motor_torque", joint->motor_torque, 0);
+		scene_put_number_key(stream, "lower_angle", joint->lower_angle, joint->has_stops ? NAN : 0);
+		scene_put_number_key(stream, "upper_angle", joint->upper_angle, joint->has_stops ? NAN : 0);
 		if (joint->collides)
 			fputs(", \"collides\": true", stream);
 		scene_put_pair_key(stream, "force", (carom_vec2){joint->force[0], joint->force[1]}, none);
+		scene_put_pair_key(stream, "torque", (carom_vec2){joint->torque[0], joint->torque[1]}, none);
 		putc('}', stream);
 	}
 	if (count > 0)

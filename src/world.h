@@ -266,6 +266,9 @@ carom_status carom_contacts_grow(carom_world *world, carom_error *error);
 carom_status carom_joints_send(carom_world *world, carom_error *error);
 carom_status carom_joints_fetch(carom_world *world, carom_error *error);
 size_t carom_joint_count(const carom_world *world);
+/* joint_check.c: whom joint number k may hold; and once all is said, by which numbers */
+carom_status carom_joint_check_parties(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error);
+carom_status carom_joint_check_numbers(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error);
 /* Those of bodies that go, as `numbers` says, go with them; see remove.c. */
 void carom_joints_close(carom_world *world, const uint32_t *numbers, uint32_t gone);
 /* joined_pairs.c: those of so many joints; false if there is no memory, which is never so where they get fewer */

@@ -35,6 +35,22 @@ void joined_set(carom_world *world, size_t count, const carom_joint *joints)
 	scenery_check(carom_world_set_joints(world, count, joints, &error), &error);
 }
 
+carom_joint joined_get(carom_world *world, size_t k)
+{
+	carom_joint joint;
+	carom_error error;
+	scenery_check(carom_world_get_joints(world, k, 1, &joint, &error), &error);
+	return joint;
+}
+
+carom_body_info joined_info(carom_world *world, uint32_t body)
+{
+	carom_body_info info;
+	carom_error error;
+	scenery_check(carom_world_get_body(world, body, &info, &error), &error);
+	return info;
+}
+
 static void place(carom_world *world, int32_t body, carom_vec2 anchor, double *x, double *y)
 {
 	carom_body_state state = {.angle = 0.0f};
@@ -50,10 +66,8 @@ double joined_slack(carom_world *world)
 {
 	double worst = 0.0;
 	for (size_t k = 0; k < carom_world_joint_count(world); k++) {
-		carom_joint joint;
-		carom_error error;
+		const carom_joint joint = joined_get(world, k);
 		double x, y, other_x, other_y;
-		scenery_check(carom_world_get_joints(world, k, 1, &joint, &error), &error);
 		place(world, (int32_t)joint.body, joint.anchor, &x, &y);
 		place(world, joint.other, joint.other_anchor, &other_x, &other_y);
 		worst = fmax(worst, fabs(hypot(x - other_x, y - other_y) - (double)joint.length));

@@ -14,9 +14,7 @@ static double energy(carom_world *world)
 
 static double force_of(carom_world *world, size_t k)
 {
-	carom_joint joint;
-	carom_error error;
-	scenery_check(carom_world_get_joints(world, k, 1, &joint, &error), &error);
+	const carom_joint joint = joined_get(world, k);
 	return hypot((double)joint.force[0], (double)joint.force[1]);
 }
 

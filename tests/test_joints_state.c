@@ -24,8 +24,20 @@ static carom_world *tangle(const scenery_device *device, uint64_t seed)
 		if (bodies[i].is_static)
 			continue;
 		joints[count] = joined_pin(i, other, scenery_uniform(&random, -0.5f, 0.5f), 0.2f);
+		if (i % 4 == 0) {
+			joints[count].motor_speed = (float)(i % 3) - 1.0f;
+			joints[count].motor_torque = 2.0f;
+		}
+		if (i % 6 < 3) {
+			joints[count].has_stops = true;
+			joints[count].lower_angle = -2.0f;
+			joints[count].upper_angle = 1.5f;
+		}
 		if (i % 2) {
-			joints[count].kind = CAROM_DISTANCE;
+			joints[count].kind = i % 10 == 5 ? CAROM_ROPE : i % 10 == 9 ? CAROM_SPRING : CAROM_DISTANCE;
+			joints[count].stiffness = i % 10 == 9 ? 50.0f : 0.0f;
+			joints[count].damping = i % 10 == 9 ? 1.5f : 0.0f;
+			joints[count].has_stops = false;
 			joints[count].other_anchor = other == CAROM_GROUND ? (carom_vec2){0.0f, 11.0f} : (carom_vec2){0.1f, 0.0f};
 		}
 		joints[count].collides = i % 3 == 0;
@@ -53,6 +65,10 @@ static void what_is_written_goes_on(void **unused)
 		scenery_check(carom_scene_text_create(world, NULL, &text, &length, &error), &error);
 		assert_non_null(strstr(text, "{\"kind\": \"revolute\", "));
 		assert_non_null(strstr(text, "\"collides\": true"));
+		assert_non_null(strstr(text, "{\"kind\": \"rope\", "));
+		assert_non_null(strstr(text, "\"stiffness\": 50, \"damping\": 1.5"));
+		assert_non_null(strstr(text, "\"motor_torque\": 2"));
+		assert_non_null(strstr(text, "\"lower_angle\": -2, \"upper_angle\": 1.5"));
 		scenery_check(carom_scene_parse(text, length, NULL, &scene, &error), &error);
 		carom_scene_text_destroy(text);
 		assert_int_equal(scene->joint_count, carom_world_joint_count(world));
@@ -178,7 +194,21 @@ static void wrong_joints_are_errors(void **unused)
 		{"joints[1].other_anchor: found (0, inf)", {.body = 1, .other = 0, .other_anchor = {0.0f, INFINITY}}},
 		{"joints[1].length: found 0.001, must be a number from 0.01", {.kind = CAROM_DISTANCE, .body = 1, .length = 0.001f}},
 		{"joints[1].length: found inf", {.kind = CAROM_DISTANCE, .body = 1, .length = INFINITY}},
+		{"joints[1].length: found -1, must be a number from 0, to 1e9", {.kind = CAROM_SPRING, .body = 1, .length = -1.0f, .stiffness = 1.0f}},
+		{"joints[1].stiffness: a spring must have that, or damping, above 0", {.kind = CAROM_SPRING, .body = 1, .length = 1.0f}},
+		{"joints[1].stiffness: only a joint of kind CAROM_SPRING has it", {.kind = CAROM_ROPE, .body = 1, .length = 1.0f, .stiffness = 1.0f}},
+		{"joints[1].damping: found -1, must be a number from 0 to 1e+12 (N s/m)",
+			{.kind = CAROM_SPRING, .body = 1, .length = 1.0f, .damping = -1.0f}},
+		{"joints[1].motor_speed: found nan, must be a number from -1e+09 to 1e+09 (rad/s)", {.body = 1, .motor_speed = NAN}},
+		{"joints[1].motor_torque: found -2, must be", {.body = 1, .motor_torque = -2.0f}},
+		{"joints[1].motor_torque: only a joint of kind CAROM_REVOLUTE has it",
+			{.kind = CAROM_DISTANCE, .body = 1, .length = 1.0f, .motor_torque = 2.0f}},
+		{"joints[1].has_stops: only a joint of kind CAROM_REVOLUTE has it", {.kind = CAROM_ROPE, .body = 1, .length = 1.0f, .has_stops = true}},
+		{"joints[1].lower_angle: found nan, must be", {.body = 1, .has_stops = true, .lower_angle = NAN}},
+		{"joints[1].upper_angle: found 7, must be a number from -6.28319 to 6.28319 (rad)", {.body = 1, .has_stops = true, .upper_angle = 7.0f}},
+		{"joints[1].upper_angle: found 1, must be from lower_angle (2) on", {.body = 1, .has_stops = true, .lower_angle = 2.0f, .upper_angle = 1.0f}},
 		{"joints[1].force: must be two finite numbers (N)", {.body = 1, .other = 0, .force = {0.0f, NAN}}},
+		{"joints[1].torque: must be two finite numbers (N m)", {.body = 1, .other = 0, .torque = {INFINITY, 0.0f}}},
 	};
 	carom_body_def bodies[3] = {
 		scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(2.0f, 0.0f, 0.0f, 0.0f, 0.5f), scenery_circle(4.0f, 0.0f, 0.0f, 0.0f, 0.5f)};

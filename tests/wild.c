@@ -262,12 +262,23 @@ static void join(carom_world *world, uint32_t step, uint32_t count)
 	scenery_check(carom_world_get_joints(world, 0, has, joints, &error), &error);
 	has = has < sizeof joints / sizeof *joints ? has : 0;
 	joints[has] = carom_default_joint();
-	joints[has].kind = step % 2 ? CAROM_DISTANCE : CAROM_REVOLUTE;
+	joints[has].kind = (carom_joint_kind)(step % 4);
 	joints[has].body = 5 * step % count;
 	joints[has].other = step % 11 == 4 ? CAROM_GROUND : (int32_t)((5 * step + 1) % count);
 	joints[has].collides = step % 3 == 0;
-	if (joints[has].kind == CAROM_DISTANCE && step % 11 == 4)
+	if (joints[has].kind != CAROM_REVOLUTE && step % 11 == 4)
 		joints[has].other_anchor = (carom_vec2){0.0f, 0.0f};
+	if (joints[has].kind == CAROM_SPRING) {
+		joints[has].stiffness = step % 9 ? 20.0f : 1e5f;
+		joints[has].damping = (float)(step % 5);
+	}
+	if (joints[has].kind == CAROM_REVOLUTE) {
+		joints[has].motor_speed = 2.0f - (float)(step % 5);
+		joints[has].motor_torque = step % 3 ? 2.0f : 0.0f;
+		joints[has].has_stops = step % 7 < 4;
+		joints[has].lower_angle = -(float)(step % 3);
+		joints[has].upper_angle = (float)(step % 5);
+	}
 	if (carom_world_set_joints(world, has + 1, joints, &error)) /* neither moves, or they are at one place */
 		assert_int_equal(error.status, CAROM_INVALID_ARGUMENT);
 }

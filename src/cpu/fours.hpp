@@ -32,6 +32,7 @@ inline void take_fours(const std::vector<RestingBody> &bodies, Touching *touchin
 			own.first = first, own.room = room, own.made = status[STATUS_MADE];
 		own.count = room > 0 && !has_room ? 0 : body.points;
 		own.joined = own.count > 0 ? body.joined : 0;
+		own.firm = own.count > 0 ? body.firm : 0;
 		first += room;
 	}
 }

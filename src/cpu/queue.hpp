@@ -276,7 +276,7 @@ private:
 		return true;
 	}
 
-	bool is_joined(int32_t id) const { return id >= 0 && joints.touching[clusters.active[id]].joined > 0; }
+	bool is_joined(int32_t id) const { return id >= 0 && joints.touching[clusters.active[id]].firm > 0; }
 
 	/* What the hit of these two did passes on to what is joined with them; false if the cluster has to be given up. */
 	bool tug(int32_t id, int32_t other_id, int32_t partner, T u, const Answered &answered)

@@ -107,7 +107,7 @@ template <typename T> struct Nearness {
 
 /* A slot, and which of the contacts that were found are its body's. */
 struct RestingBody {
-	int32_t s, joined, points; /* joined: of the points, the first ones, those of joints */
+	int32_t s, joined, firm, points; /* joined: of the points, the first ones, those of joints; firm: of these, likewise, that hold anchors */
 	size_t first, end;
 };
 
@@ -126,7 +126,7 @@ public:
 		const Nearness<T> nearness;
 		first = found.size();
 		if (slot.is_static())
-			return {s, 0, 0, first, first};
+			return {s, 0, 0, 0, first, first};
 		if (is_dynamic && !(is_awake && clusters.stays_inside(s, Trajectory<T>(slot), T(1))))
 			walls(slot, Trajectory<T>(slot), nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
@@ -138,7 +138,7 @@ public:
 			else if (sleepers.sleeps(other))
 				sleepers.disturb(other);
 		});
-		RestingBody body{s, 0, 0, first, found.size()};
+		RestingBody body{s, 0, 0, 0, first, found.size()};
 		for (size_t k = first; k < found.size(); k++) {
 			body.points += found[k].written();
 			if (const Partner partner = found[k].partner; is_awake && partner.moves() && sleepers.sleeps(partner.slot()))

@@ -8,9 +8,9 @@
 
 namespace carom::cpu {
 
-/* In Touching, how many points; a list; what layout.h says of each island, at its root, and of sleep; where the points are, and how many are of joints. */
+/* In Touching, how many points; a list; what layout.h says of each island, at its root, and of sleep; where the points are, and how many are of joints, and hold anchors. */
 struct Touching {
-	int32_t count, slot, wanted, restless, asleep, footing, first, room, made, carrier, joined;
+	int32_t count, slot, wanted, restless, asleep, footing, first, room, made, carrier, joined, firm;
 };
 
 static_assert(sizeof(Touching) == TOUCHING_WIDTH * sizeof(int32_t), "touching");

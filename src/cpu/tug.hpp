@@ -143,7 +143,7 @@ private:
 		const Pushed<T> now(slot, way);
 		parties[k] = {now, id, taken, 0, way.held > 0, now};
 		count++;
-		for (int32_t lane = 0; lane < touching[s].joined && parties[k].points < TUG_POINTS - others; lane++) {
+		for (int32_t lane = 0; lane < touching[s].firm && parties[k].points < TUG_POINTS - others; lane++) {
 			const Points<T> &four = lanes[touching[s].first + lane / lane_count];
 			const int32_t i = lane % lane_count;
 			const Partner partner(four.partner[i]);

@@ -40,8 +40,7 @@ void calls_same(calls *c, snapshot before)
 	FUZZ_EXPECT(now.count == before.count && now.time == before.time && now.hash == before.hash);
 }
 
-/* An index that may be one too many, or far too many. */
-static uint32_t any_index(calls *c)
+uint32_t calls_index(calls *c)
 {
 	const uint32_t index = bytes_below(&c->bytes, MOST_BODIES + 2);
 	return bytes_chance(&c->bytes, 16) ? UINT32_MAX - index : index;
@@ -109,7 +108,7 @@ static void get_body(calls *c)
 {
 	carom_body_info info = {.radius = 12345};
 	carom_error error = fuzz_blank();
-	const uint32_t index = any_index(c);
+	const uint32_t index = calls_index(c);
 	if (!calls_judge(c, carom_world_get_body(*c->slot, index, &info, &error), &error)) {
 		FUZZ_EXPECT(info.radius == 12345 && index >= carom_world_body_count(*c->slot));
 		return;
@@ -128,7 +127,7 @@ static void get_states(calls *c)
 {
 	carom_body_state states[MOST_BODIES + 1] = {{.angle = 12345}};
 	carom_error error = fuzz_blank();
-	const uint32_t first = any_index(c);
+	const uint32_t first = calls_index(c);
 	const size_t count = bytes_below(&c->bytes, MOST_BODIES + 2);
 	if (calls_judge(c, carom_world_get_states(*c->slot, first, count, states, &error), &error)) {
 		calls_note(c, states, count * sizeof *states);
@@ -142,7 +141,7 @@ static void set_states(calls *c)
 {
 	carom_body_state states[4];
 	carom_error error = fuzz_blank();
-	const uint32_t first = any_index(c);
+	const uint32_t first = calls_index(c);
 	const size_t count = bytes_below(&c->bytes, COUNT(states) + 1);
 	const snapshot before = calls_look(c);
 	for (size_t k = 0; k < count; k++)
@@ -176,7 +175,7 @@ static void set_contacts(calls *c)
 	const snapshot before = calls_look(c);
 	size_t now = 0;
 	for (size_t k = 0; k < count; k++) {
-		contacts[k] = (carom_contact){.body = any_index(c), .other = (int32_t)any_index(c) - 4};
+		contacts[k] = (carom_contact){.body = calls_index(c), .other = (int32_t)calls_index(c) - 4};
 		for (int point = 0; point < 2; point++) {
 			contacts[k].normal[point] = c->bytes.tame ? bytes_between(&c->bytes, 0, 50) : bytes_wild(&c->bytes);
 			contacts[k].friction[point] = c->bytes.tame ? bytes_between(&c->bytes, -50, 50) : bytes_wild(&c->bytes);
@@ -187,42 +186,10 @@ static void set_contacts(calls *c)
 	calls_same(c, before);
 }
 
-/* What is set can be read, and set again; else nothing is changed. */
-static void set_joints(calls *c)
-{
-	carom_joint joints[3], now[COUNT(joints)], again[COUNT(joints)];
-	carom_error error = fuzz_blank();
-	const size_t count = bytes_below(&c->bytes, COUNT(joints) + 1), had = carom_world_joint_count(*c->slot);
-	const snapshot before = calls_look(c);
-	for (size_t k = 0; k < count; k++) {
-		joints[k] = carom_default_joint();
-		joints[k].kind = (carom_joint_kind)bytes_below(&c->bytes, c->bytes.tame ? 2 : 4);
-		joints[k].body = any_index(c);
-		joints[k].other = (int32_t)any_index(c) - 1;
-		joints[k].collides = bytes_below(&c->bytes, 2) > 0;
-		joints[k].anchor.x = c->bytes.tame ? bytes_between(&c->bytes, -2, 2) : bytes_wild(&c->bytes);
-		if (bytes_below(&c->bytes, 2) > 0)
-			joints[k].length = c->bytes.tame ? bytes_between(&c->bytes, 1, 3) : bytes_wild(&c->bytes);
-		joints[k].force[0] = c->bytes.tame ? bytes_between(&c->bytes, -50, 50) : bytes_wild(&c->bytes);
-	}
-	if (!calls_judge(c, carom_world_set_joints(*c->slot, count, joints, &error), &error)) {
-		FUZZ_EXPECT(carom_world_joint_count(*c->slot) == had);
-		calls_same(c, before);
-		return;
-	}
-	FUZZ_EXPECT(carom_world_joint_count(*c->slot) == count);
-	FUZZ_EXPECT(carom_world_get_joints(*c->slot, 0, count, now, NULL) == CAROM_OK);
-	FUZZ_EXPECT(carom_world_get_joints(*c->slot, 0, count + 1, again, NULL) == CAROM_INVALID_ARGUMENT);
-	FUZZ_EXPECT(carom_world_set_joints(*c->slot, count, now, NULL) == CAROM_OK);
-	FUZZ_EXPECT(carom_world_get_joints(*c->slot, 0, count, again, NULL) == CAROM_OK);
-	FUZZ_EXPECT(count == 0 || memcmp(now, again, count * sizeof *now) == 0);
-	calls_same(c, before);
-}
-
 static void set_force(calls *c)
 {
 	carom_error error = fuzz_blank();
-	const uint32_t index = any_index(c);
+	const uint32_t index = calls_index(c);
 	const bool tame = c->bytes.tame;
 	const carom_vec2 force = {tame ? bytes_between(&c->bytes, -50, 50) : bytes_wild(&c->bytes), 0};
 	const snapshot before = calls_look(c);
@@ -346,7 +313,7 @@ static void remove_some(calls *c)
 	const size_t count = bytes_below(&c->bytes, COUNT(indices) + 1);
 	const snapshot before = calls_look(c);
 	for (size_t k = 0; k < count; k++)
-		indices[k] = any_index(c);
+		indices[k] = calls_index(c);
 	if (!calls_judge(c, carom_world_remove(*c->slot, indices, count, &error), &error)) {
 		FUZZ_EXPECT(strncmp(error.text, "indices[", 8) == 0);
 		calls_same(c, before);
@@ -367,7 +334,7 @@ static void change(calls *c)
 		FUZZ_EXPECT(carom_world_get_def(*c->slot)->time_step == def.time_step);
 	error = fuzz_blank();
 	carom_body_info info;
-	const uint32_t index = any_index(c), categories = bytes_byte(&c->bytes), mask = bytes_byte(&c->bytes);
+	const uint32_t index = calls_index(c), categories = bytes_byte(&c->bytes), mask = bytes_byte(&c->bytes);
 	if (calls_judge(c, carom_world_set_filter(*c->slot, index, categories, mask, &error), &error))
 		FUZZ_EXPECT(!carom_world_get_body(*c->slot, index, &info, NULL) && info.categories == categories && info.mask == mask);
 }
@@ -383,7 +350,7 @@ static const call all[] = {{create, false}, {add, true}, {add, true}, {add, true
 	{calls_step, true}, {calls_advance, true}, {calls_advance_to, true}, {calls_break_off, true}, {get_body, true}, {get_states, true},
 	{set_states, true}, {set_force, true}, {measure, true}, {calls_render, true}, {calls_scene, true}, {destroy, true}, {add_too_many, true},
 	{calls_parse, false}, {calls_png, false}, {calls_file, false}, {set_pipeline, false}, {list, false}, {ask, false}, {set_contacts, true},
-	{get_contacts, true}, {remove_some, true}, {change, true}, {ask_where, true}, {set_joints, true}};
+	{get_contacts, true}, {remove_some, true}, {change, true}, {ask_where, true}, {calls_set_joints, true}};
 
 void calls_make(calls *c)
 {

@@ -2,6 +2,7 @@
 #include "cpu/fours.hpp"
 #include "cpu/islands.hpp"
 #include "cpu/joints.hpp"
+#include "cpu/loose.hpp"
 #include "cpu/response.hpp"
 #include "cpu/still.hpp"
 
@@ -11,12 +12,6 @@
 namespace carom::cpu {
 
 constexpr int32_t chunk = 64; /* slots */
-
-/* How much a force at a point parts it. */
-template <typename T> static T gives(const Slot<T> &slot, T arm)
-{
-	return slot.mass[MASS_INVERSE] + slot.mass[MASS_INVERSE_INERTIA] * (arm * arm);
-}
 
 template <typename T> static void begin(const Job<T> &job)
 {
@@ -82,8 +77,8 @@ template <typename T> static void find(const Job<T> &job)
 			sleepers.islands[s] = s;
 			bodies.push_back(finder.find(s, sleepers));
 			if (joints.has_any()) {
-				bodies.back().joined = count_joined(joints, clusters.slots, places, sleepers, s);
-				bodies.back().points += bodies.back().joined;
+				const JoinedCount joined = count_joined(joints, clusters.slots, places, sleepers, s);
+				bodies.back().joined = joined.all, bodies.back().firm = joined.firm, bodies.back().points += joined.all;
 			}
 		}
 		take_fours(bodies, touching, status);
@@ -159,24 +154,6 @@ template <typename T> static void join(const Job<T> &job)
 	});
 }
 
-/* By how much rates change forces; 0 where there is no point. */
-template <typename T>
-static void set_steps(const Rests<T> &rests, Points<T> &points, Grips<T> &grips, const Slot<T> &slot, T share, const Lanes<T> &others)
-{
-	for (int32_t i = 0; i < lane_count; i++) {
-		const Partner partner(points.partner[i]);
-		const auto step = [&](T arm, T other_arm) {
-			const T own = share * gives(slot, arm);
-			return 1 / (partner.moves() ? own + others[i] * gives(rests.slots[partner.slot()], other_arm) : own);
-		};
-		if (partner.is_none())
-			continue;
-		points.step[i] = step(points.arm[i], points.other_arm[i]);
-		if (rests.rubs)
-			grips.step[i] = step(grips.arm[i], grips.other_arm[i]);
-	}
-}
-
 /* How fast points part, or slide, along a unit vector each. */
 template <typename T>
 [[gnu::always_inline]] static inline void find_rates(const Lanes<T> &x, const Lanes<T> &y, const Lanes<T> &arm, const Lanes<T> &other_arm,
@@ -207,14 +184,16 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 }
 
 /* One iteration of one body, after so many; `anew`: with other steps than the one before. True if another is wanted. */
-template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, Lanes<T> *loads, int32_t s, int32_t now, int32_t done, bool anew)
+template <bool rubs, bool is_loose, typename T>
+static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T> *loads, int32_t s, int32_t now, int32_t done, bool anew)
 {
 	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
 	const T beta = static_cast<T>(done) / static_cast<T>(done + 2);
 	const T closer = rests.impulses || done == 0 ? T(1) : T(CONTACT_CLOSER);
 	Sums<T> next;
-	int32_t joined = rests.touching[s].joined;
+	int32_t firm = rests.touching[s].firm;
+	Loose<T> loose(rests, joints, slot, is_loose ? rests.touching[s].joined - firm : 0, anew);
 	decltype(load < zero) wanted{};
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
@@ -226,11 +205,15 @@ template <bool rubs, typename T> static bool iterate_one(const Rests<T> &rests, 
 		Lanes<T> rate;
 		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
 		rate += points.least;
-		Lanes<T> least{}; /* what pulls, too, has none */
-		for (int32_t i = 0; i < lane_count && joined > 0; i++, joined--)
-			least[i] = -infinite<T>;
-		const Lanes<T> pushed = points.start - rate * points.step, force = least > pushed ? least : pushed;
-		wanted |= (force > least ? magnitude(rate) : -rate) > closer * points.tolerance;
+		Lanes<T> least{}; /* what holds anchors pulls, too */
+		int32_t first = 0;
+		for (; first < lane_count && firm > 0; first++, firm--)
+			least[first] = -infinite<T>;
+		const Lanes<T> pushed = points.start - rate * points.step;
+		Lanes<T> force = least > pushed ? least : pushed, left = force > least ? magnitude(rate) : -rate;
+		if constexpr (is_loose)
+			loose.iterate(points, first, load[LOAD_SHARE], others[LOAD_SHARE], rate, force, left);
+		wanted |= left > closer * points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
 		next.add(slot, points, points.start);
@@ -262,7 +245,10 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 			aim_joined(rests, joints, loads, s, number & 1);
 			loads[LOADS_OF(s) + LOADS_ALONE][LOAD_SHARE] = share_of(rests, s); /* with which the next one has its steps */
 		}
-		if (!iterate_one<rubs>(rests, loads, s, number & 1, done, anew) || is_last)
+		const bool is_loose = rests.touching[s].joined > rests.touching[s].firm;
+		const bool wants = is_loose ? iterate_one<rubs, true>(rests, joints, loads, s, number & 1, done, anew)
+									: iterate_one<rubs, false>(rests, joints, loads, s, number & 1, done, anew);
+		if (!wants || is_last)
 			continue;
 		wanted = true;
 		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);

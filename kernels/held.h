@@ -1,0 +1,297 @@
+/* What joints hold, as points of Contacts that pull as well as push: CONTRACT.md, "contacts", Joints. */
+
+/* What is held at a side: where it is, and how it gets to the end of a way; a place in the world stays. */
+typedef struct held {
+	float2 x, way, lever, last_lever;
+	float angle, turned, radius, inverse_mass, inverse_inertia;
+} held;
+
+held held_place(float2 place)
+{
+	held h;
+	h.x = place;
+	h.way = h.lever = h.last_lever = (float2)(0.0f, 0.0f);
+	h.angle = h.turned = h.radius = h.inverse_mass = h.inverse_inertia = 0.0f;
+	return h;
+}
+
+held held_body(RECORD_IN(slots), int s, float2 anchor)
+{
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), turns = SLOT_LOAD(slots, s, SLOT_TURN), mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	held h = held_place((float2)(CHANNEL(at, LINEAR_X), CHANNEL(at, LINEAR_Y)));
+	h.lever = h.last_lever = turn(rotation_of(CHANNEL(turns, TURN_ANGLE)), anchor);
+	h.angle = CHANNEL(turns, TURN_ANGLE);
+	h.radius = CHANNEL(turns, TURN_RADIUS);
+	h.inverse_mass = CHANNEL(mass, MASS_INVERSE);
+	h.inverse_inertia = CHANNEL(mass, MASS_INVERSE_INERTIA);
+	return h;
+}
+
+/* How far a body gets along an axis in a step: as it moves now, or by what forces make of that. */
+float held_way(float velocity, float length, float load, bool by_velocity)
+{
+	return by_velocity ? velocity * length : 0.5f * (velocity * length + load);
+}
+
+held held_moving(RECORD_IN(slots), RECORD_IN(loads), int s, float2 anchor, int now, float length, bool by_velocity)
+{
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), turns = SLOT_LOAD(slots, s, SLOT_TURN), load = loads[LOADS_OF(s) + now];
+	held h = held_body(slots, s, anchor);
+	h.way = (float2)(held_way(CHANNEL(at, LINEAR_VX), length, load.x, by_velocity), held_way(CHANNEL(at, LINEAR_VY), length, load.y, by_velocity));
+	h.turned = smaller(larger(held_way(CHANNEL(turns, TURN_VELOCITY), length, load.z, by_velocity), -JOINT_TURN), JOINT_TURN);
+	h.last_lever = turn(rotation_of(CHANNEL(turns, TURN_ANGLE) + h.turned), anchor);
+	return h;
+}
+
+/* So that it times the angle is what the anchor gets along n; or as it is in the end. */
+float held_arm(held h, float2 n, bool at_end)
+{
+	if (at_end)
+		return cross2(h.last_lever, n);
+	float2 middle = (float2)(0.5f * (h.lever.x + h.last_lever.x), 0.5f * (h.lever.y + h.last_lever.y));
+	return cross2(middle, n) * (1.0f + (h.turned * h.turned) * (1.0f / 12.0f));
+}
+
+/* How much a force at the anchor turns it. */
+float held_gives(held h)
+{
+	return larger(magnitude(h.lever.x), magnitude(h.lever.y)) * h.inverse_inertia;
+}
+
+/* m, its radius of gyration; 0 of what does not move, or turn. */
+float held_gyration(held h)
+{
+	return h.inverse_inertia > 0.0f ? sqrt(h.inverse_mass / h.inverse_inertia) : 0.0f;
+}
+
+/* How a joint holds the body of a side, seen from the other: along n, by so much. */
+typedef struct hold {
+	float2 n[2];
+	float target[2];
+	float distance, last_distance, straight; /* of the anchors, where they have one; and how much of the two is in the middle */
+	float arm, turned, sign;                 /* m, of what turns; rad, from the middle of the stops */
+} hold;
+
+hold hold_of(RECORD_IN(joints), int side, held own, held other, bool at_end)
+{
+	hold h;
+	float2 first = (float2)((own.x.x - other.x.x) + (own.lever.x - other.lever.x), (own.x.y - other.x.y) + (own.lever.y - other.lever.y));
+	float2 gone = (float2)((own.way.x - other.way.x) + ((own.last_lever.x - own.lever.x) - (other.last_lever.x - other.lever.x)),
+		(own.way.y - other.way.y) + ((own.last_lever.y - own.lever.y) - (other.last_lever.y - other.lever.y)));
+	h.sign = side & 1 ? -1.0f : 1.0f;
+	if (joint_kind(joints, side) == JOINT_PIN) {
+		float angle = side & 1 ? other.angle - own.angle : own.angle - other.angle;
+		h.n[0] = (float2)(h.sign, 0.0f);
+		h.n[1] = (float2)(0.0f, h.sign);
+		h.target[0] = -inner(h.n[0], first);
+		h.target[1] = -inner(h.n[1], first);
+		h.distance = h.last_distance = h.straight = 0.0f;
+		h.arm = h.turned = 0.0f;
+		if (joint_points(joints, side, false) == 0)
+			return h;
+		h.arm = larger(held_gyration(own), held_gyration(other));
+		h.turned = wrapped(angle - CHANNEL(joint_drive(joints, side), DRIVE_MIDDLE));
+		return h;
+	}
+	float2 last = (float2)(first.x + gone.x, first.y + gone.y), twice = at_end ? last : (float2)(first.x + last.x, first.y + last.y);
+	float length = CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), size = norm(twice);
+	h.distance = norm(first);
+	h.last_distance = norm(last);
+	h.n[0] = size > 0.0f ? (float2)(twice.x / size, twice.y / size) : (float2)(h.sign, 0.0f);
+	h.n[1] = (float2)(0.0f, 0.0f);
+	h.target[0] = at_end ? length - h.distance : (length - h.distance) * ((length + h.distance) / larger(size, length));
+	h.target[1] = 0.0f;
+	h.straight = h.distance + h.last_distance > 0.0f ? size / (h.distance + h.last_distance) : 1.0f;
+	h.arm = h.turned = 0.0f;
+	return h;
+}
+
+float2 part_way(const hold *h, int part)
+{
+	if (part_turns(part))
+		return (float2)(0.0f, 0.0f);
+	return part == PART_ROPE ? (float2)(-h->n[0].x, -h->n[0].y) : part == PART_PIN_Y ? h->n[1] : h->n[0];
+}
+
+/* Of both bodies, of what turns. */
+float part_arm(const hold *h, int part)
+{
+	return part == PART_UPPER ? -(h->sign * h->arm) : h->sign * h->arm;
+}
+
+/* How far the two are to get along it; at least, where it pushes one way alone. */
+float part_target(RECORD_IN(joints), int side, const hold *h, int part)
+{
+	float stop = CHANNEL(joint_drive(joints, side), DRIVE_HALF);
+	if (part == PART_LOWER)
+		return -((h->turned + stop) * h->arm);
+	if (part == PART_UPPER)
+		return -((stop - h->turned) * h->arm);
+	if (part == PART_FIXED)
+		return -(h->turned * h->arm);
+	return part == PART_ROPE ? -h->target[0] : part == PART_PIN_Y ? h->target[1] : h->target[0];
+}
+
+/* What is at a side's other end, as it is. */
+held held_other(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side)
+{
+	int partner = joint_partner(joints, side);
+	float2 anchor = joint_anchor(joints, side ^ 1);
+	return partner < 0 ? held_place(anchor) : held_body(slots, places[partner], anchor);
+}
+
+/* How many points joints of the body in a slot have, and how many of these are firm: none of what is not dynamic. If it is awake, all that it is joined with is disturbed in its sleep. */
+int2 joined_find(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), LIST_IN(islands), int s)
+{
+	int points = 0, firm = 0;
+	bool awake = !touching[TOUCH(s, TOUCHING_ASLEEP)];
+	if (joined[JOINED_COUNT] == 0 || slot_is_static(slots, s))
+		return (int2)(0, 0);
+	for (joint_row row = first_row(joints, joined, slot_body(slots, s), true); row.side >= 0; row_next(joints, joined, &row)) {
+		int partner = joint_partner(joints, row.side);
+		points++;
+		firm += row.firm ? 1 : 0;
+		if (awake && partner >= 0 && touching[TOUCH(places[partner], TOUCHING_ASLEEP)])
+			island_disturb(touching, islands, places[partner]);
+	}
+	return slot_is_dynamic(slots, s) ? (int2)(points, firm) : (int2)(0, 0);
+}
+
+/* So many points of a slot's joints, as the step begins. What pushes one way may get as far as its bound by impulses. */
+void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), RECORD_OUT(contacts), RECORD_OUT(grips),
+	int s, int2 points, bool rub)
+{
+	int point = 0, first = first_four(touching, s);
+	touching[TOUCH(s, TOUCHING_JOINED)] = points.x;
+	touching[TOUCH(s, TOUCHING_FIRM)] = points.y;
+	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
+		int side = row.side, part = row_part(joints, &row), partner = joint_partner(joints, side), code = PARTNER_WALL(0);
+		held own = held_body(slots, s, joint_anchor(joints, side)), other = held_other(slots, places, joints, side);
+		hold h = hold_of(joints, side, own, other, true);
+		float2 n = part_way(&h, part);
+		if (partner >= 0)
+			code = slot_is_static(slots, places[partner]) ? PARTNER_STATIC(partner) : places[partner];
+		float place = larger(larger(magnitude(own.x.x), magnitude(own.x.y)), larger(magnitude(other.x.x), magnitude(other.x.y)));
+		float levers = larger(magnitude(own.lever.x), magnitude(own.lever.y)) + larger(magnitude(other.lever.x), magnitude(other.lever.y));
+		__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);
+		point_drop(contacts, grips, first, point, rub);
+		to[4 * FOUR_PARTNER] = (float)code;
+		to[4 * FOUR_NORMAL_X] = n.x;
+		to[4 * FOUR_NORMAL_Y] = n.y;
+		to[4 * FOUR_ARM] = part_turns(part) ? part_arm(&h, part) : cross2(own.lever, n);
+		to[4 * FOUR_OTHER_ARM] = part_turns(part) ? part_arm(&h, part) : cross2(other.lever, n);
+		to[4 * FOUR_LEAST] = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) : 0.0f;
+		to[4 * FOUR_TOLERANCE] = JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
+	}
+}
+
+/* Is it looked, after so many iterations, where all would get? */
+bool is_aimed(int done)
+{
+	return done >= 0 && done < 31 && (JOINT_AIMED >> done & 1);
+}
+
+/* What a body moves along n, and turns by its arm, in a step as it moves now. */
+float way_along(RECORD_IN(slots), int s, float2 n, float arm, float length)
+{
+	if (s < 0)
+		return 0.0f;
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE);
+	return (n.x * (CHANNEL(at, LINEAR_VX) * length) + n.y * (CHANNEL(at, LINEAR_VY) * length))
+		+ arm * (CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_VELOCITY) * length);
+}
+
+/* A side's joint, once it is known where all would get. */
+typedef struct aimed {
+	held own, other;
+	hold h;
+	bool stiff;
+} aimed;
+
+void aim_look(aimed *aim, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int partner, int now, float length,
+	bool by_velocity)
+{
+	aim->stiff = by_velocity;
+	aim->own = held_moving(slots, loads, s, joint_anchor(joints, side), now, length, by_velocity);
+	aim->other = held_other(slots, places, joints, side);
+	if (partner >= 0)
+		aim->other = held_moving(slots, loads, partner, joint_anchor(joints, side ^ 1), now, length, by_velocity);
+	aim->h = hold_of(joints, side, aim->own, aim->other, by_velocity);
+}
+
+/* Is a step too long for what a side's joint does? What its forces make turn adds to itself, or the anchors are far from where they belong, or a spring could not swing. */
+bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, float length)
+{
+	int kind = joint_kind(joints, side);
+	float gives = held_gives(aim->own) + held_gives(aim->other), far = JOINT_FAR * (aim->own.radius + aim->other.radius), target = aim->h.target[0];
+	if (kind == JOINT_SPRING)
+		return spring_of(joints, side, length).at_end;
+	if (kind != JOINT_PIN)
+		gives += (aim->own.inverse_mass + aim->other.inverse_mass) / CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH);
+	return force * gives > JOINT_STIFF || (kind == JOINT_ROPE ? -target : magnitude(target)) > far || magnitude(aim->h.target[1]) > far;
+}
+
+/* What a spring pulls with where all get as they would now, but for what it gives way by then. */
+float spring_least(RECORD_IN(joints), int side, const aimed *aim, float2 n, float parts, float length)
+{
+	springing spring = spring_of(joints, side, length);
+	held own = aim->own, other = aim->other;
+	float rest = CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), distance = aim->h.distance, last = aim->h.last_distance;
+	if (aim->stiff)
+		return (spring.stiffness * ((last - parts) - rest)) / spring.per_way;
+	float2 gone = (float2)((own.way.x - other.way.x) + ((own.last_lever.x - own.lever.x) - (other.last_lever.x - other.lever.x)),
+		(own.way.y - other.way.y) + ((own.last_lever.y - own.lever.y) - (other.last_lever.y - other.lever.y)));
+	float way = inner(n, gone), mean = 0.5f * (distance + last) - rest;
+	float pull = spring.stiffness * (aim->h.straight * mean - 0.5f * way) + spring.damping * (aim->h.straight * (last - distance) - way);
+	return parts + pull / spring.per_way;
+}
+
+/* By the end of the step each anchor, or angle, is where it belongs. */
+float part_least(RECORD_IN(joints), int side, const aimed *aim, int part, float parts)
+{
+	float radii = aim->own.radius + aim->other.radius, most = JOINT_MOST * radii, wanted = part_target(joints, side, &aim->h, part);
+	bool one_way = part_pushes_one_way(part), eases = aim->stiff;
+	float target = one_way ? smaller(wanted, most) : larger(smaller(wanted, most), -most);
+	if (part_turns(part))
+		eases = (one_way ? wanted : magnitude(wanted)) > JOINT_FAR * radii;
+	return eases ? -(EASE * target) : parts - 2.0f * target;
+}
+
+/* The forces that a joint's first point has, and, of a pin, its second. */
+float row_forces(RECORD_IN(contacts), int first, int point, int part)
+{
+	float force = magnitude(POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_FORCE]);
+	return part == PART_PIN_X ? force + magnitude(POINT_IN(contacts, FOUR_WIDTH, first, point + 1)[4 * FOUR_FORCE]) : force;
+}
+
+/* What forces are to do, once it is known where all would get with those that there are. */
+void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined),
+	int s, int now, float length)
+{
+	int point = 0, first = first_four(touching, s);
+	aimed aim;
+	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
+		int part = row_part(joints, &row), side = row.side;
+		__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);
+		int partner = (int)to[4 * FOUR_PARTNER];
+		if (row.point == 0) {
+			aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, false);
+			if (!part_turns(part) && joint_is_stiff(joints, side, &aim, row_forces(contacts, first, point, part), length))
+				aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, true);
+		}
+		float2 n = part_way(&aim.h, part);
+		float arm = part_turns(part) ? part_arm(&aim.h, part) : held_arm(aim.own, n, aim.stiff);
+		float other_arm = part_turns(part) ? part_arm(&aim.h, part) : held_arm(aim.other, n, aim.stiff);
+		float parts = way_along(slots, s, n, arm, length) - way_along(slots, partner, n, other_arm, length);
+		to[4 * FOUR_NORMAL_X] = n.x;
+		to[4 * FOUR_NORMAL_Y] = n.y;
+		to[4 * FOUR_ARM] = arm;
+		to[4 * FOUR_OTHER_ARM] = other_arm;
+		if (part == PART_MOTOR)
+			to[4 * FOUR_LEAST] = -((CHANNEL(joint_drive(joints, side), DRIVE_SPEED) * length) * aim.h.arm);
+		else if (part == PART_SPRING)
+			to[4 * FOUR_LEAST] = spring_least(joints, side, &aim, n, parts, length);
+		else
+			to[4 * FOUR_LEAST] = part_least(joints, side, &aim, part, parts);
+	}
+}

@@ -1,0 +1,243 @@
+/* A joint, its points, and what it holds: CONTRACT.md, "contacts", Joints. */
+#ifndef CAROM_CPU_JOINT_HPP
+#define CAROM_CPU_JOINT_HPP
+
+#include "cpu/keep.hpp"
+
+namespace carom::cpu {
+
+/* What a point of a joint is for. */
+enum class Part { pin_x, pin_y, rod, rope, spring, motor, lower, upper, fixed };
+
+/* Does it hold the bodies' angles, not their anchors? */
+inline bool is_angular(Part part)
+{
+	return part >= Part::motor;
+}
+
+/* Does it push one way alone? */
+inline bool is_one_sided(Part part)
+{
+	return part == Part::rope || part == Part::lower || part == Part::upper;
+}
+
+/* What a spring does in a step: kg, by how far anchors part, of the step's end or of its middle; and of that the damper, by their whole way. */
+template <typename T> struct Springing {
+	T stiffness, damping, per_way;
+	bool at_end; /* the step is too long to swing in */
+};
+
+/* The records of a joint. */
+template <typename T> struct Joint {
+	T parties[4], anchors[2][2], forces[4], drive[4];
+
+	bool is(int32_t kind) const { return parties[JOINT_KIND] == static_cast<T>(kind); }
+	bool has_motor() const { return is(JOINT_PIN) && drive[DRIVE_TORQUE] > 0; }
+	int32_t stops() const { return is(JOINT_PIN) && drive[DRIVE_HALF] >= 0 ? 1 + (drive[DRIVE_HALF] > 0) : 0; }
+
+	/* How many hold anchors fast; or how many others there are. */
+	int32_t points(bool firm) const
+	{
+		if (firm)
+			return is(JOINT_PIN) ? 2 : is(JOINT_ROD) ? 1 : 0;
+		return is(JOINT_PIN) ? has_motor() + stops() : is(JOINT_ROD) ? 0 : 1;
+	}
+
+	/* Per way by the velocities at the step's end, of which a step that swings goes half. */
+	Springing<T> answer(T length) const
+	{
+		const T most = SPRING_MOST, stiffness = smaller((drive[SPRING_STIFFNESS] * length) * length, most);
+		const T damping = smaller(drive[SPRING_DAMPING] * length, most);
+		const T middle = T(0.5) * stiffness + damping;
+		const bool at_end = middle * drive[SPRING_GIVES] > T(SPRING_STIFF);
+		return {stiffness, damping, larger(at_end ? stiffness + damping : T(0.5) * middle, T(SPRING_LEAST)), at_end};
+	}
+
+	Part part(bool firm, int32_t k) const
+	{
+		if (firm)
+			return is(JOINT_ROD) ? Part::rod : k == 0 ? Part::pin_x : Part::pin_y;
+		if (!is(JOINT_PIN))
+			return is(JOINT_ROPE) ? Part::rope : Part::spring;
+		if (has_motor() && k == 0)
+			return Part::motor;
+		return stops() == 1 ? Part::fixed : k == has_motor() ? Part::lower : Part::upper;
+	}
+};
+
+static_assert(sizeof(Joint<float>) == JOINT_WIDTH * 4 * sizeof(float), "joints");
+
+/* Of all bodies. */
+template <typename T> class Joints
+{
+public:
+	Joints(T *records, const int32_t *joined) : joints(reinterpret_cast<Joint<T> *>(records)), list(joined) {}
+
+	bool has_any() const { return list[JOINED_COUNT] > 0; }
+	/* A body's first joint, as a side (see Joined), -1 for none; and the same body's next one. */
+	int32_t first_side(int32_t body) const { return has_any() ? list[JOINED_FIRST + body] : -1; }
+	int32_t next_side(int32_t side) const { return list[JOINED_NEXT(list[JOINED_BODIES], side)]; }
+	Joint<T> &of(int32_t side) const { return joints[side / 2]; }
+
+private:
+	Joint<T> *const joints;
+	const int32_t *const list;
+};
+
+/* Goes through the points of a body's joints: first those that hold anchors, of one joint after the other, and then the others. */
+template <typename T> class JointRows
+{
+public:
+	JointRows(const Joints<T> &all, int32_t body) : joints(all), first(all.first_side(body)), side(first) { settle(); }
+	/* The others alone, of a body that has any. */
+	static JointRows others(const Joints<T> &all, int32_t body, bool has_any) { return JointRows(all, has_any ? all.first_side(body) : -1, false); }
+
+	bool has() const { return side >= 0; }
+	void next()
+	{
+		k++;
+		settle();
+	}
+
+	Joint<T> &joint() const { return joints.of(side); }
+	bool is_firm() const { return firm; }
+	/* Is the body the joint's other one? */
+	bool is_other() const { return side % 2 == 1; }
+	/* The body at the other end, -1 for none. */
+	int32_t partner() const { return static_cast<int32_t>(joint().parties[is_other() ? JOINT_BODY : JOINT_OTHER]); }
+	/* Is it the first of its joint's, of those or of the others? */
+	bool begins() const { return k == 0; }
+	Part part() const { return joint().part(firm, k); }
+
+private:
+	JointRows(const Joints<T> &all, int32_t from, bool begins_firm) : joints(all), first(from), side(from), firm(begins_firm) { settle(); }
+
+	void settle()
+	{
+		while (side >= 0 && k == joint().points(firm)) {
+			k = 0;
+			side = joints.next_side(side);
+			if (side < 0 && firm)
+				firm = false, side = first;
+		}
+	}
+
+	const Joints<T> &joints;
+	const int32_t first;
+	int32_t side, k = 0;
+	bool firm = true;
+};
+
+/* One of the two bodies, as it gets from where it is to the end of a way, or a place in the world. */
+template <typename T> struct Held {
+	Vec<T> x = {0, 0}, way = {0, 0}, lever = {0, 0}, last_lever = {0, 0};
+	T angle = 0, turned = 0, radius = 0, inverse_mass = 0, inverse_inertia = 0;
+
+	Held() = default;
+	/* A place in the world. */
+	explicit Held(const T *anchor) : x(anchor[0], anchor[1]) {}
+	/* What stays where it is. */
+	Held(const Slot<T> &slot, const T *anchor)
+		: x(slot.place[LINEAR_X], slot.place[LINEAR_Y]), lever(turn(rotation_of(slot.turn[TURN_ANGLE]), Vec<T>(anchor[0], anchor[1]))),
+		  last_lever(lever), angle(slot.turn[TURN_ANGLE]), radius(slot.radius()), inverse_mass(slot.mass[MASS_INVERSE]),
+		  inverse_inertia(slot.mass[MASS_INVERSE_INERTIA])
+	{
+	}
+	/* What moves so far, and turns. */
+	Held(const Slot<T> &slot, const T *anchor, const Vec<T> &moved, T by) : Held(slot, anchor)
+	{
+		way = moved, turned = smaller(larger(by, -T(JOINT_TURN)), T(JOINT_TURN));
+		last_lever = turn(rotation_of(slot.turn[TURN_ANGLE] + turned), Vec<T>(anchor[0], anchor[1]));
+	}
+
+	/* So that it times the angle is what the anchor gets along n; or where the way ends. */
+	T arm(const Vec<T> &n, bool at_end) const
+	{
+		return at_end ? cross(last_lever, n) : cross(Vec<T>(T(0.5) * (lever + last_lever)), n) * (1 + (turned * turned) * T(1.0f / 12));
+	}
+
+	/* How much a force at the anchor turns the body. */
+	T gives() const { return largest(lever) * inverse_inertia; }
+
+	/* m, the radius of gyration; 0 of what does not move, or turn. */
+	T gyration() const { return inverse_inertia > 0 ? std::sqrt(inverse_mass / inverse_inertia) : T(0); }
+};
+
+/* How a joint holds one of its bodies, seen from the other: along which ways, so that forces along them do no work, and how far the anchors are to get along them. */
+template <typename T> struct Hold {
+	Vec<T> n[2] = {{0, 0}, {0, 0}};
+	T target[2] = {0, 0};
+	/* Of what has a length: how far the anchors are, and come to be; and how much of that the way in the middle has. */
+	T distance = 0, last_distance = 0, straight = 0;
+	/* m, the arm of forces that turn; and rad, from the middle of the stops. */
+	T arm = 0, turned = 0;
+	T sign = 1;
+
+	Hold() = default;
+	Hold(const Joint<T> &joint, bool is_other, const Held<T> &own, const Held<T> &other, bool at_end) : sign(is_other ? T(-1) : T(1))
+	{
+		const Vec<T> first = (own.x - other.x) + (own.lever - other.lever);
+		const Vec<T> gone = (own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever));
+		if (joint.is(JOINT_PIN)) {
+			n[0] = Vec<T>(sign, 0), n[1] = Vec<T>(0, sign);
+			target[0] = -inner(n[0], first), target[1] = -inner(n[1], first);
+			if (joint.points(false) == 0)
+				return;
+			arm = larger(own.gyration(), other.gyration());
+			turned = wrapped((is_other ? other.angle - own.angle : own.angle - other.angle) - joint.drive[DRIVE_MIDDLE]);
+			return;
+		}
+		const Vec<T> last = first + gone, twice = at_end ? last : Vec<T>(first + last);
+		const T length = joint.parties[JOINT_LENGTH], size = norm(twice);
+		distance = norm(first), last_distance = norm(last);
+		n[0] = size > 0 ? Vec<T>(twice.x() / size, twice.y() / size) : Vec<T>(sign, 0);
+		target[0] = at_end ? length - distance : (length - distance) * ((length + distance) / larger(size, length));
+		straight = distance + last_distance > 0 ? size / (distance + last_distance) : T(1);
+	}
+
+	/* Of one of its points. */
+	Vec<T> way(Part part) const
+	{
+		if (is_angular(part))
+			return {0, 0};
+		return part == Part::rope ? Vec<T>(-n[0]) : n[part == Part::pin_y];
+	}
+
+	/* The arm, of what turns, of both bodies. */
+	T turning_arm(Part part) const { return part == Part::upper ? -(sign * arm) : sign * arm; }
+
+	/* How far the two are to get, at least where it pushes one way alone. */
+	T aim(Part part, const Joint<T> &joint) const
+	{
+		const T half = joint.drive[DRIVE_HALF];
+		switch (part) {
+		case Part::rope: return -target[0];
+		case Part::lower: return -((turned + half) * arm);
+		case Part::upper: return -((half - turned) * arm);
+		case Part::fixed: return -(turned * arm);
+		default: return target[part == Part::pin_y];
+		}
+	}
+};
+
+/* What the force at a point of a joint may be, and by how much it gives way of itself. */
+template <typename T> struct Bounds {
+	T low, high = infinite<T>, give = 0;
+
+	/* Of a point with that arm, in a step or as it begins. */
+	Bounds(const Joint<T> &joint, Part part, T arm, T length, bool impulses) : low(is_one_sided(part) ? T(0) : -infinite<T>)
+	{
+		if (part != Part::motor && part != Part::spring)
+			return;
+		if (impulses)
+			low = high = 0;
+		else if (part == Part::spring)
+			give = 1 / joint.answer(length).per_way;
+		else
+			high = ((joint.drive[DRIVE_TORQUE] * length) * length) / std::abs(arm), low = -high;
+	}
+};
+
+}
+
+#endif
