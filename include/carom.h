@@ -408,6 +408,10 @@ CAROM_API carom_status carom_world_get_joints(carom_world *world, size_t first, 
  * same bits. CAROM_INVALID_ARGUMENT names the joint (as `joints[k]`) and the field, or that the world's step is not contacts: others hold no joints. */
 CAROM_API carom_status carom_world_set_joints(carom_world *world, size_t count, const carom_joint *joints, carom_error *error);
 
+/** Gives the motor of joint number `joint`, a CAROM_REVOLUTE, as carom_world_get_joints counts them, another speed (rad/s) and torque (N m; 0: there is none), within what a carom_joint may have: with the
+ * bits of a world in which all joints were set anew, but at next to no cost, also between any two steps. Errors as of carom_world_set_joints. */
+CAROM_API carom_status carom_world_set_motor(carom_world *world, size_t joint, float speed, float torque, carom_error *error);
+
 /** What a call of carom_world_step or carom_world_advance did. */
 typedef struct carom_report {
 	uint64_t steps;  /**< steps done */

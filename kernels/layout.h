@@ -408,6 +408,11 @@
 #define SPRING_GIVES 2     /* 1/kg, how much a force at its anchors parts them, at most */
 #define SPRING_DAMPING 1   /* N s/m */
 
+/* Changes of Joints: a record each */
+#define DRIVEN_JOINT 0
+#define DRIVEN_SPEED 1
+#define DRIVEN_TORQUE 2
+
 /* Joined: a list: how many joints there are, and bodies behind that: of each a side of its first joint, -1 for none, and then of each side the same body's next one. Side 2 j is the
  * body's of joint j, 2 j + 1 the other's. */
 #define JOINED_COUNT 0

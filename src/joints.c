@@ -139,7 +139,31 @@ carom_status carom_joints_send(carom_world *world, carom_error *error)
 	}
 	free(texels);
 	free(list);
+	world->driven.used = 0;
 	return status;
+}
+
+carom_status carom_joints_drive(carom_world *world, carom_error *error)
+{
+	const uint32_t *driven = world->driven.items;
+	const uint32_t count = (uint32_t)(world->driven.used / sizeof *driven);
+	const carom_joint *joints = world->joints.items;
+	float *texels;
+	if (count == 0)
+		return CAROM_OK;
+	TRY(carom_records_create(world, count, &texels, error));
+	for (uint32_t k = 0; k < count; k++) {
+		texels[4 * k + DRIVEN_JOINT] = (float)driven[k];
+		texels[4 * k + DRIVEN_SPEED] = joints[driven[k]].motor_speed;
+		texels[4 * k + DRIVEN_TORQUE] = joints[driven[k]].motor_torque;
+	}
+	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, carom_row_count(count), texels,
+		error);
+	free(texels);
+	TRY(status);
+	TRY(carom_run(world, STAGE_DRIVE, (int32_t)count, 1, 0, 0, error));
+	world->driven.used = 0;
+	return CAROM_OK;
 }
 
 carom_status carom_joints_fetch(carom_world *world, carom_error *error)
@@ -313,5 +337,34 @@ carom_status carom_world_set_joints(carom_world *world, size_t count, const caro
 	world->joints = sorted;
 	world->apart = apart;
 	world->contacts_sent = false;
+	return CAROM_OK;
+}
+
+/* As if all were set. */
+static carom_status send_all_later(carom_world *world, carom_error *error)
+{
+	TRY(carom_contacts_fetch(world, error));
+	world->contacts_sent = false;
+	return CAROM_OK;
+}
+
+carom_status carom_world_set_motor(carom_world *world, size_t index, float speed, float torque, carom_error *error)
+{
+	GIVEN(world, error);
+	TRY(carom_check_idle(world, error));
+	TRY(carom_check_span("joints", index, 1, "the world has", carom_joint_count(world), error));
+	carom_joint *joint = (carom_joint *)world->joints.items + index, changed = *joint;
+	const size_t used = world->driven.used;
+	changed.motor_speed = speed;
+	changed.motor_torque = torque;
+	TRY(carom_joint_check_numbers(world, index, &changed, error));
+	if (world->contacts_sent) {
+		uint32_t *driven = used < carom_joint_count(world) * sizeof *driven ? carom_array_grow(&world->driven, sizeof *driven) : NULL;
+		if (!driven)
+			TRY(send_all_later(world, error));
+		else
+			*driven = (uint32_t)index;
+	}
+	*joint = changed;
 	return CAROM_OK;
 }

@@ -102,6 +102,7 @@ typedef enum carom_stage {
 	STAGE_ADD,     /* (added bodies, 1, room in Movers, the first of them): behind the others */
 	STAGE_REMOVE,  /* (one group, 1, removed bodies, room in Movers): and the others get their new indices */
 	STAGE_PUSH,    /* (slots, 1, room in Movers): gravity into slots, once it is another one, or the time step */
+	STAGE_DRIVE,   /* (joints): motors that the host has changed, by Changes, into Joints */
 	STAGE_PICK,    /* (bodies, 1, the first of them): their states into Changes */
 	STAGE_PACE,    /* (one group, 1, slots, tenths of a radius that all get at least) */
 	STAGE_REACH,   /* (slots, 1, cells a row, rows) */

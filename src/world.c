@@ -89,6 +89,7 @@ void carom_world_destroy(carom_world *world)
 	free(world->rotational.items);
 	free(world->contacts.items);
 	free(world->joints.items);
+	free(world->driven.items);
 	free(world->apart.items);
 	free(world->changes.items);
 	free(world->hits.items);

@@ -155,6 +155,7 @@ struct carom_world {
 	bool bodies_current; /* the device's constant textures are those of the bodies */
 	bool slots_current;  /* its slots are of the bodies as they are, but for what is to be told of; else they are to be loaded anew */
 	unsigned unsent;     /* carom_unsent: what the device, as it goes on, is to be told beside `changes` */
+	carom_array driven;  /* uint32_t: joints whose motor the device is to be told of */
 	bool contacts_current, contacts_sent; /* the host has the device's contacts and joints' forces; the device has the host's contacts and joints */
 
 	uint32_t capacity;         /* bodies the textures hold, a power of two; 0 while there are none */
@@ -265,6 +266,8 @@ carom_status carom_contacts_grow(carom_world *world, carom_error *error);
 /* joints.c: all of them to the device, and the forces back; a part of what contacts.c moves */
 carom_status carom_joints_send(carom_world *world, carom_error *error);
 carom_status carom_joints_fetch(carom_world *world, carom_error *error);
+/* Motors that were changed since, once the bodies are in their slots. */
+carom_status carom_joints_drive(carom_world *world, carom_error *error);
 size_t carom_joint_count(const carom_world *world);
 /* joint_check.c: whom joint number k may hold; and once all is said, by which numbers */
 carom_status carom_joint_check_parties(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error);

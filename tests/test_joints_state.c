@@ -224,6 +224,12 @@ static void wrong_joints_are_errors(void **unused)
 			fail_msg("%zu: %s", i, error.text);
 		assert_int_equal(carom_world_joint_count(world), 0);
 	}
+	const carom_joint rod = joined_rod(0, 1, 0.0f, 0.0f);
+	joined_set(world, 1, &rod);
+	assert_int_equal(carom_world_set_motor(world, 0, 1.0f, 1.0f, &error), CAROM_INVALID_ARGUMENT);
+	assert_string_equal(error.text, "joints[0].motor_speed: only a joint of kind CAROM_REVOLUTE has it");
+	assert_int_equal(carom_world_set_motor(world, 1, 1.0f, 1.0f, &error), CAROM_INVALID_ARGUMENT);
+	assert_non_null(strstr(error.text, "the world has 1"));
 	carom_world_destroy(world);
 	def.pipeline.step = "events";
 	world = runs_world(&def, scenery_devices, bodies, 3);

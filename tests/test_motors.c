@@ -125,7 +125,7 @@ static void a_motor_wakes(void **unused)
 	SCENERY_EACH_DEVICE(device) {
 		carom_world_def def = runs_resting("contacts", 20.0f, 10.0f);
 		const carom_body_def bodies[2] = {scenery_box(0.0f, 0.5f, 0.0f, 0.0f, 1.0f, 1.0f), scenery_box(1.2f, 0.5f, 0.0f, 0.0f, 1.0f, 1.0f)};
-		carom_joint motor = joined_pin(1, 0, -0.6f, 0.0f);
+		const carom_joint motor = joined_pin(1, 0, -0.6f, 0.0f);
 		def.friction = 0.5f;
 		carom_world *world = runs_world(&def, device, bodies, 2);
 		if (!world)
@@ -135,13 +135,66 @@ static void a_motor_wakes(void **unused)
 		const uint64_t hash = runs_hash(world);
 		runs_step(world, 60);
 		assert_true(runs_hash(world) == hash);
-		motor.motor_speed = 1.0f;
-		motor.motor_torque = 30.0f;
-		joined_set(world, 1, &motor);
+		carom_error error;
+		scenery_check(carom_world_set_motor(world, 0, 1.0f, 30.0f, &error), &error);
 		runs_step(world, 30);
 		runs_near((double)(runs_state(world, 1).angle - runs_state(world, 0).angle), 0.5, 0.05);
 		runs_same_hash(&first, runs_hash(world), device);
 		carom_world_destroy(world);
+	}
+}
+
+/* Who sets one motor gets the bits of one who sets all joints anew, whenever that is: while what it turns sleeps, between calls that read or change bodies, before the first step, and after bodies
+ * have gone. */
+static void a_motor_alone_is_as_all_joints(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		uint64_t hashes[2] = {0};
+		for (int alone = 0; alone < 2; alone++) {
+			carom_world_def def = runs_resting("contacts", 20.0f, 10.0f);
+			carom_body_def bodies[7];
+			carom_joint joints[3];
+			carom_error error;
+			for (int i = 0; i < 7; i++)
+				bodies[i] = scenery_box(1.2f * (float)i - 4.0f, 0.5f, 0.0f, 0.0f, 1.0f, 1.0f);
+			for (uint32_t k = 0; k < 3; k++)
+				joints[k] = joined_pin(2 * k + 1, (int32_t)(2 * k), -0.6f, 0.0f);
+			def.friction = 0.5f;
+			carom_world *world = runs_world(&def, device, bodies, 7);
+			if (!world)
+				break;
+			joined_set(world, 3, joints);
+			for (uint32_t turn = 0; turn < 12; turn++) {
+				const size_t k = turn % carom_world_joint_count(world);
+				const float speed = (float)(turn % 3) - 1.0f, torque = turn % 4 == 3 ? 0.0f : 40.0f;
+				if (turn == 7) {
+					const uint32_t gone = 2;
+					scenery_check(carom_world_remove(world, &gone, 1, &error), &error);
+				}
+				if (alone) {
+					scenery_check(carom_world_set_motor(world, k, speed, torque, &error), &error);
+					const carom_joint now = joined_get(world, k);
+					assert_true(now.motor_speed == speed && now.motor_torque == torque);
+				} else {
+					const size_t has = carom_world_joint_count(world);
+					scenery_check(carom_world_get_joints(world, 0, has, joints, &error), &error);
+					joints[k].motor_speed = speed;
+					joints[k].motor_torque = torque;
+					joined_set(world, has, joints);
+				}
+				if (turn % 5 == 1)
+					runs_load_anew(world);
+				if (turn % 5 == 2)
+					scenery_check(carom_world_set_force(world, 1, (carom_vec2){(float)turn, 0.0f}, 0.0f, &error), &error);
+				runs_step(world, turn == 4 ? 120 : 7);
+			}
+			hashes[alone] = runs_hash(world);
+			runs_same_hash(&first, hashes[alone], device);
+			carom_world_destroy(world);
+		}
+		assert_true(hashes[0] == hashes[1]);
 	}
 }
 
@@ -247,6 +300,7 @@ int main(void)
 		cmocka_unit_test(a_brake_holds_or_gives_way),
 		cmocka_unit_test(a_car_drives),
 		cmocka_unit_test(a_motor_wakes),
+		cmocka_unit_test(a_motor_alone_is_as_all_joints),
 		cmocka_unit_test(a_stop_bears),
 		cmocka_unit_test(a_stop_may_lie_beyond_half_a_turn),
 		cmocka_unit_test(what_does_not_turn_is_a_beam),

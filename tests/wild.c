@@ -283,6 +283,15 @@ static void join(carom_world *world, uint32_t step, uint32_t count)
 		assert_int_equal(error.status, CAROM_INVALID_ARGUMENT);
 }
 
+/* Of one that has a motor, or gets one, the speed. */
+static void drive(carom_world *world, uint32_t step)
+{
+	const size_t has = carom_world_joint_count(world);
+	carom_error error;
+	if (has > 0 && carom_world_set_motor(world, step % has, (float)(step % 9) - 4.0f, step % 6 ? 3.0f : 0.0f, &error))
+		assert_int_equal(error.status, CAROM_INVALID_ARGUMENT); /* it is no pin */
+}
+
 void wild_change(carom_world *world, uint32_t step, float time_step)
 {
 	static const float lengths[] = {1.1f, 0.6f, 1.6f, 1.0f};
@@ -298,6 +307,8 @@ void wild_change(carom_world *world, uint32_t step, float time_step)
 		scenery_check(carom_world_set_time_step(world, lengths[step / 8 % 4] * time_step, &error), &error);
 	if (step % 7 == 3)
 		join(world, step, count);
+	if (step % 5 == 2)
+		drive(world, step);
 	if (step % 10 == 7)
 		scenery_check(carom_world_set_filter(world, 5 * step % count, 1 + step % 20 / 10, CAROM_MASK - step % 30 / 10, &error), &error);
 }

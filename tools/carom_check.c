@@ -28,7 +28,7 @@ static const struct reference {
 	{"events", "", 60, false, false, false, {0xae6d85b586319664, 0x3000e89a16e84ce6, 0x2ba53121913d8b51}},
 	{"contacts", "", 12, true, false, false, {0xd440000e9486bcfa, 0xf76c6e9eaefc385a, 0x46431893954bc23d}},
 	{"contacts", " of many", 24, true, true, false, {0xdef17b566634acb3, 0xea0634c37597d9f4, 0xfe3fb6b321603430}},
-	{"contacts", " and joints", 12, true, false, true, {0x37602a8567c0175a, 0xd6a4270966c512e4, 0x6a2ad958815fbc19}},
+	{"contacts", " and joints", 12, true, false, true, {0xf7c2e1c650ce416c, 0x78e46b89ba7b7d86, 0xb9348ec894eb9244}},
 	{"first_impact", "", 60, false, false, false, {0xe443f056f109fad9, 0x7628f5ddae755cc8, 0x5be3f6b36ea95729}},
 };
 
@@ -187,6 +187,8 @@ static carom_status steer(carom_world *world, carom_error *error)
 	state.velocity = (carom_vec2){-state.velocity.y, state.velocity.x};
 	state.angular_velocity += 1;
 	status = carom_world_set_states(world, STEERED, 1, &state, error);
+	if (!status && carom_world_joint_count(world) > 0)
+		status = carom_world_set_motor(world, 0, -4, 1, error);
 	return status ? status : carom_world_set_force(world, STEERED + 1, (carom_vec2){2, -1}, 0.5f, error);
 }
 

@@ -81,6 +81,22 @@ __kernel void slots_push(TEX_IN(uniforms), TEX_IN(forces), RECORD_OUT(slots), RE
 		slot_changed(TEX(uniforms), slots, status, reach, wakes, movers, s, domain.z);
 }
 
+/* Motors, as the host has changed them between two steps; what they turn is disturbed in its sleep. */
+__kernel void slots_drive(RECORD_IN(changes), LIST_IN(places), RECORD_OUT(joints), LIST_OUT(touching), LIST_IN(islands), int4 domain)
+{
+	int k = get_global_id(0);
+	if (k >= domain.x)
+		return;
+	int joint = (int)CHANNEL(changes[k], DRIVEN_JOINT);
+	float4 parties = joints[JOINT(joint, JOINT_PARTIES)];
+	vstore2(changes[k].yz, 0, (__global float *)(joints + JOINT(joint, JOINT_DRIVE))); /* speed and torque */
+	for (int i = 0; i < 2; i++) {
+		int body = (int)(i ? CHANNEL(parties, JOINT_OTHER) : CHANNEL(parties, JOINT_BODY));
+		if (body >= 0 && touching[TOUCH(places[body], TOUCHING_ASLEEP)])
+			island_disturb(touching, islands, places[body]);
+	}
+}
+
 __kernel void slots_pick(LIST_IN(places), RECORD_IN(slots), RECORD_OUT(changes), int4 domain)
 {
 	int k = get_global_id(0);

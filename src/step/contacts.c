@@ -79,6 +79,7 @@ static carom_status begin(carom_world *world, carom_error *error)
 	TRY(carom_events_begin(world, error));
 	if (world->events.iteration == 0) /* they are loaded anew */
 		TRY(sleep_of(world, world->capacity, SLEEP_FORGOTTEN, error));
+	TRY(carom_joints_drive(world, error));
 	return world->events.told ? carom_events_mend(world, error) : CAROM_OK;
 }
 

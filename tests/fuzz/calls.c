@@ -350,7 +350,7 @@ static const call all[] = {{create, false}, {add, true}, {add, true}, {add, true
 	{calls_step, true}, {calls_advance, true}, {calls_advance_to, true}, {calls_break_off, true}, {get_body, true}, {get_states, true},
 	{set_states, true}, {set_force, true}, {measure, true}, {calls_render, true}, {calls_scene, true}, {destroy, true}, {add_too_many, true},
 	{calls_parse, false}, {calls_png, false}, {calls_file, false}, {set_pipeline, false}, {list, false}, {ask, false}, {set_contacts, true},
-	{get_contacts, true}, {remove_some, true}, {change, true}, {ask_where, true}, {calls_set_joints, true}};
+	{get_contacts, true}, {remove_some, true}, {change, true}, {ask_where, true}, {calls_join, true}};
 
 void calls_make(calls *c)
 {

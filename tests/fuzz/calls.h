@@ -37,8 +37,8 @@ void calls_same(calls *c, snapshot before);
 /* An index of a body that may be one too many, or far too many. */
 uint32_t calls_index(calls *c);
 
-/* calls_joints.c */
-void calls_set_joints(calls *c);
+/* calls_joints.c: those that join bodies, and drive motors */
+void calls_join(calls *c);
 /* calls_steps.c: those that let time pass */
 void calls_step(calls *c);
 void calls_advance(calls *c);

@@ -22,7 +22,7 @@ static void drive(calls *c, carom_joint *joint)
 }
 
 /* What is set can be read, and set again; else nothing is changed. */
-void calls_set_joints(calls *c)
+static void set_joints(calls *c)
 {
 	enum { MOST = 3 };
 	carom_joint joints[MOST], now[MOST], again[MOST];
@@ -53,4 +53,29 @@ void calls_set_joints(calls *c)
 	FUZZ_EXPECT(carom_world_get_joints(*c->slot, 0, count, again, NULL) == CAROM_OK);
 	FUZZ_EXPECT(count == 0 || memcmp(now, again, count * sizeof *now) == 0);
 	calls_same(c, before);
+}
+
+/* A joint that is none, or no pin, has no motor. */
+static void set_motor(calls *c)
+{
+	const bool tame = c->bytes.tame;
+	const size_t joint = calls_index(c), has = carom_world_joint_count(*c->slot);
+	const float speed = tame ? bytes_between(&c->bytes, -5, 5) : bytes_wild(&c->bytes);
+	const float torque = tame ? bytes_between(&c->bytes, 0, 5) : bytes_wild(&c->bytes);
+	const snapshot before = calls_look(c);
+	carom_error error = fuzz_blank();
+	carom_joint now;
+	if (calls_judge(c, carom_world_set_motor(*c->slot, joint, speed, torque, &error), &error)) {
+		FUZZ_EXPECT(joint < has && carom_world_get_joints(*c->slot, joint, 1, &now, NULL) == CAROM_OK);
+		FUZZ_EXPECT(now.motor_speed == speed && now.motor_torque == torque && torque >= 0);
+	}
+	calls_same(c, before);
+}
+
+void calls_join(calls *c)
+{
+	if (bytes_chance(&c->bytes, 3))
+		set_motor(c);
+	else
+		set_joints(c);
 }

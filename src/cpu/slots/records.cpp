@@ -1,3 +1,4 @@
+#include "cpu/joint.hpp"
 #include "cpu/lanes.hpp"
 #include "cpu/leaver.hpp"
 
@@ -168,6 +169,22 @@ template <typename T> static void push_all(const Job<T> &job)
 	});
 }
 
+/* Motors, as the host has changed them between two steps; what they turn is disturbed in its sleep. */
+template <typename T> static void drive(const Job<T> &job)
+{
+	const Records<T> changes(job.records(0));
+	const int32_t *places = job.list(1);
+	const Joints<T> joints(job.records(2), nullptr);
+	const Sleepers<T> sleepers{reinterpret_cast<Touching *>(job.list(3)), nullptr, job.list(4), nullptr};
+	for (int32_t k = 0; k < job.domain[0]; k++) {
+		Joint<T> &joint = joints.of(2 * static_cast<int32_t>(changes.of(k, DRIVEN_JOINT)));
+		joint.drive[DRIVE_SPEED] = changes.of(k, DRIVEN_SPEED), joint.drive[DRIVE_TORQUE] = changes.of(k, DRIVEN_TORQUE);
+		for (const T party : {joint.parties[JOINT_BODY], joint.parties[JOINT_OTHER]})
+			if (party >= 0 && sleepers.sleeps(places[static_cast<int32_t>(party)]))
+				sleepers.disturb(places[static_cast<int32_t>(party)]);
+	}
+}
+
 /* The states of some, one after the other. */
 template <typename T> static void pick(const Job<T> &job)
 {
@@ -218,8 +235,8 @@ template <typename T> static void unload(const Job<T> &job)
 extern const Stage slots_records;
 const Stage slots_records{"slots", "records",
 	{{STAGE_LOAD, load<float>, load<double>}, {STAGE_CHANGE, change<float>, change<double>}, {STAGE_ADD, add<float>, add<double>},
-		{STAGE_REMOVE, remove<float>, remove<double>}, {STAGE_PUSH, push_all<float>, push_all<double>}, {STAGE_PICK, pick<float>, pick<double>},
-		{STAGE_UNLOAD, unload<float>, unload<double>}},
+		{STAGE_REMOVE, remove<float>, remove<double>}, {STAGE_PUSH, push_all<float>, push_all<double>}, {STAGE_DRIVE, drive<float>, drive<double>},
+		{STAGE_PICK, pick<float>, pick<double>}, {STAGE_UNLOAD, unload<float>, unload<double>}},
 	nullptr, nullptr};
 
 }
