@@ -336,6 +336,7 @@ static void the_tables_of_keys_are_the_readers(void **state)
 	(void)state;
 	check_keys("{\"format\": \"carom-scene/1\", \"bodies\": [], \"?\": 0}", "\n| key of the scene |");
 	check_keys("{\"format\": \"carom-scene/1\", \"bodies\": [{\"?\": 0}]}", "\n| key of a body |");
+	check_keys("{\"format\": \"carom-scene/1\", \"bodies\": [{\"joints\": [{\"?\": 0}]}]}", "\n| key of a joint |");
 }
 
 int main(void)
