@@ -111,6 +111,12 @@ float whole_length(TEX_IN(uniforms), float length)
 	return length > 0.0f ? larger(length, CHANNEL(TEX_LOAD(uniforms, UNIFORMS_WORLD, 0), WORLD_TIME_STEP)) : 0.0f;
 }
 
+/* How much of that a step of that length is, of joints, which act in what there is of it. */
+float part_of_whole(float length, float whole)
+{
+	return whole > 0.0f ? larger(length / whole, JOINT_SHORTEST) : 1.0f;
+}
+
 /* What remains after a step: nothing if that was to be the last, for what a float can't tell of its length is no step. */
 float2 time_left(float4 time, float advanced)
 {

@@ -27,18 +27,20 @@ held held_body(RECORD_IN(slots), int s, float2 anchor)
 	return h;
 }
 
-/* How far a body gets along an axis in a step: as it moves now, or by what forces make of that. */
-float held_way(float velocity, float length, float load, bool by_velocity)
+/* How far a body gets along an axis in such a part of a whole step: as it moves now, or by what forces make of that. */
+float held_way(float velocity, float length, float part, float load, bool by_velocity)
 {
-	return by_velocity ? velocity * length : 0.5f * (velocity * length + load);
+	float before = by_velocity ? part : part * (1.0f - 0.5f * part), after = by_velocity ? 0.0f : 0.5f * (part * part);
+	return (velocity * length) * before + load * after;
 }
 
-held held_moving(RECORD_IN(slots), RECORD_IN(loads), int s, float2 anchor, int now, float length, bool by_velocity)
+held held_moving(RECORD_IN(slots), RECORD_IN(loads), int s, float2 anchor, int now, float length, float part, bool by_velocity)
 {
 	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), turns = SLOT_LOAD(slots, s, SLOT_TURN), load = loads[LOADS_OF(s) + now];
 	held h = held_body(slots, s, anchor);
-	h.way = (float2)(held_way(CHANNEL(at, LINEAR_VX), length, load.x, by_velocity), held_way(CHANNEL(at, LINEAR_VY), length, load.y, by_velocity));
-	h.turned = smaller(larger(held_way(CHANNEL(turns, TURN_VELOCITY), length, load.z, by_velocity), -JOINT_TURN), JOINT_TURN);
+	h.way = (float2)(held_way(CHANNEL(at, LINEAR_VX), length, part, load.x, by_velocity),
+		held_way(CHANNEL(at, LINEAR_VY), length, part, load.y, by_velocity));
+	h.turned = smaller(larger(held_way(CHANNEL(turns, TURN_VELOCITY), length, part, load.z, by_velocity), -JOINT_TURN), JOINT_TURN);
 	h.last_lever = turn(rotation_of(CHANNEL(turns, TURN_ANGLE) + h.turned), anchor);
 	return h;
 }
@@ -87,7 +89,7 @@ hold hold_of(RECORD_IN(joints), int side, held own, held other, bool at_end)
 		h.target[1] = -inner(h.n[1], first);
 		h.distance = h.last_distance = h.straight = 0.0f;
 		h.arm = h.turned = 0.0f;
-		if (joint_points(joints, side, false) == 0)
+		if (joint_points(joints, side, true) == 2 && joint_points(joints, side, false) == 0)
 			return h;
 		h.arm = larger(held_gyration(own), held_gyration(other));
 		h.turned = wrapped(angle - CHANNEL(joint_drive(joints, side), DRIVE_MIDDLE));
@@ -159,7 +161,7 @@ int2 joined_find(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(j
 
 /* So many points of a slot's joints, as the step begins. What pushes one way may get as far as its bound by impulses. */
 void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), RECORD_OUT(contacts), RECORD_OUT(grips),
-	int s, int2 points, bool rub)
+	int s, int2 points, float part_of_step, bool rub)
 {
 	int point = 0, first = first_four(touching, s);
 	touching[TOUCH(s, TOUCHING_JOINED)] = points.x;
@@ -180,7 +182,7 @@ void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(
 		to[4 * FOUR_NORMAL_Y] = n.y;
 		to[4 * FOUR_ARM] = part_turns(part) ? part_arm(&h, part) : cross2(own.lever, n);
 		to[4 * FOUR_OTHER_ARM] = part_turns(part) ? part_arm(&h, part) : cross2(other.lever, n);
-		to[4 * FOUR_LEAST] = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) : 0.0f;
+		to[4 * FOUR_LEAST] = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / part_of_step : 0.0f;
 		to[4 * FOUR_TOLERANCE] = JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
 	}
 }
@@ -209,52 +211,62 @@ typedef struct aimed {
 } aimed;
 
 void aim_look(aimed *aim, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int partner, int now, float length,
-	bool by_velocity)
+	float part, bool by_velocity)
 {
 	aim->stiff = by_velocity;
-	aim->own = held_moving(slots, loads, s, joint_anchor(joints, side), now, length, by_velocity);
+	aim->own = held_moving(slots, loads, s, joint_anchor(joints, side), now, length, part, by_velocity);
 	aim->other = held_other(slots, places, joints, side);
 	if (partner >= 0)
-		aim->other = held_moving(slots, loads, partner, joint_anchor(joints, side ^ 1), now, length, by_velocity);
+		aim->other = held_moving(slots, loads, partner, joint_anchor(joints, side ^ 1), now, length, part, by_velocity);
 	aim->h = hold_of(joints, side, aim->own, aim->other, by_velocity);
 }
 
 /* Is a step too long for what a side's joint does? What its forces make turn adds to itself, or the anchors are far from where they belong, or a spring could not swing. */
-bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, float length)
+bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, float length, float part)
 {
 	int kind = joint_kind(joints, side);
 	float gives = held_gives(aim->own) + held_gives(aim->other), far = JOINT_FAR * (aim->own.radius + aim->other.radius), target = aim->h.target[0];
 	if (kind == JOINT_SPRING)
-		return spring_of(joints, side, length).at_end;
+		return spring_of(joints, side, length, part).at_end;
 	if (kind != JOINT_PIN)
 		gives += (aim->own.inverse_mass + aim->other.inverse_mass) / CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH);
 	return force * gives > JOINT_STIFF || (kind == JOINT_ROPE ? -target : magnitude(target)) > far || magnitude(aim->h.target[1]) > far;
 }
 
-/* What a spring pulls with where all get as they would now, but for what it gives way by then. */
-float spring_least(RECORD_IN(joints), int side, const aimed *aim, float2 n, float parts, float length)
+/* So that they have that rate, as a way of a whole step, when the step ends, of which it is such a part. */
+float least_at_last(float rate, float parts, float k)
 {
-	springing spring = spring_of(joints, side, length);
+	return -((rate - (1.0f - k) * parts) / k);
+}
+
+/* What a spring pulls with where all get as they would now, but for what it gives way by then. */
+float spring_least(RECORD_IN(joints), int side, const aimed *aim, float2 n, float parts, float length, float k)
+{
+	springing spring = spring_of(joints, side, length, k);
 	held own = aim->own, other = aim->other;
 	float rest = CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), distance = aim->h.distance, last = aim->h.last_distance;
-	if (aim->stiff)
-		return (spring.stiffness * ((last - parts) - rest)) / spring.per_way;
+	if (aim->stiff) {
+		float pull = spring.stiffness * ((last - k * parts) - rest);
+		return (pull + (spring.stiffness * k + spring.damping) * ((1.0f - k) * parts)) / spring.per_way;
+	}
 	float2 gone = (float2)((own.way.x - other.way.x) + ((own.last_lever.x - own.lever.x) - (other.last_lever.x - other.lever.x)),
 		(own.way.y - other.way.y) + ((own.last_lever.y - own.lever.y) - (other.last_lever.y - other.lever.y)));
 	float way = inner(n, gone), mean = 0.5f * (distance + last) - rest;
-	float pull = spring.stiffness * (aim->h.straight * mean - 0.5f * way) + spring.damping * (aim->h.straight * (last - distance) - way);
-	return parts + pull / spring.per_way;
+	float pull = spring.stiffness * (aim->h.straight * mean - 0.5f * way) + (spring.damping / k) * (aim->h.straight * (last - distance) - way);
+	return (2.0f / k - 1.0f) * parts + pull / spring.per_way;
 }
 
-/* By the end of the step each anchor, or angle, is where it belongs. */
-float part_least(RECORD_IN(joints), int side, const aimed *aim, int part, float parts)
+/* By the end of the step each anchor, or angle, is where it belongs; of a short step as much nearer as it is of a whole one. */
+float part_least(RECORD_IN(joints), int side, const aimed *aim, int part, float parts, float k)
 {
 	float radii = aim->own.radius + aim->other.radius, most = JOINT_MOST * radii, wanted = part_target(joints, side, &aim->h, part);
 	bool one_way = part_pushes_one_way(part), eases = aim->stiff;
 	float target = one_way ? smaller(wanted, most) : larger(smaller(wanted, most), -most);
 	if (part_turns(part))
 		eases = (one_way ? wanted : magnitude(wanted)) > JOINT_FAR * radii;
-	return eases ? -(EASE * target) : parts - 2.0f * target;
+	if (eases)
+		return least_at_last(EASE * target, parts, k);
+	return (2.0f / k - 1.0f) * parts - (2.0f / (k * k)) * (one_way && target < 0.0f ? target : k * target);
 }
 
 /* The forces that a joint's first point has, and, of a pin, its second. */
@@ -266,7 +278,7 @@ float row_forces(RECORD_IN(contacts), int first, int point, int part)
 
 /* What forces are to do, once it is known where all would get with those that there are. */
 void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined),
-	int s, int now, float length)
+	int s, int now, float length, float k)
 {
 	int point = 0, first = first_four(touching, s);
 	aimed aim;
@@ -275,9 +287,9 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 		__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 		int partner = (int)to[4 * FOUR_PARTNER];
 		if (row.point == 0) {
-			aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, false);
-			if (!part_turns(part) && joint_is_stiff(joints, side, &aim, row_forces(contacts, first, point, part), length))
-				aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, true);
+			aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, k, false);
+			if (!part_turns(part) && joint_is_stiff(joints, side, &aim, row_forces(contacts, first, point, part), length, k))
+				aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, k, true);
 		}
 		float2 n = part_way(&aim.h, part);
 		float arm = part_turns(part) ? part_arm(&aim.h, part) : held_arm(aim.own, n, aim.stiff);
@@ -288,10 +300,10 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 		to[4 * FOUR_ARM] = arm;
 		to[4 * FOUR_OTHER_ARM] = other_arm;
 		if (part == PART_MOTOR)
-			to[4 * FOUR_LEAST] = -((CHANNEL(joint_drive(joints, side), DRIVE_SPEED) * length) * aim.h.arm);
+			to[4 * FOUR_LEAST] = least_at_last((CHANNEL(joint_drive(joints, side), DRIVE_SPEED) * length) * aim.h.arm, parts, k);
 		else if (part == PART_SPRING)
-			to[4 * FOUR_LEAST] = spring_least(joints, side, &aim, n, parts, length);
+			to[4 * FOUR_LEAST] = spring_least(joints, side, &aim, n, parts, length, k);
 		else
-			to[4 * FOUR_LEAST] = part_least(joints, side, &aim, part, parts);
+			to[4 * FOUR_LEAST] = part_least(joints, side, &aim, part, parts, k);
 	}
 }

@@ -34,7 +34,7 @@ int island_root(LIST_OUT(touching), LIST_OUT(islands), int s)
 
 /* One iteration of a body, after so many, if its island wants it. True if that wants another. */
 bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_OUT(islands),
-	RECORD_OUT(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), int s, int done, bool rub, float length)
+	RECORD_OUT(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), int s, int done, bool rub, float length, float part)
 {
 	bool impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	int number = status[STATUS_FIRST] + done, most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
@@ -43,12 +43,12 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 		return false;
 	bool aims = joined[JOINED_COUNT] > 0 && !impulses;
 	if (aims && is_aimed(done) && first_contact(touching, s) > 0) {
-		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, length);
+		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, length, part);
 		/* with which the next one has its steps */
 		CHANNEL(loads[LOADS_OF(s) + LOADS_ALONE], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 	}
 	if (!rests_iterate(slots, contacts, grips, touching, loads, joints, joined, s, number & 1, done, rub, impulses,
-			done == 0 || (aims && is_aimed(done - 1)), length)
+			done == 0 || (aims && is_aimed(done - 1)), length, part)
 		|| done + 1 >= most)
 		return false;
 	if (PEEK(touching, wants) == number)

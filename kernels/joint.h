@@ -2,7 +2,7 @@
 
 #define JOINT(joint, record) (JOINT_WIDTH * (joint) + (record))
 
-/* What a point of a joint is for: the first ones hold anchors fast; from PART_MOTOR on they hold the bodies' angles. */
+/* What a point of a joint is for; from PART_MOTOR on what turns. */
 #define PART_PIN_X 0
 #define PART_PIN_Y 1
 #define PART_ROD 2
@@ -13,7 +13,7 @@
 #define PART_UPPER 7
 #define PART_FIXED 8
 
-/* A point of a body's joints, or where there are no more: they come joint by joint, first those that are firm. A side is a joint and which of its two bodies (see Joined), -1: none. */
+/* A point of a body's joints, or where there are no more: they come joint by joint, first those that are firm, which push and pull as is needed. A side is a joint and which of its two bodies (see Joined), -1: none. */
 typedef struct joint_row {
 	int first, side, point;
 	bool firm;
@@ -42,8 +42,8 @@ int joint_points(RECORD_IN(joints), int side, bool firm)
 	if (kind != JOINT_PIN)
 		return firm == (kind == JOINT_ROD) ? 1 : 0;
 	if (firm)
-		return 2;
-	return (joint_has_motor(joints, side) ? 1 : 0) + (stop < 0.0f ? 0 : stop > 0.0f ? 2 : 1);
+		return stop == 0.0f ? 3 : 2;
+	return (joint_has_motor(joints, side) ? 1 : 0) + (stop > 0.0f ? 2 : 0);
 }
 
 /* The next row that there is, from this one on. */
@@ -80,10 +80,10 @@ int row_part(RECORD_IN(joints), const joint_row *row)
 	if (kind != JOINT_PIN)
 		return kind == JOINT_ROD ? PART_ROD : kind == JOINT_ROPE ? PART_ROPE : PART_SPRING;
 	if (row->firm)
-		return k ? PART_PIN_Y : PART_PIN_X;
+		return k == 2 ? PART_FIXED : k ? PART_PIN_Y : PART_PIN_X;
 	if (joint_has_motor(joints, row->side) && k-- == 0)
 		return PART_MOTOR;
-	return CHANNEL(joint_drive(joints, row->side), DRIVE_HALF) > 0.0f ? (k ? PART_UPPER : PART_LOWER) : PART_FIXED;
+	return k ? PART_UPPER : PART_LOWER;
 }
 
 bool part_turns(int part)
@@ -109,21 +109,22 @@ float2 joint_anchor(RECORD_IN(joints), int side)
 	return side & 1 ? anchors.zw : anchors.xy;
 }
 
-/* What a spring pulls with in a step, kg, by how far the anchors are and by how far they part; and both by that way, as it is with the velocities at the step's end. */
+/* What a spring pulls with, kg: by how far its anchors are apart, and by their speed; and by what that, as a way of a whole step, comes to be in such a part of one. */
 typedef struct springing {
 	float stiffness, damping, per_way;
 	bool at_end; /* it acts as at the step's end, not in its middle */
 } springing;
 
-springing spring_of(RECORD_IN(joints), int side, float length)
+springing spring_of(RECORD_IN(joints), int side, float length, float part)
 {
 	float4 drive = joint_drive(joints, side);
 	springing spring;
 	spring.stiffness = smaller((CHANNEL(drive, SPRING_STIFFNESS) * length) * length, SPRING_MOST);
 	spring.damping = smaller(CHANNEL(drive, SPRING_DAMPING) * length, SPRING_MOST);
-	float middle = 0.5f * spring.stiffness + spring.damping;
-	spring.at_end = middle * CHANNEL(drive, SPRING_GIVES) > SPRING_STIFF;
-	spring.per_way = larger(spring.at_end ? spring.stiffness + spring.damping : 0.5f * middle, SPRING_LEAST);
+	spring.at_end = (0.5f * spring.stiffness + spring.damping) * CHANNEL(drive, SPRING_GIVES) > SPRING_STIFF;
+	spring.per_way = spring.at_end ? part * (spring.stiffness * part + spring.damping)
+								   : 0.5f * (part * part) * (0.5f * spring.stiffness + spring.damping / part);
+	spring.per_way = larger(spring.per_way, SPRING_LEAST);
 	return spring;
 }
 
@@ -132,7 +133,7 @@ typedef struct bounds {
 	float low, high, give;
 } bounds;
 
-bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float length, bool impulses)
+bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float length, float part_of_step, bool impulses)
 {
 	int part = row_part(joints, row);
 	bounds of = {part_pushes_one_way(part) ? 0.0f : -INFINITY, INFINITY, 0.0f};
@@ -141,7 +142,7 @@ bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float lengt
 	if (part == PART_SPRING && impulses)
 		of.high = 0.0f;
 	if (part == PART_SPRING && !impulses)
-		of.give = 1.0f / spring_of(joints, row->side, length).per_way;
+		of.give = 1.0f / spring_of(joints, row->side, length, part_of_step).per_way;
 	if (part == PART_MOTOR || (part == PART_SPRING && impulses))
 		of.low = -of.high;
 	return of;

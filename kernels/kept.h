@@ -177,8 +177,7 @@ void joined_warm(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECO
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 		int part = row_part(joints, &row);
 		float kept = ((__global const float *)(joints + JOINT(row.side / 2, JOINT_FORCES)))[part_kept(part)];
-		at[4 * FOUR_FORCE] = at[4 * FOUR_START] =
-			force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
+		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
 	}
 }
 

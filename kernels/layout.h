@@ -383,7 +383,7 @@
 #define WARM_ROOM 1      /* and that there is room for in Warm */
 
 /* Joints: four records a joint, in the order in which they were given. The step contacts has points of them: in Contacts they come first of a body's, in the order of its joints: those that
- * hold anchors, and behind these what else joints do. */
+ * are firm, which push and pull as is needed, and behind these the loose ones. */
 #define JOINT_WIDTH 4
 #define JOINT_PARTIES 0 /* record: the two bodies' indices; */
 #define JOINT_BODY 0
@@ -437,7 +437,7 @@
 #define TOUCHING_CARRIER 9        /* of a root: the largest index of the kinematic bodies that its island touches, -1: none; or: */
 #define CARRIER_STATIC 0x7fffffff /* it touches something static */
 #define TOUCHING_JOINED 10        /* how many of its points, the first ones, are of joints, */
-#define TOUCHING_FIRM 11          /* and of these, the first ones, hold anchors */
+#define TOUCHING_FIRM 11          /* and of these, the first ones, are firm */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
@@ -645,7 +645,8 @@
 #define JOINT_TURN 1.0f     /* rad */
 #define JOINT_FAR 0.01f
 #define JOINT_STIFF 1.5f
-#define JOINT_LEAST 1e-30f /* N or N m, what is less is none: what fades would come where not all devices count */
+#define JOINT_SHORTEST 0.015625f /* of a whole step, as long joints take a shorter one to be */
+#define JOINT_LEAST 1e-30f       /* N or N m, what is less is none: what fades would come where not all devices count */
 #define SPRING_STIFF \
 	2.0f /* what a spring does against a way, by how much its force parts the anchors: above, a step is too long to swing, and it acts as at the step's end */
 #define SPRING_LEAST 1e-30f /* kg, that a spring is taken to answer with, so that it can be divided by, */

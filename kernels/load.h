@@ -190,7 +190,7 @@ float point_gives(float4 mass, float arm)
 
 /* By how much rates change forces, once all bodies have their share; 0 where there is no point. */
 void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), RECORD_IN(joints), LIST_IN(joined),
-	int s, int now, bool rub, bool impulses, float length)
+	int s, int now, bool rub, bool impulses, float length, float part)
 {
 	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
 	joint_row row = loose_row(slots, touching, joints, joined, s);
@@ -205,7 +205,7 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 			if (other >= 0)
 				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE) * point_gives(SLOT_LOAD(slots, other, SLOT_MASS), other_arm);
 			if (i == 0 && row.side >= 0 && point >= firm)
-				gives += bounds_of(joints, &row, arm, length, impulses).give;
+				gives += bounds_of(joints, &row, arm, length, part, impulses).give;
 			*(i ? &grip[4 * GRIP_STEP] : &at[4 * FOUR_STEP]) = 1.0f / gives;
 		}
 		if (row.side >= 0 && point >= firm)
@@ -249,7 +249,7 @@ int4 grips_iterate(RECORD_OUT(grips), int four, float4 force, const ways *w, flo
 	return fabs(left) > few;
 }
 
-/* The least forces of four points, the first of which is that of a body's: those that hold anchors pull, too. */
+/* The least forces of four points, the first of which is that of a body's: those that are firm pull, too. */
 float4 weakest_of(int point, int firm)
 {
 	return (float4)(point < firm ? -INFINITY : 0.0f, point + 1 < firm ? -INFINITY : 0.0f, point + 2 < firm ? -INFINITY : 0.0f,
@@ -257,13 +257,13 @@ float4 weakest_of(int point, int firm)
 }
 
 /* Four points, of which these, from `begin` to `end`, are of joints and not firm, from this row on: their bounds. */
-void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin, int end, float4 arm, float length, bool impulses, float4 *low,
-	float4 *high, float4 *give)
+void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin, int end, float4 arm, float length, float part, bool impulses,
+	float4 *low, float4 *high, float4 *give)
 {
 	float lows[4] = {low->x, low->y, low->z, low->w}, highs[4] = {INFINITY, INFINITY, INFINITY, INFINITY}, gives[4] = {0.0f, 0.0f, 0.0f, 0.0f};
 	float arms[4] = {arm.x, arm.y, arm.z, arm.w};
 	for (int i = begin; i < end; i++, row_next(joints, joined, row)) {
-		bounds of = bounds_of(joints, row, arms[i], length, impulses);
+		bounds of = bounds_of(joints, row, arms[i], length, part, impulses);
 		lows[i] = of.low;
 		highs[i] = of.high;
 		gives[i] = of.give;
@@ -275,7 +275,7 @@ void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin,
 
 /* One iteration of a body's points, after so many, from the loads of one parity to the other; `anew`: with other steps than the one before. True if another is wanted. */
 bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), RECORD_IN(joints),
-	LIST_IN(joined), int s, int now, int done, bool rub, bool impulses, bool anew, float length)
+	LIST_IN(joined), int s, int now, int done, bool rub, bool impulses, bool anew, float length, float part)
 {
 	float closer = impulses || done == 0 ? 1.0f : CONTACT_CLOSER;
 	float beta = (float)done / (float)(done + 2);
@@ -283,7 +283,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 	sums next = {none, none, none};
 	int4 wanted = (int4)(0);
 	if (anew)
-		rests_steps(slots, contacts, grips, touching, loads, joints, joined, s, now, rub, impulses, length);
+		rests_steps(slots, contacts, grips, touching, loads, joints, joined, s, now, rub, impulses, length, part);
 	joint_row row = loose_row(slots, touching, joints, joined, s);
 	int held = first_contact(touching, s), firm = touching[TOUCH(s, TOUCHING_FIRM)];
 	for (int four = first_four(touching, s), point = 0; four < end_four(touching, s); four++, point += 4) {
@@ -296,7 +296,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
 		int begin = max(firm - point, 0), end = min(held - point, 4);
 		if (begin < end) {
-			loose_bounds(joints, joined, &row, begin, end, normals.arm, length, impulses, &low, &high, &give);
+			loose_bounds(joints, joined, &row, begin, end, normals.arm, length, part, impulses, &low, &high, &give);
 			rate += give * at[FOUR_START];
 		}
 		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = low > pushed ? low : pushed, left = force > low ? fabs(rate) : -rate;

@@ -293,6 +293,46 @@ static void what_does_not_turn_is_a_beam(void **unused)
 	}
 }
 
+/* A ball hits the end of a bar, or of one of two of half its length that are fixed to each other: it is the same hit. */
+static void who_hits_a_part_hits_all(void **unused)
+{
+	uint64_t first = 0;
+	(void)unused;
+	SCENERY_EACH_DEVICE(device) {
+		carom_body_state balls[2];
+		double turning[2];
+		for (int parts = 1; parts <= 2; parts++) {
+			carom_world_def def = joined_free(0.0f);
+			carom_body_def bodies[3] = {scenery_circle(0.9f, 1.0f, 0.0f, -3.0f, 0.2f), scenery_box(0.0f, 0.0f, 0.0f, 0.0f, 2.0f, 0.2f)};
+			if (parts == 2) {
+				bodies[1] = scenery_box(-0.5f, 0.0f, 0.0f, 0.0f, 1.0f, 0.2f);
+				bodies[2] = scenery_box(0.5f, 0.0f, 0.0f, 0.0f, 1.0f, 0.2f);
+			}
+			carom_joint fixed = joined_pin(1, 2, 0.5f, 0.0f);
+			fixed.has_stops = true;
+			carom_world *world = runs_world(&def, device, bodies, (size_t)parts + 1);
+			if (!world)
+				break;
+			if (parts == 2)
+				joined_set(world, 1, &fixed);
+			const carom_measure before = runs_measure(world);
+			assert_int_equal(runs_advance(world, 0.5).hits, 1);
+			const carom_measure after = runs_measure(world);
+			runs_near(after.kinetic_energy, before.kinetic_energy, 1e-3 * before.kinetic_energy);
+			runs_near(after.angular_momentum, before.angular_momentum, 1e-3);
+			balls[parts - 1] = runs_state(world, 0);
+			turning[parts - 1] = (double)runs_state(world, 1).angular_velocity;
+			if (parts == 2) {
+				runs_near((double)runs_state(world, 2).angular_velocity, turning[1], 1e-4);
+				runs_near((double)balls[1].velocity.y, (double)balls[0].velocity.y, 1e-3);
+				runs_near(turning[1], turning[0], 1e-3);
+				runs_same_hash(&first, runs_hash(world), device);
+			}
+			carom_world_destroy(world);
+		}
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -304,6 +344,7 @@ int main(void)
 		cmocka_unit_test(a_stop_bears),
 		cmocka_unit_test(a_stop_may_lie_beyond_half_a_turn),
 		cmocka_unit_test(what_does_not_turn_is_a_beam),
+		cmocka_unit_test(who_hits_a_part_hits_all),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

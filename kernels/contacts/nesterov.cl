@@ -26,11 +26,12 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 	if (!domain.w)
 		slot_keep(slots, pushes, s);
 	islands[s] = s;
+	float step = step_length(TEX(uniforms), TEX(clock)), length = whole_length(TEX(uniforms), step);
 	int2 held = joined_find(slots, places, joints, joined, touching, islands, s);
-	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s, held.x,
-		whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock))));
+	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s, held.x, length);
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
-	joined_write(slots, places, joints, joined, touching, contacts, grips, s, count > 0 ? held : (int2)(0, 0), anything_rubs(TEX(uniforms)));
+	joined_write(slots, places, joints, joined, touching, contacts, grips, s, count > 0 ? held : (int2)(0, 0), part_of_whole(step, length),
+		anything_rubs(TEX(uniforms)));
 	if (count > 0 || warm_count(slots, warm_spans, s) > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;
 }
@@ -39,10 +40,8 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_
 	LIST_IN(joined), int4 domain)
 {
 	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
-	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES;
-	if (status[STATUS_FIRST] != domain.z)
-		return;
-	for (int i = get_global_id(0); i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
+	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES, due = status[STATUS_FIRST] == domain.z;
+	for (int i = get_global_id(0); due && i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		touching[TOUCH(s, TOUCHING_WANTED)] = domain.z;
 		if (impulses) {
@@ -67,7 +66,7 @@ __kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), LIST_IN(places), REC
 	__local int more;
 	int touches = status[STATUS_TOUCHING], done = domain.z - status[STATUS_FIRST];
 	bool again, alone = touches <= CONTACTS_ALONE, rub = anything_rubs(TEX(uniforms));
-	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
+	float step = step_length(TEX(uniforms), TEX(clock)), length = whole_length(TEX(uniforms), step), part = part_of_whole(step, length);
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
 	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
@@ -75,7 +74,7 @@ __kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), LIST_IN(places), REC
 		bool wanted = false;
 		for (int i = begin; i < touches; i += stride)
 			wanted |= island_iterate(slots, status, contacts, grips, touching, islands, loads, places, joints, joined,
-				touching[TOUCH(i, TOUCHING_SLOT)], done, rub, length);
+				touching[TOUCH(i, TOUCHING_SLOT)], done, rub, length, part);
 		done++;
 		if (get_local_id(0) == 0)
 			more = 0;

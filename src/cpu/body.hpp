@@ -183,6 +183,12 @@ template <typename T> T whole_length(T length, const Texels<T> &uniforms)
 	return length > 0 ? larger(length, uniforms.fact(UNIFORMS_WORLD, WORLD_TIME_STEP)) : T(0);
 }
 
+/* How much of that a step of that length is, of joints, which act in what there is of it. */
+template <typename T> T part_of_whole(T length, T whole)
+{
+	return whole > 0 ? larger(length / whole, T(JOINT_SHORTEST)) : T(1);
+}
+
 /* What the clock after a step says of time; where the step went to the end, none remains. */
 template <typename T> void add_time(const Texels<T> &clock, const Texels<T> &next, T advanced)
 {

@@ -21,7 +21,7 @@ inline bool is_one_sided(Part part)
 	return part == Part::rope || part == Part::lower || part == Part::upper;
 }
 
-/* What a spring does in a step: kg, by how far anchors part, of the step's end or of its middle; and of that the damper, by their whole way. */
+/* What a spring pulls with, kg: by how far its anchors are apart, and by their speed; and by what that, as a way of a whole step, comes to be. */
 template <typename T> struct Springing {
 	T stiffness, damping, per_way;
 	bool at_end; /* the step is too long to swing in */
@@ -33,35 +33,34 @@ template <typename T> struct Joint {
 
 	bool is(int32_t kind) const { return parties[JOINT_KIND] == static_cast<T>(kind); }
 	bool has_motor() const { return is(JOINT_PIN) && drive[DRIVE_TORQUE] > 0; }
-	int32_t stops() const { return is(JOINT_PIN) && drive[DRIVE_HALF] >= 0 ? 1 + (drive[DRIVE_HALF] > 0) : 0; }
+	bool is_fixed() const { return is(JOINT_PIN) && drive[DRIVE_HALF] == 0; }
+	bool has_stops() const { return is(JOINT_PIN) && drive[DRIVE_HALF] > 0; }
 
-	/* How many hold anchors fast; or how many others there are. */
+	/* How many push and pull as is needed: those are firm; or how many others there are. */
 	int32_t points(bool firm) const
 	{
 		if (firm)
-			return is(JOINT_PIN) ? 2 : is(JOINT_ROD) ? 1 : 0;
-		return is(JOINT_PIN) ? has_motor() + stops() : is(JOINT_ROD) ? 0 : 1;
+			return is(JOINT_PIN) ? 2 + is_fixed() : is(JOINT_ROD);
+		return is(JOINT_PIN) ? has_motor() + 2 * has_stops() : !is(JOINT_ROD);
 	}
 
-	/* Per way by the velocities at the step's end, of which a step that swings goes half. */
-	Springing<T> answer(T length) const
+	/* In such a part of a whole step of that length. */
+	Springing<T> answer(T length, T k) const
 	{
 		const T most = SPRING_MOST, stiffness = smaller((drive[SPRING_STIFFNESS] * length) * length, most);
 		const T damping = smaller(drive[SPRING_DAMPING] * length, most);
-		const T middle = T(0.5) * stiffness + damping;
-		const bool at_end = middle * drive[SPRING_GIVES] > T(SPRING_STIFF);
-		return {stiffness, damping, larger(at_end ? stiffness + damping : T(0.5) * middle, T(SPRING_LEAST)), at_end};
+		const bool at_end = (T(0.5) * stiffness + damping) * drive[SPRING_GIVES] > T(SPRING_STIFF);
+		const T per_way = at_end ? k * (stiffness * k + damping) : T(0.5) * (k * k) * (T(0.5) * stiffness + damping / k);
+		return {stiffness, damping, larger(per_way, T(SPRING_LEAST)), at_end};
 	}
 
 	Part part(bool firm, int32_t k) const
 	{
 		if (firm)
-			return is(JOINT_ROD) ? Part::rod : k == 0 ? Part::pin_x : Part::pin_y;
+			return is(JOINT_ROD) ? Part::rod : k == 0 ? Part::pin_x : k == 1 ? Part::pin_y : Part::fixed;
 		if (!is(JOINT_PIN))
 			return is(JOINT_ROPE) ? Part::rope : Part::spring;
-		if (has_motor() && k == 0)
-			return Part::motor;
-		return stops() == 1 ? Part::fixed : k == has_motor() ? Part::lower : Part::upper;
+		return has_motor() && k == 0 ? Part::motor : k == has_motor() ? Part::lower : Part::upper;
 	}
 };
 
@@ -84,7 +83,7 @@ private:
 	const int32_t *const list;
 };
 
-/* Goes through the points of a body's joints: first those that hold anchors, of one joint after the other, and then the others. */
+/* Goes through the points of a body's joints: first those that are firm, of one joint after the other, and then the others. */
 template <typename T> class JointRows
 {
 public:
@@ -105,7 +104,7 @@ public:
 	bool is_other() const { return side % 2 == 1; }
 	/* The body at the other end, -1 for none. */
 	int32_t partner() const { return static_cast<int32_t>(joint().parties[is_other() ? JOINT_BODY : JOINT_OTHER]); }
-	/* Is it the first of its joint's, of those or of the others? */
+	/* Is it the first of its joint's that are firm, or that are not? */
 	bool begins() const { return k == 0; }
 	Part part() const { return joint().part(firm, k); }
 
@@ -181,7 +180,7 @@ template <typename T> struct Hold {
 		if (joint.is(JOINT_PIN)) {
 			n[0] = Vec<T>(sign, 0), n[1] = Vec<T>(0, sign);
 			target[0] = -inner(n[0], first), target[1] = -inner(n[1], first);
-			if (joint.points(false) == 0)
+			if (!joint.is_fixed() && joint.points(false) == 0)
 				return;
 			arm = larger(own.gyration(), other.gyration());
 			turned = wrapped((is_other ? other.angle - own.angle : own.angle - other.angle) - joint.drive[DRIVE_MIDDLE]);
@@ -221,18 +220,18 @@ template <typename T> struct Hold {
 };
 
 /* What the force at a point of a joint may be, and by how much it gives way of itself. */
-template <typename T> struct Bounds {
+template <typename T> struct ForceBounds {
 	T low, high = infinite<T>, give = 0;
 
-	/* Of a point with that arm, in a step or as it begins. */
-	Bounds(const Joint<T> &joint, Part part, T arm, T length, bool impulses) : low(is_one_sided(part) ? T(0) : -infinite<T>)
+	/* Of a point with that arm, as a step begins, or in such a part of a whole one. */
+	ForceBounds(const Joint<T> &joint, Part part, T arm, T length, T part_of_step, bool impulses) : low(is_one_sided(part) ? T(0) : -infinite<T>)
 	{
 		if (part != Part::motor && part != Part::spring)
 			return;
 		if (impulses)
 			low = high = 0;
 		else if (part == Part::spring)
-			give = 1 / joint.answer(length).per_way;
+			give = 1 / joint.answer(length, part_of_step).per_way;
 		else
 			high = ((joint.drive[DRIVE_TORQUE] * length) * length) / std::abs(arm), low = -high;
 	}

@@ -10,7 +10,7 @@ namespace carom::cpu {
 
 /* How many points a body's joints have. */
 struct JoinedCount {
-	int32_t all = 0, firm = 0; /* firm: the first ones, which hold anchors */
+	int32_t all = 0, firm = 0; /* firm: the first ones, which push and pull as is needed */
 };
 
 /* Of a dynamic body, or a kinematic one, which has no points; those with which it is joined wake, if it is awake. */
@@ -55,9 +55,9 @@ template <typename T> struct HeldNow {
 	}
 };
 
-/* Writes the points, which come first of a body's. Impulses let what is still apart get as far as its bound, and no farther. */
+/* Writes the points, which come first of a body's. Impulses let what is still apart get as far as its bound in the step, and no farther. */
 template <typename T>
-void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *places, int32_t s, Points<T> *to, Grips<T> *grips)
+void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *places, T part_of_step, int32_t s, Points<T> *to, Grips<T> *grips)
 {
 	int32_t written = 0;
 	HeldNow<T> now;
@@ -75,7 +75,7 @@ void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *
 		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
 		points.arm[i] = is_angular(part) ? now.hold.turning_arm(part) : cross(own.lever, n);
 		points.other_arm[i] = is_angular(part) ? now.hold.turning_arm(part) : cross(other.lever, n);
-		points.least[i] = is_one_sided(part) ? larger(-now.hold.aim(part, rows.joint()), T(0)) : T(0);
+		points.least[i] = is_one_sided(part) ? larger(-now.hold.aim(part, rows.joint()), T(0)) / part_of_step : T(0);
 		points.tolerance[i] = T(JOINT_PART) * (size * T(SLOP));
 		if (grips)
 			grips[written / lane_count].drop(i);
@@ -146,7 +146,7 @@ public:
 		if (!joint.is(JOINT_PIN))
 			gives += (own.inverse_mass + other.inverse_mass) / joint.parties[JOINT_LENGTH];
 		const T least = joint.is(JOINT_ROPE) ? -held.target[0] : std::abs(held.target[0]);
-		is_stiff = joint.is(JOINT_SPRING) ? joint.answer(rests->length).at_end
+		is_stiff = joint.is(JOINT_SPRING) ? joint.answer(rests->length, rests->part).at_end
 										  : forces * gives > T(JOINT_STIFF) || least > far || std::abs(held.target[1]) > far;
 		if (is_stiff)
 			look(true);
@@ -163,7 +163,7 @@ public:
 		if (part == Part::spring)
 			points.least[i] = spring(n, parts);
 		else if (part == Part::motor)
-			points.least[i] = -((rows->joint().drive[DRIVE_SPEED] * rests->length) * held.arm);
+			points.least[i] = at_last((rows->joint().drive[DRIVE_SPEED] * rests->length) * held.arm, parts);
 		else
 			points.least[i] = least(part, parts);
 	}
@@ -183,9 +183,8 @@ private:
 	{
 		const Slot<T> &slot = rests->slots[slot_index];
 		const Lanes<T> &load = loads[LOADS_OF(slot_index)];
-		const auto way = [&](T velocity, T with_forces) {
-			return by_velocity ? velocity * rests->length : T(0.5) * (velocity * rests->length + with_forces);
-		};
+		const T k = rests->part, before = by_velocity ? k : k * (1 - T(0.5) * k), after = by_velocity ? T(0) : T(0.5) * (k * k);
+		const auto way = [&](T velocity, T with_forces) { return (velocity * rests->length) * before + with_forces * after; };
 		return Held<T>(slot, anchor, {way(slot.place[LINEAR_VX], load[0]), way(slot.place[LINEAR_VY], load[1])},
 			way(slot.turn[TURN_VELOCITY], load[2]));
 	}
@@ -200,27 +199,33 @@ private:
 			+ arm * (slot.turn[TURN_VELOCITY] * rests->length);
 	}
 
-	/* By the end of the step each anchor, or angle, is where it belongs. */
+	/* So that they have that rate, as a way of a whole step, when the step ends. */
+	T at_last(T rate, T parts) const { return -((rate - (1 - rests->part) * parts) / rests->part); }
+
+	/* By the end of the step each anchor, or angle, is where it belongs; of a short step as much nearer as it is of a whole one. */
 	T least(Part part, T parts) const
 	{
-		const T most = T(JOINT_MOST) * (own.radius + other.radius), far = T(JOINT_FAR) * (own.radius + other.radius);
+		const T most = T(JOINT_MOST) * (own.radius + other.radius), far = T(JOINT_FAR) * (own.radius + other.radius), k = rests->part;
 		const T aim = held.aim(part, rows->joint()), up = smaller(aim, most), target = is_one_sided(part) ? up : larger(up, -most);
 		const bool eases = is_angular(part) ? (is_one_sided(part) ? aim : std::abs(aim)) > far : is_stiff;
-		return eases ? -(T(EASE) * target) : parts - 2 * target;
+		const T way = is_one_sided(part) && target < 0 ? target : k * target;
+		return eases ? at_last(T(EASE) * target, parts) : (2 / k - 1) * parts - (2 / (k * k)) * way;
 	}
 
 	/* What a spring pulls with where all get as they would now, but for what it gives way by then: that comes with its force. */
 	T spring(const Vec<T> &n, T parts) const
 	{
-		const Springing<T> answer = rows->joint().answer(rests->length);
-		const T length = rows->joint().parties[JOINT_LENGTH];
-		if (is_stiff)
-			return (answer.stiffness * ((held.last_distance - parts) - length)) / answer.per_way;
+		const Springing<T> answer = rows->joint().answer(rests->length, rests->part);
+		const T rest = rows->joint().parties[JOINT_LENGTH], k = rests->part;
+		if (is_stiff) {
+			const T pull = answer.stiffness * ((held.last_distance - k * parts) - rest);
+			return (pull + (answer.stiffness * k + answer.damping) * ((1 - k) * parts)) / answer.per_way;
+		}
 		const Vec<T> gone = (own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever));
-		const T way = inner(n, gone), mean = T(0.5) * (held.distance + held.last_distance) - length;
+		const T way = inner(n, gone), mean = T(0.5) * (held.distance + held.last_distance) - rest;
 		const T pull = answer.stiffness * (held.straight * mean - T(0.5) * way)
-			+ answer.damping * (held.straight * (held.last_distance - held.distance) - way);
-		return parts + pull / answer.per_way;
+			+ (answer.damping / k) * (held.straight * (held.last_distance - held.distance) - way);
+		return (2 / k - 1) * parts + pull / answer.per_way;
 	}
 
 	const Rests<T> *rests;

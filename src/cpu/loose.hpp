@@ -33,7 +33,7 @@ template <typename T> void set_steps(const Rests<T> &rests, Points<T> &points, G
 	}
 }
 
-/* The same for the points of a body's joints that hold no anchors fast, with what they give way of themselves; and what an iteration comes to there: lanes of four points, from `first` on. */
+/* The same for the points of a body's joints that are not firm, with what they give way of themselves; and what an iteration comes to there: lanes of four points, from `first` on. */
 template <typename T> class Loose
 {
 public:
@@ -46,7 +46,7 @@ public:
 		Lanes<T> &wanted)
 	{
 		for (int32_t i = first; i < lane_count && left > 0; i++, left--, rows.next()) {
-			const Bounds<T> bounds(rows.joint(), rows.part(), points.arm[i], rests.length, rests.impulses);
+			const ForceBounds<T> bounds(rows.joint(), rows.part(), points.arm[i], rests.length, rests.part, rests.impulses);
 			if (anew)
 				points.step[i] = 1
 					/ (gives_with_all(rests, slot, Partner(points.partner[i]), share, others[i], points.arm[i], points.other_arm[i]) + bounds.give);

@@ -107,7 +107,8 @@ template <typename T> struct Nearness {
 
 /* A slot, and which of the contacts that were found are its body's. */
 struct RestingBody {
-	int32_t s, joined, firm, points; /* joined: of the points, the first ones, those of joints; firm: of these, likewise, that hold anchors */
+	int32_t s, joined, firm,
+		points; /* joined: of the points, the first ones, those of joints; firm: of these, likewise, that push and pull as is needed */
 	size_t first, end;
 };
 

@@ -50,7 +50,7 @@ template <typename T> struct Rests {
 	Touching *touching;
 	Grips<T> *grips;
 	Forest islands; /* dynamic bodies that touch each other, directly or by others */
-	T length;
+	T length, part; /* of a whole step; and how much of that this one is, of joints */
 	bool rubs;
 	bool impulses;                   /* of the pass; read once, for in Status it lies beside what an iteration writes */
 	const int32_t *places = nullptr; /* of stages that ask for the ground */
@@ -58,7 +58,8 @@ template <typename T> struct Rests {
 	explicit Rests(const Job<T> &job)
 		: slots(reinterpret_cast<const Slot<T> *>(job.records(2))), status(job.list(3)), points(reinterpret_cast<Points<T> *>(job.records(4))),
 		  touching(reinterpret_cast<Touching *>(job.list(5))), grips(reinterpret_cast<Grips<T> *>(job.records(6))), islands{job.list(7)},
-		  length(whole_length(step_length(job.texels(1), job.texels(0)), job.texels(0))), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
+		  length(whole_length(step_length(job.texels(1), job.texels(0)), job.texels(0))),
+		  part(part_of_whole(step_length(job.texels(1), job.texels(0)), length)), rubs(job.texels(0).fact(UNIFORMS_RUBS, RUBS_ANY) > 0),
 		  impulses(status[STATUS_PASS] == PASS_IMPULSES)
 	{
 	}

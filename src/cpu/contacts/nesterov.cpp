@@ -51,7 +51,8 @@ static void sort_touching(Touching *touching, int32_t count)
 /* First those that are awake; then those that they wake. */
 template <typename T> static void find(const Job<T> &job)
 {
-	const Clusters<T> clusters(job, 14, whole_length(step_length(job.texels(2), job.texels(1)), job.texels(1)));
+	const T length = step_length(job.texels(2), job.texels(1)), whole = whole_length(length, job.texels(1));
+	const Clusters<T> clusters(job, 14, whole);
 	Points<T> *points = reinterpret_cast<Points<T> *>(job.records(12));
 	const Sleepers<T> sleepers{
 		reinterpret_cast<Touching *>(job.list(13)), reinterpret_cast<Kept<T> *>(job.records(16)), job.list(20), clusters.status};
@@ -85,7 +86,8 @@ template <typename T> static void find(const Job<T> &job)
 		for (const RestingBody &body : bodies) {
 			const Touching &own = touching[body.s];
 			if (own.joined > 0)
-				write_joined(joints, clusters.slots, places, body.s, points + own.first, rubs.any ? grips + own.first : nullptr);
+				write_joined(joints, clusters.slots, places, part_of_whole(length, whole), body.s, points + own.first,
+					rubs.any ? grips + own.first : nullptr);
 			if (own.count > 0)
 				finder.write(body, points + own.first, grips + (rubs.any ? own.first : 0));
 			/* what rests on a kinematic body goes by that one's load */
@@ -205,7 +207,7 @@ static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T>
 		Lanes<T> rate;
 		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
 		rate += points.least;
-		Lanes<T> least{}; /* what holds anchors pulls, too */
+		Lanes<T> least{}; /* what is firm pulls, too */
 		int32_t first = 0;
 		for (; first < lane_count && firm > 0; first++, firm--)
 			least[first] = -infinite<T>;
