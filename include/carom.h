@@ -367,6 +367,7 @@ typedef enum carom_joint_kind {
 	CAROM_ROPE,     /**< as a rope without mass: they are `length` apart at most */
 	CAROM_SPRING,   /**< as a spring and a damper without mass: it pulls with `stiffness` times what they are farther apart than `length`, and
 	                 `damping` times the speed at which they part */
+	CAROM_SLIDER,   /**< the body's anchor stays on a line through the other anchor, which turns with the other body; else as a pin */
 } carom_joint_kind;
 
 #define CAROM_GROUND (-1) /**< where a joint has the index of another body: a place in the world */
@@ -375,40 +376,43 @@ typedef enum carom_joint_kind {
  * motor that brakes, a rope that gets tight, and an angle that gets to its stop: forces between the anchors act through each step, and impulses as it begins. Anchors that are not
  * where they belong are brought there, by no more than the bodies' radii a step. */
 typedef struct carom_joint {
-	carom_joint_kind kind;   /**< a pin, a rod, a rope or a spring */
+	carom_joint_kind kind;   /**< a pin, a rod, a rope, a spring or a slider */
 	uint32_t body;           /**< its index */
 	int32_t other;           /**< the index of another body; default CAROM_GROUND. One of the two must be dynamic */
 	carom_vec2 anchor;       /**< m, from the body's centre of mass, in its own frame (at angle 0), no more than 1e9; default (0, 0) */
 	carom_vec2 other_anchor; /**< m, likewise of the other body; for CAROM_GROUND the place. NaN (the default): where `anchor` is as it is
 	                          given to a world */
-	float length;            /**< m, no more than 1e9, of all but CAROM_REVOLUTE: of a rod or rope from a hundredth of the two radii on, of a spring
+	float length;            /**< m, no more than 1e9, of rods, ropes and springs: of a rod or rope from a hundredth of the two radii on, of a spring
 	                     at rest, from 0 on; NaN (the default): as far as the anchors are from each other as it is given to a world */
+	float axis;              /**< rad, -2 pi..2 pi, of CAROM_SLIDER: which way its line goes in the other body's frame, or the world's; default 0 */
 	float stiffness;         /**< N/m, 0..1e12, of CAROM_SPRING; default 0 */
 	float damping;           /**< N s/m, likewise. One of the two must be above 0 */
-	float motor_speed;       /**< rad/s, within +-1e9, of CAROM_REVOLUTE: the body's angular velocity, less the other one's, that a motor brings
+	float
+		motor_speed; /**< rad/s, within +-1e9, of CAROM_REVOLUTE and CAROM_SLIDER: the body's angular velocity, less the other one's, that a motor brings
 	                     about; default 0: it brakes */
-	float motor_torque;      /**< N m, 0..1e30: what the motor has at most; default 0: there is none */
-	bool has_stops;          /**< of CAROM_REVOLUTE: the body's angle, less the other one's, stays between two; default false */
-	float lower_angle;       /**< rad, -2 pi..2 pi, if has_stops: not below this; default 0 */
-	float upper_angle;       /**< rad, likewise: nor above this, which is as much, so that they don't turn against each other, or less than 2 pi
+	float motor_torque; /**< N m, 0..1e30: what the motor has at most; default 0: there is none */
+	bool has_stops;     /**< of the same: the body's angle, less the other one's, stays between two; default false */
+	float lower_angle;  /**< rad, -2 pi..2 pi, if has_stops: not below this; default 0 */
+	float upper_angle;  /**< rad, likewise: nor above this, which is as much, so that they don't turn against each other, or less than 2 pi
 	                     more; default 0 */
-	bool collides;           /**< the two bodies hit each other, too; default false: they pass through each other */
-	float force[2];          /**< N: what the last step ended with: of CAROM_REVOLUTE what acts on `body`, along x and y; of the others what pushes
+	bool collides;      /**< the two bodies hit each other, too; default false: they pass through each other */
+	float force
+		[2]; /**< N: what the last step ended with: of CAROM_REVOLUTE what acts on `body`, along x and y; of CAROM_SLIDER to the left of its line, and 0; of the others what pushes
 	                     the two apart, below 0 where it pulls, and 0. The next step's begin with it */
-	float torque[2];         /**< N m, on `body`, of CAROM_REVOLUTE: the motor's, and that of the stops; likewise */
+	float torque[2]; /**< N m, on `body`, of the same: the motor's, and that of the stops; likewise */
 } carom_joint;
 
 /** A CAROM_REVOLUTE of body 0, with the defaults above. */
 CAROM_API carom_joint carom_default_joint(void);
 /** How many a world has. */
 CAROM_API size_t carom_world_joint_count(const carom_world *world);
-/** Reads `count` of them from number `first` on, in the order of `body`, of one body in that in which they were given, without any NaN: the `length` of CAROM_REVOLUTE is 0. Waits for the device. */
+/** Reads `count` of them from number `first` on, in the order of `body`, of one body in that in which they were given, without any NaN: a `length` that says nothing is 0. Waits for the device. */
 CAROM_API carom_status carom_world_get_joints(carom_world *world, size_t first, size_t count, carom_joint *joints, carom_error *error);
 /** Replaces them, all or none: a joint more is one more behind those that were read. Those of a body that is removed go with it. It wakes all bodies; a motor gets another speed by it. Each takes about 100 bytes on the device, and where there are any a body 16 more. With states and contacts they are what another world needs to go on with the
  * same bits. CAROM_INVALID_ARGUMENT names the joint (as `joints[k]`) and the field, or that the world's step is not contacts: others hold no joints. */
 CAROM_API carom_status carom_world_set_joints(carom_world *world, size_t count, const carom_joint *joints, carom_error *error);
 
-/** Gives the motor of joint number `joint`, a CAROM_REVOLUTE, as carom_world_get_joints counts them, another speed (rad/s) and torque (N m; 0: there is none), within what a carom_joint may have: with the
+/** Gives the motor of joint number `joint`, a CAROM_REVOLUTE or CAROM_SLIDER, as carom_world_get_joints counts them, another speed (rad/s) and torque (N m; 0: there is none), within what a carom_joint may have: with the
  * bits of a world in which all joints were set anew, but at next to no cost, also between any two steps. Errors as of carom_world_set_joints. */
 CAROM_API carom_status carom_world_set_motor(carom_world *world, size_t joint, float speed, float torque, carom_error *error);
 

@@ -72,7 +72,31 @@ typedef struct hold {
 	float target[2];
 	float distance, last_distance, straight; /* of the anchors, where they have one; and how much of the two is in the middle */
 	float arm, turned, sign;                 /* m, of what turns; rad, from the middle of the stops */
+	float2 slid, last_slid;                  /* of a slider, from the anchor on its line to the other, as the way begins and ends */
+	float line_turned;
+	bool slides;
 } hold;
+
+/* To the left of a slider's line, seen from one of its sides. */
+float2 line_normal(float angle, float sign)
+{
+	float2 along = rotation_of(angle);
+	return (float2)(sign * -along.y, sign * along.x);
+}
+
+/* A slider, whose line goes with that one of the two. */
+void hold_slide(hold *h, float axis, held owner, float2 first, float2 gone, bool at_end)
+{
+	float angle = owner.angle + axis;
+	h->slides = true;
+	h->slid = (float2)(h->sign * first.x, h->sign * first.y);
+	h->last_slid = (float2)(h->sign * (first.x + gone.x), h->sign * (first.y + gone.y));
+	h->line_turned = owner.turned;
+	h->n[0] = line_normal(angle + (at_end ? owner.turned : 0.5f * owner.turned), h->sign);
+	h->n[1] = (float2)(0.0f, 0.0f);
+	h->target[0] = -inner(line_normal(angle, h->sign), first);
+	h->target[1] = 0.0f;
+}
 
 hold hold_of(RECORD_IN(joints), int side, held own, held other, bool at_end)
 {
@@ -81,15 +105,22 @@ hold hold_of(RECORD_IN(joints), int side, held own, held other, bool at_end)
 	float2 gone = (float2)((own.way.x - other.way.x) + ((own.last_lever.x - own.lever.x) - (other.last_lever.x - other.lever.x)),
 		(own.way.y - other.way.y) + ((own.last_lever.y - own.lever.y) - (other.last_lever.y - other.lever.y)));
 	h.sign = side & 1 ? -1.0f : 1.0f;
-	if (joint_kind(joints, side) == JOINT_PIN) {
+	h.slides = false;
+	h.slid = h.last_slid = (float2)(0.0f, 0.0f);
+	h.line_turned = 0.0f;
+	if (joint_turns(joints, side)) {
 		float angle = side & 1 ? other.angle - own.angle : own.angle - other.angle;
-		h.n[0] = (float2)(h.sign, 0.0f);
-		h.n[1] = (float2)(0.0f, h.sign);
-		h.target[0] = -inner(h.n[0], first);
-		h.target[1] = -inner(h.n[1], first);
+		if (joint_kind(joints, side) == JOINT_PIN) {
+			h.n[0] = (float2)(h.sign, 0.0f);
+			h.n[1] = (float2)(0.0f, h.sign);
+			h.target[0] = -inner(h.n[0], first);
+			h.target[1] = -inner(h.n[1], first);
+		} else {
+			hold_slide(&h, CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), side & 1 ? own : other, first, gone, at_end);
+		}
 		h.distance = h.last_distance = h.straight = 0.0f;
 		h.arm = h.turned = 0.0f;
-		if (joint_points(joints, side, true) == 2 && joint_points(joints, side, false) == 0)
+		if (CHANNEL(joint_drive(joints, side), DRIVE_HALF) < 0.0f && !joint_has_motor(joints, side))
 			return h;
 		h.arm = larger(held_gyration(own), held_gyration(other));
 		h.turned = wrapped(angle - CHANNEL(joint_drive(joints, side), DRIVE_MIDDLE));
@@ -115,10 +146,16 @@ float2 part_way(const hold *h, int part)
 	return part == PART_ROPE ? (float2)(-h->n[0].x, -h->n[0].y) : part == PART_PIN_Y ? h->n[1] : h->n[0];
 }
 
-/* Of both bodies, of what turns. */
-float part_arm(const hold *h, int part)
+/* Of one of the two; what turns has the same of both, and a slider's line turns with the body that has it. */
+float part_arm(const hold *h, int part, held body, bool is_own, bool at_end)
 {
-	return part == PART_UPPER ? -(h->sign * h->arm) : h->sign * h->arm;
+	if (part_turns(part))
+		return part == PART_UPPER ? -(h->sign * h->arm) : h->sign * h->arm;
+	float2 n = part_way(h, part), middle = (float2)(0.5f * (h->slid.x + h->last_slid.x), 0.5f * (h->slid.y + h->last_slid.y));
+	float arm = held_arm(body, n, at_end);
+	if (!h->slides || is_own != (h->sign < 0.0f))
+		return arm;
+	return arm + (at_end ? cross2(h->last_slid, n) : cross2(middle, n) * (1.0f + (h->line_turned * h->line_turned) * (1.0f / 12.0f)));
 }
 
 /* How far the two are to get along it; at least, where it pushes one way alone. */
@@ -180,8 +217,8 @@ void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(
 		to[4 * FOUR_PARTNER] = (float)code;
 		to[4 * FOUR_NORMAL_X] = n.x;
 		to[4 * FOUR_NORMAL_Y] = n.y;
-		to[4 * FOUR_ARM] = part_turns(part) ? part_arm(&h, part) : cross2(own.lever, n);
-		to[4 * FOUR_OTHER_ARM] = part_turns(part) ? part_arm(&h, part) : cross2(other.lever, n);
+		to[4 * FOUR_ARM] = part_arm(&h, part, own, true, true);
+		to[4 * FOUR_OTHER_ARM] = part_arm(&h, part, other, false, true);
 		to[4 * FOUR_LEAST] = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / part_of_step : 0.0f;
 		to[4 * FOUR_TOLERANCE] = JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
 	}
@@ -228,8 +265,10 @@ bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, 
 	float gives = held_gives(aim->own) + held_gives(aim->other), far = JOINT_FAR * (aim->own.radius + aim->other.radius), target = aim->h.target[0];
 	if (kind == JOINT_SPRING)
 		return spring_of(joints, side, length, part).at_end;
-	if (kind != JOINT_PIN)
+	if (!joint_turns(joints, side))
 		gives += (aim->own.inverse_mass + aim->other.inverse_mass) / CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH);
+	if (kind == JOINT_SLIDER)
+		gives += larger(magnitude(aim->h.slid.x), magnitude(aim->h.slid.y)) * (side & 1 ? aim->own : aim->other).inverse_inertia;
 	return force * gives > JOINT_STIFF || (kind == JOINT_ROPE ? -target : magnitude(target)) > far || magnitude(aim->h.target[1]) > far;
 }
 
@@ -292,8 +331,7 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 				aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, k, true);
 		}
 		float2 n = part_way(&aim.h, part);
-		float arm = part_turns(part) ? part_arm(&aim.h, part) : held_arm(aim.own, n, aim.stiff);
-		float other_arm = part_turns(part) ? part_arm(&aim.h, part) : held_arm(aim.other, n, aim.stiff);
+		float arm = part_arm(&aim.h, part, aim.own, true, aim.stiff), other_arm = part_arm(&aim.h, part, aim.other, false, aim.stiff);
 		float parts = way_along(slots, s, n, arm, length) - way_along(slots, partner, n, other_arm, length);
 		to[4 * FOUR_NORMAL_X] = n.x;
 		to[4 * FOUR_NORMAL_Y] = n.y;

@@ -8,10 +8,11 @@
 #define PART_ROD 2
 #define PART_ROPE 3
 #define PART_SPRING 4
-#define PART_MOTOR 5
-#define PART_LOWER 6
-#define PART_UPPER 7
-#define PART_FIXED 8
+#define PART_LINE 5
+#define PART_MOTOR 6
+#define PART_LOWER 7
+#define PART_UPPER 8
+#define PART_FIXED 9
 
 /* A point of a body's joints, or where there are no more: they come joint by joint, first those that are firm, which push and pull as is needed. A side is a joint and which of its two bodies (see Joined), -1: none. */
 typedef struct joint_row {
@@ -29,6 +30,13 @@ int joint_kind(RECORD_IN(joints), int side)
 	return (int)CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_KIND);
 }
 
+/* Do its bodies turn against each other about the anchor? */
+bool joint_turns(RECORD_IN(joints), int side)
+{
+	int kind = joint_kind(joints, side);
+	return kind == JOINT_PIN || kind == JOINT_SLIDER;
+}
+
 bool joint_has_motor(RECORD_IN(joints), int side)
 {
 	return CHANNEL(joint_drive(joints, side), DRIVE_TORQUE) > 0.0f;
@@ -39,10 +47,10 @@ int joint_points(RECORD_IN(joints), int side, bool firm)
 {
 	int kind = joint_kind(joints, side);
 	float stop = CHANNEL(joint_drive(joints, side), DRIVE_HALF);
-	if (kind != JOINT_PIN)
+	if (!joint_turns(joints, side))
 		return firm == (kind == JOINT_ROD) ? 1 : 0;
 	if (firm)
-		return stop == 0.0f ? 3 : 2;
+		return (kind == JOINT_PIN ? 2 : 1) + (stop == 0.0f ? 1 : 0);
 	return (joint_has_motor(joints, side) ? 1 : 0) + (stop > 0.0f ? 2 : 0);
 }
 
@@ -77,8 +85,10 @@ void row_next(RECORD_IN(joints), LIST_IN(joined), joint_row *row)
 int row_part(RECORD_IN(joints), const joint_row *row)
 {
 	int kind = joint_kind(joints, row->side), k = row->point;
-	if (kind != JOINT_PIN)
+	if (!joint_turns(joints, row->side))
 		return kind == JOINT_ROD ? PART_ROD : kind == JOINT_ROPE ? PART_ROPE : PART_SPRING;
+	if (row->firm && kind == JOINT_SLIDER)
+		return k ? PART_FIXED : PART_LINE;
 	if (row->firm)
 		return k == 2 ? PART_FIXED : k ? PART_PIN_Y : PART_PIN_X;
 	if (joint_has_motor(joints, row->side) && k-- == 0)

@@ -387,19 +387,21 @@
 #define JOINT_WIDTH 4
 #define JOINT_PARTIES 0 /* record: the two bodies' indices; */
 #define JOINT_BODY 0
-#define JOINT_OTHER 1  /* -1: it is a place in the world; */
-#define JOINT_LENGTH 2 /* m, how far the anchors are from each other, of a rope at most, of a spring at rest; */
-#define JOINT_KIND 3   /* what it is: */
+#define JOINT_OTHER 1 /* -1: it is a place in the world; */
+#define JOINT_LENGTH \
+	2 /* m, how far the anchors are from each other, of a rope at most, of a spring at rest; of a slider rad, which way its line goes in the other's frame; */
+#define JOINT_KIND 3 /* what it is: */
 #define JOINT_PIN 0
 #define JOINT_ROD 1
 #define JOINT_ROPE 2
 #define JOINT_SPRING 3
+#define JOINT_SLIDER 4
 #define JOINT_ANCHORS 1    /* record: m, from the centre of mass, in the body's own frame, x and y of each; or of the world */
 #define JOINT_FORCES 2     /* record, part of the state: what acted on the body in the last step, */
-#define JOINT_FORCE 0      /* N: away from the other's anchor, or of a pin along x, and then along y; */
-#define JOINT_TORQUE 2     /* N m, of a pin's motor; */
-#define JOINT_STOP 3       /* and of its stops */
-#define JOINT_DRIVE 3      /* record: of a pin */
+#define JOINT_FORCE 0      /* N: away from the other's anchor, or of a pin along x, and then along y, or of a slider to the left of its line; */
+#define JOINT_TORQUE 2     /* N m, of a motor; */
+#define JOINT_STOP 3       /* and of stops */
+#define JOINT_DRIVE 3      /* record: of a pin or a slider */
 #define DRIVE_SPEED 0      /* rad/s, of the body against the other one, which a motor wants; */
 #define DRIVE_TORQUE 1     /* N m, with no more than this, 0: there is none; */
 #define DRIVE_MIDDLE 2     /* rad, between the two stops; and */

@@ -14,9 +14,8 @@
 carom_status carom_joint_check_parties(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error)
 {
 	const carom_body *bodies = carom_world_bodies(world);
-	if ((int)joint->kind < CAROM_REVOLUTE || (int)joint->kind > CAROM_SPRING)
-		return carom_fail(error, CAROM_INVALID_ARGUMENT,
-			"joints[%zu].kind: found %d, must be CAROM_REVOLUTE, CAROM_DISTANCE, CAROM_ROPE or CAROM_SPRING", k, (int)joint->kind);
+	if ((int)joint->kind < CAROM_REVOLUTE || (int)joint->kind > CAROM_SLIDER)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].kind: found %d, must be one of carom_joint_kind", k, (int)joint->kind);
 	if (joint->body >= world->body_count)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].body: found %u, the world has %zu bodies", k, joint->body, world->body_count);
 	if (joint->other != CAROM_GROUND && (joint->other < 0 || (size_t)joint->other >= world->body_count || (uint32_t)joint->other == joint->body))
@@ -31,6 +30,11 @@ carom_status carom_joint_check_parties(const carom_world *world, size_t k, const
 static bool may_be_anchor(carom_vec2 v)
 {
 	return fabsf(v.x) <= FARTHEST_ANCHOR && fabsf(v.y) <= FARTHEST_ANCHOR;
+}
+
+bool carom_joint_turns(const carom_joint *joint)
+{
+	return joint->kind == CAROM_REVOLUTE || joint->kind == CAROM_SLIDER;
 }
 
 /* A shorter rod has no way that it is sure of. A spring that is none has no force, either. */
@@ -51,9 +55,10 @@ static carom_status check_kind(size_t k, const carom_joint *joint, carom_error *
 	} fields[] = {
 		{"stiffness", "CAROM_SPRING", joint->stiffness != 0.0f, joint->kind == CAROM_SPRING},
 		{"damping", "CAROM_SPRING", joint->damping != 0.0f, joint->kind == CAROM_SPRING},
-		{"motor_speed", "CAROM_REVOLUTE", joint->motor_speed != 0.0f, joint->kind == CAROM_REVOLUTE},
-		{"motor_torque", "CAROM_REVOLUTE", joint->motor_torque != 0.0f, joint->kind == CAROM_REVOLUTE},
-		{"has_stops", "CAROM_REVOLUTE", joint->has_stops, joint->kind == CAROM_REVOLUTE},
+		{"axis", "CAROM_SLIDER", joint->axis != 0.0f, joint->kind == CAROM_SLIDER},
+		{"motor_speed", "CAROM_REVOLUTE or CAROM_SLIDER", joint->motor_speed != 0.0f, carom_joint_turns(joint)},
+		{"motor_torque", "CAROM_REVOLUTE or CAROM_SLIDER", joint->motor_torque != 0.0f, carom_joint_turns(joint)},
+		{"has_stops", "CAROM_REVOLUTE or CAROM_SLIDER", joint->has_stops, carom_joint_turns(joint)},
 	};
 	for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
 		if (fields[i].is_said && !fields[i].may_be)
@@ -78,6 +83,7 @@ static carom_status check_drive(size_t k, const carom_joint *joint, carom_error 
 	TRY(check_range(k, "damping", joint->damping, 0.0f, STIFFEST, "N s/m", error));
 	if (joint->kind == CAROM_SPRING && joint->stiffness == 0.0f && joint->damping == 0.0f)
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].stiffness: a spring must have that, or damping, above 0", k);
+	TRY(check_range(k, "axis", joint->axis, -TWO_PI, TWO_PI, "rad", error));
 	TRY(check_range(k, "motor_speed", joint->motor_speed, -FASTEST_MOTOR, FASTEST_MOTOR, "rad/s", error));
 	TRY(check_range(k, "motor_torque", joint->motor_torque, 0.0f, STRONGEST_MOTOR, "N m", error));
 	if (!joint->has_stops)
@@ -98,7 +104,7 @@ carom_status carom_joint_check_numbers(const carom_world *world, size_t k, const
 		if (!may_be_anchor(anchors[side]))
 			return carom_fail(error, CAROM_INVALID_ARGUMENT, "joints[%zu].%s: found (%g, %g), must be two numbers from -1e9 to 1e9 (m)", k,
 				anchor_names[side], (double)anchors[side].x, (double)anchors[side].y);
-	if (joint->kind != CAROM_REVOLUTE && !(joint->length >= least_length(world, joint) && joint->length <= FARTHEST_ANCHOR))
+	if (!carom_joint_turns(joint) && !(joint->length >= least_length(world, joint) && joint->length <= FARTHEST_ANCHOR))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT,
 			"joints[%zu].length: found %g, must be a number from %g%s, to 1e9 (m); where it is not given it is from anchor to other_anchor", k,
 			(double)joint->length, (double)least_length(world, joint), joint->kind == CAROM_SPRING ? "" : ", a hundredth of the bodies' radii");

@@ -24,7 +24,13 @@ static carom_status no_memory(size_t count, carom_error *error)
 
 static float kind_of(carom_joint_kind kind)
 {
-	return kind == CAROM_REVOLUTE ? JOINT_PIN : kind == CAROM_DISTANCE ? JOINT_ROD : kind == CAROM_ROPE ? JOINT_ROPE : JOINT_SPRING;
+	switch (kind) {
+	case CAROM_REVOLUTE: return JOINT_PIN;
+	case CAROM_DISTANCE: return JOINT_ROD;
+	case CAROM_ROPE: return JOINT_ROPE;
+	case CAROM_SLIDER: return JOINT_SLIDER;
+	default: return JOINT_SPRING;
+	}
 }
 
 /* How much a force at an anchor moves it, at most. */
@@ -59,7 +65,7 @@ static void fill_records(const carom_world *world, float *records)
 		float *parties = records + 4 * JOINT_PARTIES, *anchors = records + 4 * JOINT_ANCHORS;
 		parties[JOINT_BODY] = (float)joints[k].body;
 		parties[JOINT_OTHER] = (float)joints[k].other;
-		parties[JOINT_LENGTH] = joints[k].length;
+		parties[JOINT_LENGTH] = joints[k].kind == CAROM_SLIDER ? joints[k].axis : joints[k].length;
 		parties[JOINT_KIND] = kind_of(joints[k].kind);
 		memcpy(anchors, &joints[k].anchor, sizeof joints[k].anchor);
 		memcpy(anchors + 2, &joints[k].other_anchor, sizeof joints[k].other_anchor);
@@ -251,8 +257,9 @@ static carom_status complete(carom_world *world, carom_joint *joint, carom_error
 	}
 	if (!joint->has_stops)
 		joint->lower_angle = joint->upper_angle = 0.0f;
-	if (joint->kind == CAROM_REVOLUTE) {
+	if (carom_joint_turns(joint)) {
 		joint->length = 0.0f;
+		joint->force[1] = joint->kind == CAROM_SLIDER ? 0.0f : joint->force[1];
 		return CAROM_OK;
 	}
 	carom_anchor_place(other, joint->other_anchor, &other_x, &other_y);

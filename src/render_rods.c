@@ -4,6 +4,7 @@
 #include "canvas.h"
 #include "palette.h"
 #include "status.h"
+#include "world.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -61,7 +62,7 @@ carom_status carom_rods_draw(carom_world *world, size_t layer_count, carom_layer
 		status = carom_world_get_states(world, 0, bodies, states, error);
 	for (size_t i = 0; status == CAROM_OK && i < layer_count; i++)
 		for (size_t k = 0; k < count; k++)
-			if (joints[k].kind != CAROM_REVOLUTE)
+			if (!carom_joint_turns(&joints[k]))
 				draw_rod(&layers[i], &joints[k], states);
 	free(joints);
 	free(states);

@@ -51,7 +51,7 @@ void *scene_grow(void *items, size_t count, size_t size)
 }
 
 const char *const scene_walls[SCENE_WALLS] = {"left", "bottom", "right", "top"};
-const char *const scene_joint_kinds[SCENE_JOINT_KINDS] = {"revolute", "distance", "rope", "spring"};
+const char *const scene_joint_kinds[SCENE_JOINT_KINDS] = {"revolute", "distance", "rope", "spring", "slider"};
 
 carom_scene *scene_create(const char *name)
 {

@@ -24,7 +24,7 @@ void *scene_grow(void *items, size_t count, size_t size);
 extern const char *const scene_walls[SCENE_WALLS];
 
 /* Likewise of carom_joint_kind. */
-#define SCENE_JOINT_KINDS 4
+#define SCENE_JOINT_KINDS 5
 extern const char *const scene_joint_kinds[SCENE_JOINT_KINDS];
 
 const char *scene_skip_space(const char *at, const char *end);

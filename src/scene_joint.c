@@ -7,7 +7,7 @@
 
 static const struct scene_range index_of_body = {0, INT32_MAX, false, "the index of another body"};
 
-#define KINDS "\"revolute\", \"distance\", \"rope\" or \"spring\""
+#define KINDS "\"revolute\", \"distance\", \"rope\", \"spring\" or \"slider\""
 
 struct joint {
 	carom_joint joint;
@@ -38,17 +38,20 @@ static bool fit_kind(const char *name, carom_joint_kind *kind)
 static const char *find_misplaced(const struct joint *joint, const char **why)
 {
 	const carom_joint *given = &joint->joint;
-	const bool is_pin = given->kind == CAROM_REVOLUTE, is_spring = given->kind == CAROM_SPRING;
+	const bool is_spring = given->kind == CAROM_SPRING, is_slider = given->kind == CAROM_SLIDER, turns = is_slider || given->kind == CAROM_REVOLUTE;
 	const char *const stop = !isnan(joint->lower) ? "lower_angle" : !isnan(joint->upper) ? "upper_angle" : NULL;
-	*why = is_pin ? "only with \"distance\", \"rope\" or \"spring\"" : "only with \"revolute\"";
-	if (is_pin && !isnan(given->length))
+	*why = turns ? "only with \"distance\", \"rope\" or \"spring\"" : "only with \"revolute\" or \"slider\"";
+	if (turns && !isnan(given->length))
 		return "length";
-	if (!is_pin && given->motor_speed != 0.0f)
+	if (!turns && given->motor_speed != 0.0f)
 		return "motor_speed";
-	if (!is_pin && given->motor_torque != 0.0f)
+	if (!turns && given->motor_torque != 0.0f)
 		return "motor_torque";
-	if (!is_pin && stop)
+	if (!turns && stop)
 		return stop;
+	*why = "only with \"slider\"";
+	if (!is_slider && given->axis != 0.0f)
+		return "axis";
 	*why = "only with \"spring\"";
 	if (!is_spring && given->stiffness != 0.0f)
 		return "stiffness";
@@ -63,7 +66,8 @@ static const struct scene_field fields[] = {
 	{"body", scene_read_whole, scene_quick_whole, offsetof(struct joint, other), &index_of_body, false},
 	{"anchor", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.anchor), &scene_any, false},
 	{"other_anchor", scene_read_pair, scene_quick_pair, offsetof(struct joint, joint.other_anchor), &scene_any, false},
-	{"length", scene_read_number, scene_quick_number, offsetof(struct joint, joint.length), &scene_positive, false},
+	{"length", scene_read_number, scene_quick_number, offsetof(struct joint, joint.length), &scene_damping, false},
+	{"axis", scene_read_number, scene_quick_number, offsetof(struct joint, joint.axis), &scene_any, false},
 	{"stiffness", scene_read_number, scene_quick_number, offsetof(struct joint, joint.stiffness), &scene_damping, false},
 	{"damping", scene_read_number, scene_quick_number, offsetof(struct joint, joint.damping), &scene_damping, false},
 	{"motor_speed", scene_read_number, scene_quick_number, offsetof(struct joint, joint.motor_speed), &scene_any, false},

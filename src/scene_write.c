@@ -68,8 +68,8 @@ static void put_joints(FILE *stream, const carom_joint *joints, size_t count)
 		scene_put_pair_key(stream, "anchor", joint->anchor, none);
 		fputs(", \"other_anchor\": ", stream);
 		scene_put_pair(stream, joint->other_anchor);
-		if (joint->kind != CAROM_REVOLUTE)
-			scene_put_number_key(stream, "length", joint->length, NAN);
+		scene_put_number_key(stream, "length", joint->length, joint->kind == CAROM_REVOLUTE || joint->kind == CAROM_SLIDER ? 0 : NAN);
+		scene_put_number_key(stream, "axis", joint->axis, 0);
 		scene_put_number_key(stream, "stiffness", joint->stiffness, 0);
 		scene_put_number_key(stream, "damping", joint->damping, 0);
 		scene_put_number_key(stream, "motor_speed", joint->motor_speed, 0);

@@ -269,6 +269,8 @@ carom_status carom_joints_fetch(carom_world *world, carom_error *error);
 /* Motors that were changed since, once the bodies are in their slots. */
 carom_status carom_joints_drive(carom_world *world, carom_error *error);
 size_t carom_joint_count(const carom_world *world);
+/* Do its bodies turn against each other about the anchor? */
+bool carom_joint_turns(const carom_joint *joint);
 /* joint_check.c: whom joint number k may hold; and once all is said, by which numbers */
 carom_status carom_joint_check_parties(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error);
 carom_status carom_joint_check_numbers(const carom_world *world, size_t k, const carom_joint *joint, carom_error *error);

@@ -38,7 +38,12 @@ static carom_world *tangle(const scenery_device *device, uint64_t seed)
 			joints[count].stiffness = i % 10 == 9 ? 50.0f : 0.0f;
 			joints[count].damping = i % 10 == 9 ? 1.5f : 0.0f;
 			joints[count].has_stops = false;
+			joints[count].motor_torque = joints[count].motor_speed = 0.0f;
 			joints[count].other_anchor = other == CAROM_GROUND ? (carom_vec2){0.0f, 11.0f} : (carom_vec2){0.1f, 0.0f};
+		}
+		if (i % 7 == 2 && joints[count].kind == CAROM_REVOLUTE) {
+			joints[count].kind = CAROM_SLIDER;
+			joints[count].axis = 0.75f;
 		}
 		joints[count].collides = i % 3 == 0;
 		count++;
@@ -68,6 +73,8 @@ static void what_is_written_goes_on(void **unused)
 		assert_non_null(strstr(text, "{\"kind\": \"rope\", "));
 		assert_non_null(strstr(text, "\"stiffness\": 50, \"damping\": 1.5"));
 		assert_non_null(strstr(text, "\"motor_torque\": 2"));
+		assert_non_null(strstr(text, "{\"kind\": \"slider\", "));
+		assert_non_null(strstr(text, "\"axis\": 0.75"));
 		assert_non_null(strstr(text, "\"lower_angle\": -2, \"upper_angle\": 1.5"));
 		scenery_check(carom_scene_parse(text, length, NULL, &scene, &error), &error);
 		carom_scene_text_destroy(text);
@@ -184,7 +191,7 @@ static void wrong_joints_are_errors(void **unused)
 		const char *text;
 		carom_joint joint;
 	} cases[] = {
-		{"joints[1].kind: found 7, must be", {.kind = (carom_joint_kind)7, .body = 1}},
+		{"joints[1].kind: found 7, must be one of carom_joint_kind", {.kind = (carom_joint_kind)7, .body = 1}},
 		{"joints[1].body: found 3, the world has 3 bodies", {.body = 3}},
 		{"joints[1].other: found 1, must be the index of another one of 3 bodies", {.body = 1, .other = 1}},
 		{"joints[1].other: found -2, must be", {.body = 1, .other = -2}},
@@ -201,9 +208,12 @@ static void wrong_joints_are_errors(void **unused)
 			{.kind = CAROM_SPRING, .body = 1, .length = 1.0f, .damping = -1.0f}},
 		{"joints[1].motor_speed: found nan, must be a number from -1e+09 to 1e+09 (rad/s)", {.body = 1, .motor_speed = NAN}},
 		{"joints[1].motor_torque: found -2, must be", {.body = 1, .motor_torque = -2.0f}},
-		{"joints[1].motor_torque: only a joint of kind CAROM_REVOLUTE has it",
+		{"joints[1].motor_torque: only a joint of kind CAROM_REVOLUTE or CAROM_SLIDER has it",
 			{.kind = CAROM_DISTANCE, .body = 1, .length = 1.0f, .motor_torque = 2.0f}},
-		{"joints[1].has_stops: only a joint of kind CAROM_REVOLUTE has it", {.kind = CAROM_ROPE, .body = 1, .length = 1.0f, .has_stops = true}},
+		{"joints[1].axis: only a joint of kind CAROM_SLIDER has it", {.body = 1, .axis = 1.0f}},
+		{"joints[1].axis: found 7, must be a number from -6.28319 to 6.28319 (rad)", {.kind = CAROM_SLIDER, .body = 1, .axis = 7.0f}},
+		{"joints[1].has_stops: only a joint of kind CAROM_REVOLUTE or CAROM_SLIDER has it",
+			{.kind = CAROM_ROPE, .body = 1, .length = 1.0f, .has_stops = true}},
 		{"joints[1].lower_angle: found nan, must be", {.body = 1, .has_stops = true, .lower_angle = NAN}},
 		{"joints[1].upper_angle: found 7, must be a number from -6.28319 to 6.28319 (rad)", {.body = 1, .has_stops = true, .upper_angle = 7.0f}},
 		{"joints[1].upper_angle: found 1, must be from lower_angle (2) on", {.body = 1, .has_stops = true, .lower_angle = 2.0f, .upper_angle = 1.0f}},
@@ -227,7 +237,7 @@ static void wrong_joints_are_errors(void **unused)
 	const carom_joint rod = joined_rod(0, 1, 0.0f, 0.0f);
 	joined_set(world, 1, &rod);
 	assert_int_equal(carom_world_set_motor(world, 0, 1.0f, 1.0f, &error), CAROM_INVALID_ARGUMENT);
-	assert_string_equal(error.text, "joints[0].motor_speed: only a joint of kind CAROM_REVOLUTE has it");
+	assert_string_equal(error.text, "joints[0].motor_speed: only a joint of kind CAROM_REVOLUTE or CAROM_SLIDER has it");
 	assert_int_equal(carom_world_set_motor(world, 1, 1.0f, 1.0f, &error), CAROM_INVALID_ARGUMENT);
 	assert_non_null(strstr(error.text, "the world has 1"));
 	carom_world_destroy(world);

@@ -262,7 +262,7 @@ static void join(carom_world *world, uint32_t step, uint32_t count)
 	scenery_check(carom_world_get_joints(world, 0, has, joints, &error), &error);
 	has = has < sizeof joints / sizeof *joints ? has : 0;
 	joints[has] = carom_default_joint();
-	joints[has].kind = (carom_joint_kind)(step % 4);
+	joints[has].kind = (carom_joint_kind)(step % 5);
 	joints[has].body = 5 * step % count;
 	joints[has].other = step % 11 == 4 ? CAROM_GROUND : (int32_t)((5 * step + 1) % count);
 	joints[has].collides = step % 3 == 0;
@@ -272,7 +272,9 @@ static void join(carom_world *world, uint32_t step, uint32_t count)
 		joints[has].stiffness = step % 9 ? 20.0f : 1e5f;
 		joints[has].damping = (float)(step % 5);
 	}
-	if (joints[has].kind == CAROM_REVOLUTE) {
+	if (joints[has].kind == CAROM_SLIDER)
+		joints[has].axis = (float)(step % 6) - 2.0f;
+	if (joints[has].kind == CAROM_REVOLUTE || joints[has].kind == CAROM_SLIDER) {
 		joints[has].motor_speed = 2.0f - (float)(step % 5);
 		joints[has].motor_torque = step % 3 ? 2.0f : 0.0f;
 		joints[has].has_stops = step % 7 < 4;

@@ -28,7 +28,7 @@ static const struct reference {
 	{"events", "", 60, false, false, false, {0xae6d85b586319664, 0x3000e89a16e84ce6, 0x2ba53121913d8b51}},
 	{"contacts", "", 12, true, false, false, {0xd440000e9486bcfa, 0xf76c6e9eaefc385a, 0x46431893954bc23d}},
 	{"contacts", " of many", 24, true, true, false, {0xdef17b566634acb3, 0xea0634c37597d9f4, 0xfe3fb6b321603430}},
-	{"contacts", " and joints", 12, true, false, true, {0xf7c2e1c650ce416c, 0x78e46b89ba7b7d86, 0xb9348ec894eb9244}},
+	{"contacts", " and joints", 12, true, false, true, {0xb23d7337038ba908, 0xd7b3d57c5bf0d157, 0x4402f5f8eb8b183a}},
 	{"first_impact", "", 60, false, false, false, {0xe443f056f109fad9, 0x7628f5ddae755cc8, 0x5be3f6b36ea95729}},
 };
 
@@ -84,16 +84,18 @@ static carom_body_def lying_body(int k)
 static void drive(carom_joint *joint, int k)
 {
 	if (joint->kind == CAROM_SPRING) {
-		joint->stiffness = k % 16 == 6 ? 8 : 4096;
+		joint->stiffness = k % 20 == 6 ? 8 : 4096;
 		joint->damping = 0.25f;
 	}
-	if (joint->kind == CAROM_REVOLUTE) {
+	if (joint->kind == CAROM_REVOLUTE || joint->kind == CAROM_SLIDER) {
 		joint->motor_speed = 3;
-		joint->motor_torque = 0.5f;
-		joint->has_stops = k % 16 > 0;
-		joint->lower_angle = k % 32 == 8 ? -0.75f : 0;
-		joint->upper_angle = k % 32 == 8 ? 1.25f : 0;
+		joint->motor_torque = k % 3 ? 0.5f : 0;
+		joint->has_stops = k % 4 > 0;
+		joint->lower_angle = k % 8 == 2 ? -0.75f : 0;
+		joint->upper_angle = k % 8 == 2 ? 1.25f : 0;
 	}
+	if (joint->kind == CAROM_SLIDER)
+		joint->axis = 0.75f;
 }
 
 /* Joints of all kinds in the crowd, from every other body to the next one. */
@@ -105,7 +107,7 @@ static carom_status join(carom_world *world, const carom_body_def *bodies, carom
 		if ((bodies[k].is_static || bodies[k].is_kinematic) && (bodies[k + 1].is_static || bodies[k + 1].is_kinematic))
 			continue;
 		joints[count] = carom_default_joint();
-		joints[count].kind = (carom_joint_kind)(k / 2 % 4);
+		joints[count].kind = (carom_joint_kind)(k / 2 % 5);
 		joints[count].body = (uint32_t)k;
 		joints[count].other = k % 14 == 12 ? CAROM_GROUND : k + 1;
 		joints[count].anchor = (carom_vec2){0.25f, 0};

@@ -7,7 +7,7 @@
 namespace carom::cpu {
 
 /* What a point of a joint is for. */
-enum class Part { pin_x, pin_y, rod, rope, spring, motor, lower, upper, fixed };
+enum class Part { pin_x, pin_y, rod, rope, spring, line, motor, lower, upper, fixed };
 
 /* Does it hold the bodies' angles, not their anchors? */
 inline bool is_angular(Part part)
@@ -32,16 +32,18 @@ template <typename T> struct Joint {
 	T parties[4], anchors[2][2], forces[4], drive[4];
 
 	bool is(int32_t kind) const { return parties[JOINT_KIND] == static_cast<T>(kind); }
-	bool has_motor() const { return is(JOINT_PIN) && drive[DRIVE_TORQUE] > 0; }
-	bool is_fixed() const { return is(JOINT_PIN) && drive[DRIVE_HALF] == 0; }
-	bool has_stops() const { return is(JOINT_PIN) && drive[DRIVE_HALF] > 0; }
+	/* Do its bodies turn against each other about the anchor? */
+	bool turns() const { return is(JOINT_PIN) || is(JOINT_SLIDER); }
+	bool has_motor() const { return turns() && drive[DRIVE_TORQUE] > 0; }
+	bool is_fixed() const { return turns() && drive[DRIVE_HALF] == 0; }
+	bool has_stops() const { return turns() && drive[DRIVE_HALF] > 0; }
 
 	/* How many push and pull as is needed: those are firm; or how many others there are. */
 	int32_t points(bool firm) const
 	{
 		if (firm)
-			return is(JOINT_PIN) ? 2 + is_fixed() : is(JOINT_ROD);
-		return is(JOINT_PIN) ? has_motor() + 2 * has_stops() : !is(JOINT_ROD);
+			return is(JOINT_PIN) ? 2 + is_fixed() : is(JOINT_SLIDER) ? 1 + is_fixed() : is(JOINT_ROD);
+		return turns() ? has_motor() + 2 * has_stops() : !is(JOINT_ROD);
 	}
 
 	/* In such a part of a whole step of that length. */
@@ -57,8 +59,12 @@ template <typename T> struct Joint {
 	Part part(bool firm, int32_t k) const
 	{
 		if (firm)
-			return is(JOINT_ROD) ? Part::rod : k == 0 ? Part::pin_x : k == 1 ? Part::pin_y : Part::fixed;
-		if (!is(JOINT_PIN))
+			return is(JOINT_ROD)         ? Part::rod
+				: k == is(JOINT_PIN) + 1 ? Part::fixed
+				: is(JOINT_SLIDER)       ? Part::line
+				: k == 0                 ? Part::pin_x
+										 : Part::pin_y;
+		if (!turns())
 			return is(JOINT_ROPE) ? Part::rope : Part::spring;
 		return has_motor() && k == 0 ? Part::motor : k == has_motor() ? Part::lower : Part::upper;
 	}
@@ -171,15 +177,23 @@ template <typename T> struct Hold {
 	/* m, the arm of forces that turn; and rad, from the middle of the stops. */
 	T arm = 0, turned = 0;
 	T sign = 1;
+	/* Of a slider, from the anchor on the line to the other one, as the way begins and ends; and how far the line turns. */
+	Vec<T> slid = {0, 0}, last_slid = {0, 0};
+	T line_turned = 0;
+	bool owns_line = false, has_line = false;
 
 	Hold() = default;
 	Hold(const Joint<T> &joint, bool is_other, const Held<T> &own, const Held<T> &other, bool at_end) : sign(is_other ? T(-1) : T(1))
 	{
 		const Vec<T> first = (own.x - other.x) + (own.lever - other.lever);
 		const Vec<T> gone = (own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever));
-		if (joint.is(JOINT_PIN)) {
-			n[0] = Vec<T>(sign, 0), n[1] = Vec<T>(0, sign);
-			target[0] = -inner(n[0], first), target[1] = -inner(n[1], first);
+		if (joint.turns()) {
+			if (joint.is(JOINT_PIN)) {
+				n[0] = Vec<T>(sign, 0), n[1] = Vec<T>(0, sign);
+				target[0] = -inner(n[0], first), target[1] = -inner(n[1], first);
+			} else {
+				slide(joint, is_other ? own : other, first, gone, at_end);
+			}
 			if (!joint.is_fixed() && joint.points(false) == 0)
 				return;
 			arm = larger(own.gyration(), other.gyration());
@@ -202,8 +216,33 @@ template <typename T> struct Hold {
 		return part == Part::rope ? Vec<T>(-n[0]) : n[part == Part::pin_y];
 	}
 
-	/* The arm, of what turns, of both bodies. */
-	T turning_arm(Part part) const { return part == Part::upper ? -(sign * arm) : sign * arm; }
+	/* Of a point, of one of the two. */
+	T arm_of(Part part, const Held<T> &body, bool is_own, bool at_end) const
+	{
+		if (is_angular(part))
+			return part == Part::upper ? -(sign * arm) : sign * arm;
+		const Vec<T> along = way(part);
+		const T own = body.arm(along, at_end);
+		if (!has_line || is_own != owns_line)
+			return own;
+		return own
+			+ (at_end ? cross(last_slid, along)
+					  : cross(Vec<T>(T(0.5) * (slid + last_slid)), along) * (1 + (line_turned * line_turned) * T(1.0f / 12)));
+	}
+
+	/* A slider, whose line that body has. */
+	void slide(const Joint<T> &joint, const Held<T> &owner, const Vec<T> &first, const Vec<T> &gone, bool at_end)
+	{
+		const T axis = joint.parties[JOINT_LENGTH];
+		const auto normal = [&](T angle) {
+			const Vec<T> along = rotation_of(angle);
+			return Vec<T>(sign * -along.y(), sign * along.x());
+		};
+		has_line = true, owns_line = sign < 0;
+		slid = sign * first, last_slid = sign * (first + gone), line_turned = owner.turned;
+		n[0] = normal((owner.angle + axis) + (at_end ? owner.turned : T(0.5) * owner.turned));
+		target[0] = -inner(normal(owner.angle + axis), first);
+	}
 
 	/* How far the two are to get, at least where it pushes one way alone. */
 	T aim(Part part, const Joint<T> &joint) const

@@ -73,8 +73,8 @@ void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *
 		points.drop(i);
 		points.partner[i] = static_cast<T>(now.partner.code);
 		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
-		points.arm[i] = is_angular(part) ? now.hold.turning_arm(part) : cross(own.lever, n);
-		points.other_arm[i] = is_angular(part) ? now.hold.turning_arm(part) : cross(other.lever, n);
+		points.arm[i] = now.hold.arm_of(part, own, true, true);
+		points.other_arm[i] = now.hold.arm_of(part, other, false, true);
 		points.least[i] = is_one_sided(part) ? larger(-now.hold.aim(part, rows.joint()), T(0)) / part_of_step : T(0);
 		points.tolerance[i] = T(JOINT_PART) * (size * T(SLOP));
 		if (grips)
@@ -143,8 +143,10 @@ public:
 		const Joint<T> &joint = rows->joint();
 		const T far = T(JOINT_FAR) * (own.radius + other.radius);
 		T gives = own.gives() + other.gives();
-		if (!joint.is(JOINT_PIN))
+		if (!joint.turns())
 			gives += (own.inverse_mass + other.inverse_mass) / joint.parties[JOINT_LENGTH];
+		if (joint.is(JOINT_SLIDER))
+			gives += largest(held.slid) * (rows->is_other() ? own : other).inverse_inertia;
 		const T least = joint.is(JOINT_ROPE) ? -held.target[0] : std::abs(held.target[0]);
 		is_stiff = joint.is(JOINT_SPRING) ? joint.answer(rests->length, rests->part).at_end
 										  : forces * gives > T(JOINT_STIFF) || least > far || std::abs(held.target[1]) > far;
@@ -157,8 +159,8 @@ public:
 		const Part part = rows->part();
 		const Vec<T> n = held.way(part);
 		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
-		points.arm[i] = is_angular(part) ? held.turning_arm(part) : own.arm(n, is_stiff);
-		points.other_arm[i] = is_angular(part) ? held.turning_arm(part) : other.arm(n, is_stiff);
+		points.arm[i] = held.arm_of(part, own, true, is_stiff);
+		points.other_arm[i] = held.arm_of(part, other, false, is_stiff);
 		const T parts = along(n, s, points.arm[i]) - along(n, partner.slot(), points.other_arm[i]);
 		if (part == Part::spring)
 			points.least[i] = spring(n, parts);

@@ -7,12 +7,14 @@
 /* What such a joint has of its own; or anything. */
 static void drive(calls *c, carom_joint *joint)
 {
-	const bool tame = c->bytes.tame, is_pin = joint->kind == CAROM_REVOLUTE, is_spring = joint->kind == CAROM_SPRING;
+	const bool tame = c->bytes.tame, is_slider = joint->kind == CAROM_SLIDER, is_spring = joint->kind == CAROM_SPRING;
 	if (is_spring || !tame) {
 		joint->stiffness = tame ? bytes_between(&c->bytes, 1, 100) : bytes_wild(&c->bytes);
 		joint->damping = tame ? bytes_between(&c->bytes, 0, 5) : bytes_wild(&c->bytes);
 	}
-	if (is_pin || !tame) {
+	if (is_slider || !tame)
+		joint->axis = tame ? bytes_between(&c->bytes, -5, 5) : bytes_wild(&c->bytes);
+	if (is_slider || joint->kind == CAROM_REVOLUTE || !tame) {
 		joint->motor_speed = tame ? bytes_between(&c->bytes, -5, 5) : bytes_wild(&c->bytes);
 		joint->motor_torque = tame ? bytes_between(&c->bytes, 0, 5) : bytes_wild(&c->bytes);
 		joint->has_stops = bytes_below(&c->bytes, 2) > 0;
@@ -31,7 +33,7 @@ static void set_joints(calls *c)
 	const snapshot before = calls_look(c);
 	for (size_t k = 0; k < count; k++) {
 		joints[k] = carom_default_joint();
-		joints[k].kind = (carom_joint_kind)bytes_below(&c->bytes, c->bytes.tame ? 4 : 6);
+		joints[k].kind = (carom_joint_kind)bytes_below(&c->bytes, c->bytes.tame ? 5 : 7);
 		joints[k].body = calls_index(c);
 		joints[k].other = (int32_t)calls_index(c) - 1;
 		joints[k].collides = bytes_below(&c->bytes, 2) > 0;
