@@ -132,9 +132,9 @@ template <typename T> class Aim
 {
 public:
 	Aim(const Rests<T> &all, const JointRows<T> &joints, const Lanes<T> *now, int32_t slot, Partner other_slot)
-		: rests(&all), rows(&joints), loads(now), s(slot), partner(other_slot)
+		: rests(&all), rows(&joints), loads(now), s(slot), partner(other_slot), own(own_at(false)), other(other_at(false)),
+		  held(joints.joint(), joints.is_other(), own, other, false)
 	{
-		look(false);
 	}
 
 	/* Whether the step is too long, by what the forces at its point, of a pin at both, add up to. */
@@ -150,8 +150,10 @@ public:
 		const T least = joint.is(JOINT_ROPE) ? -held.target[0] : std::abs(held.target[0]);
 		is_stiff = joint.is(JOINT_SPRING) ? joint.answer(rests->length, rests->part).at_end
 										  : forces * gives > T(JOINT_STIFF) || least > far || std::abs(held.target[1]) > far;
-		if (is_stiff)
-			look(true);
+		if (!is_stiff)
+			return;
+		own = own_at(true), other = other_at(true);
+		held = Hold<T>(joint, rows->is_other(), own, other, true);
 	}
 
 	void write(Points<T> &points, int32_t i) const
@@ -171,14 +173,14 @@ public:
 	}
 
 private:
-	void look(bool by_velocity)
+	Held<T> own_at(bool by_velocity) const { return at(s, rows->joint().anchors[rows->is_other()], by_velocity); }
+
+	Held<T> other_at(bool by_velocity) const
 	{
-		const int32_t body = rows->partner();
-		own = at(s, rows->joint().anchors[rows->is_other()], by_velocity);
-		other = partner.moves() ? at(partner.slot(), rows->joint().anchors[!rows->is_other()], by_velocity)
-			: body < 0          ? Held<T>(rows->joint().anchors[!rows->is_other()])
-								: Held<T>(rests->slots[rests->places[body]], rows->joint().anchors[!rows->is_other()]);
-		held = Hold<T>(rows->joint(), rows->is_other(), own, other, by_velocity);
+		const T *anchor = rows->joint().anchors[!rows->is_other()];
+		if (partner.moves())
+			return at(partner.slot(), anchor, by_velocity);
+		return rows->partner() < 0 ? Held<T>(anchor) : Held<T>(rests->slots[rests->places[rows->partner()]], anchor);
 	}
 
 	Held<T> at(int32_t slot_index, const T *anchor, bool by_velocity) const
