@@ -17,7 +17,9 @@ static double off_line(carom_world *world)
 {
 	const carom_joint joint = joined_get(world, 0);
 	const carom_body_state own = runs_state(world, joint.body);
-	const carom_body_state other = joint.other == CAROM_GROUND ? (carom_body_state){.angle = 0.0f} : runs_state(world, (uint32_t)joint.other);
+	carom_body_state other = {.angle = 0.0f};
+	if (joint.other != CAROM_GROUND)
+		other = runs_state(world, (uint32_t)joint.other);
 	const double c = cos((double)own.angle), s = sin((double)own.angle), oc = cos((double)other.angle), os = sin((double)other.angle);
 	const double x = (double)own.position.x + c * (double)joint.anchor.x - s * (double)joint.anchor.y;
 	const double y = (double)own.position.y + s * (double)joint.anchor.x + c * (double)joint.anchor.y;
