@@ -377,7 +377,7 @@ pictures: all
 	$(BUILD)/carom run scenes/mixer.json --time 10 --size 720x405 --png docs/mixer.png
 	$(BUILD)/carom run scenes/sand.json --time 8 --size 720x405 --png docs/sand.png
 	$(BUILD)/carom run scenes/bridge.json --time 4 --size 720x405 --png docs/bridge.png
-	$(BUILD)/carom run scenes/car.json --time 6.2 --size 720x240 --png docs/car.png
+	$(BUILD)/carom run scenes/car.json --time 6.2 --size 720x405 --png docs/car.png
 	$(BUILD)/carom run scenes/sorter.json --time 1.8 --size 720x405 --png docs/sorter.png
 	$(BUILD)/carom run scenes/thin_wall.json --time 1 --fps 3 --size 480x264 --frames docs/thin_wall
 	@for chart in scale table1 table2 table3 table4 table5; do \
