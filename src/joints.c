@@ -149,14 +149,31 @@ carom_status carom_joints_send(carom_world *world, carom_error *error)
 	return status;
 }
 
+static int compare_numbers(const void *left, const void *right)
+{
+	const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+	return a < b ? -1 : a > b;
+}
+
+/* Each once, for the device changes them side by side. How many there are. */
+static uint32_t sort_driven(uint32_t *driven, size_t count)
+{
+	uint32_t left = 0;
+	qsort(driven, count, sizeof *driven, compare_numbers);
+	for (size_t k = 0; k < count; k++)
+		if (left == 0 || driven[k] != driven[left - 1])
+			driven[left++] = driven[k];
+	return left;
+}
+
 carom_status carom_joints_drive(carom_world *world, carom_error *error)
 {
-	const uint32_t *driven = world->driven.items;
-	const uint32_t count = (uint32_t)(world->driven.used / sizeof *driven);
+	uint32_t *driven = world->driven.items;
 	const carom_joint *joints = world->joints.items;
 	float *texels;
-	if (count == 0)
+	if (world->driven.used == 0)
 		return CAROM_OK;
+	const uint32_t count = sort_driven(driven, world->driven.used / sizeof *driven);
 	TRY(carom_records_create(world, count, &texels, error));
 	for (uint32_t k = 0; k < count; k++) {
 		texels[4 * k + DRIVEN_JOINT] = (float)driven[k];

@@ -174,6 +174,7 @@ static void a_motor_alone_is_as_all_joints(void **unused)
 					scenery_check(carom_world_remove(world, &gone, 1, &error), &error);
 				}
 				if (alone) {
+					scenery_check(carom_world_set_motor(world, k, 7.0f, 1.0f, &error), &error); /* who says it twice means the last */
 					scenery_check(carom_world_set_motor(world, k, speed, torque, &error), &error);
 					const carom_joint now = joined_get(world, k);
 					assert_true(now.motor_speed == speed && now.motor_torque == torque);
