@@ -27,20 +27,20 @@ held held_body(RECORD_IN(slots), int s, float2 anchor)
 	return h;
 }
 
-/* How far a body gets along an axis in such a part of a whole step: as it moves now, or by what forces make of that. */
-float held_way(float velocity, float length, float part, float load, bool by_velocity)
+/* How far a body gets along an axis in a step, which is the part k of a whole one (here and below): as it moves now, or by what forces make of that. */
+float held_way(float velocity, float length, float k, float load, bool by_velocity)
 {
-	float before = by_velocity ? part : part * (1.0f - 0.5f * part), after = by_velocity ? 0.0f : 0.5f * (part * part);
+	float before = by_velocity ? k : k * (1.0f - 0.5f * k), after = by_velocity ? 0.0f : 0.5f * (k * k);
 	return (velocity * length) * before + load * after;
 }
 
-held held_moving(RECORD_IN(slots), RECORD_IN(loads), int s, float2 anchor, int now, float length, float part, bool by_velocity)
+held held_moving(RECORD_IN(slots), RECORD_IN(loads), int s, float2 anchor, int now, float length, float k, bool by_velocity)
 {
 	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), turns = SLOT_LOAD(slots, s, SLOT_TURN), load = loads[LOADS_OF(s) + now];
 	held h = held_body(slots, s, anchor);
-	h.way = (float2)(held_way(CHANNEL(at, LINEAR_VX), length, part, load.x, by_velocity),
-		held_way(CHANNEL(at, LINEAR_VY), length, part, load.y, by_velocity));
-	h.turned = smaller(larger(held_way(CHANNEL(turns, TURN_VELOCITY), length, part, load.z, by_velocity), -JOINT_TURN), JOINT_TURN);
+	h.way = (float2)(held_way(CHANNEL(at, LINEAR_VX), length, k, load.x, by_velocity),
+		held_way(CHANNEL(at, LINEAR_VY), length, k, load.y, by_velocity));
+	h.turned = smaller(larger(held_way(CHANNEL(turns, TURN_VELOCITY), length, k, load.z, by_velocity), -JOINT_TURN), JOINT_TURN);
 	h.last_lever = turn(rotation_of(CHANNEL(turns, TURN_ANGLE) + h.turned), anchor);
 	return h;
 }
@@ -68,7 +68,7 @@ float held_gyration(held h)
 
 /* How a joint holds the body of a side, seen from the other: along n, by so much. */
 typedef struct hold {
-	float2 n[2];
+	float2 n[2], gone; /* gone: how far the anchors get, one seen from the other */
 	float target[2];
 	float distance, last_distance, straight; /* of the anchors, where they have one; and how much of the two is in the middle */
 	float arm, turned, sign;                 /* m, of what turns; rad, from the middle of the stops */
@@ -85,12 +85,12 @@ float2 line_normal(float angle, float sign)
 }
 
 /* A slider, whose line goes with that one of the two. */
-void hold_slide(hold *h, float axis, held owner, float2 first, float2 gone, bool at_end)
+void hold_slide(hold *h, float axis, held owner, float2 first, bool at_end)
 {
 	float angle = owner.angle + axis;
 	h->slides = true;
 	h->slid = (float2)(h->sign * first.x, h->sign * first.y);
-	h->last_slid = (float2)(h->sign * (first.x + gone.x), h->sign * (first.y + gone.y));
+	h->last_slid = (float2)(h->sign * (first.x + h->gone.x), h->sign * (first.y + h->gone.y));
 	h->line_turned = owner.turned;
 	h->n[0] = line_normal(angle + (at_end ? owner.turned : 0.5f * owner.turned), h->sign);
 	h->n[1] = (float2)(0.0f, 0.0f);
@@ -102,7 +102,7 @@ hold hold_of(RECORD_IN(joints), int side, held own, held other, bool at_end)
 {
 	hold h;
 	float2 first = (float2)((own.x.x - other.x.x) + (own.lever.x - other.lever.x), (own.x.y - other.x.y) + (own.lever.y - other.lever.y));
-	float2 gone = (float2)((own.way.x - other.way.x) + ((own.last_lever.x - own.lever.x) - (other.last_lever.x - other.lever.x)),
+	h.gone = (float2)((own.way.x - other.way.x) + ((own.last_lever.x - own.lever.x) - (other.last_lever.x - other.lever.x)),
 		(own.way.y - other.way.y) + ((own.last_lever.y - own.lever.y) - (other.last_lever.y - other.lever.y)));
 	h.sign = side & 1 ? -1.0f : 1.0f;
 	h.slides = false;
@@ -116,7 +116,7 @@ hold hold_of(RECORD_IN(joints), int side, held own, held other, bool at_end)
 			h.target[0] = -inner(h.n[0], first);
 			h.target[1] = -inner(h.n[1], first);
 		} else {
-			hold_slide(&h, CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), side & 1 ? own : other, first, gone, at_end);
+			hold_slide(&h, CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), side & 1 ? own : other, first, at_end);
 		}
 		h.distance = h.last_distance = h.straight = 0.0f;
 		h.arm = h.turned = 0.0f;
@@ -126,7 +126,7 @@ hold hold_of(RECORD_IN(joints), int side, held own, held other, bool at_end)
 		h.turned = wrapped(angle - CHANNEL(joint_drive(joints, side), DRIVE_MIDDLE));
 		return h;
 	}
-	float2 last = (float2)(first.x + gone.x, first.y + gone.y), twice = at_end ? last : (float2)(first.x + last.x, first.y + last.y);
+	float2 last = (float2)(first.x + h.gone.x, first.y + h.gone.y), twice = at_end ? last : (float2)(first.x + last.x, first.y + last.y);
 	float length = CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), size = norm(twice);
 	h.distance = norm(first);
 	h.last_distance = norm(last);
@@ -198,15 +198,20 @@ int2 joined_find(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(j
 
 /* So many points of a slot's joints, as the step begins. What pushes one way may get as far as its bound by impulses. */
 void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), RECORD_OUT(contacts), RECORD_OUT(grips),
-	int s, int2 points, float part_of_step, bool rub)
+	int s, int2 points, float k, bool rub)
 {
 	int point = 0, first = first_four(touching, s);
 	touching[TOUCH(s, TOUCHING_JOINED)] = points.x;
 	touching[TOUCH(s, TOUCHING_FIRM)] = points.y;
+	held own, other;
+	hold h;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
 		int side = row.side, part = row_part(joints, &row), partner = joint_partner(joints, side), code = PARTNER_WALL(0);
-		held own = held_body(slots, s, joint_anchor(joints, side)), other = held_other(slots, places, joints, side);
-		hold h = hold_of(joints, side, own, other, true);
+		if (row.point == 0) {
+			own = held_body(slots, s, joint_anchor(joints, side));
+			other = held_other(slots, places, joints, side);
+			h = hold_of(joints, side, own, other, true);
+		}
 		float2 n = part_way(&h, part);
 		if (partner >= 0)
 			code = slot_is_static(slots, places[partner]) ? PARTNER_STATIC(partner) : places[partner];
@@ -219,7 +224,7 @@ void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(
 		to[4 * FOUR_NORMAL_Y] = n.y;
 		to[4 * FOUR_ARM] = part_arm(&h, part, own, true, true);
 		to[4 * FOUR_OTHER_ARM] = part_arm(&h, part, other, false, true);
-		to[4 * FOUR_LEAST] = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / part_of_step : 0.0f;
+		to[4 * FOUR_LEAST] = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / k : 0.0f;
 		to[4 * FOUR_TOLERANCE] = JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
 	}
 }
@@ -248,23 +253,23 @@ typedef struct aimed {
 } aimed;
 
 void aim_look(aimed *aim, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int partner, int now, float length,
-	float part, bool by_velocity)
+	float k, bool by_velocity)
 {
 	aim->stiff = by_velocity;
-	aim->own = held_moving(slots, loads, s, joint_anchor(joints, side), now, length, part, by_velocity);
+	aim->own = held_moving(slots, loads, s, joint_anchor(joints, side), now, length, k, by_velocity);
 	aim->other = held_other(slots, places, joints, side);
 	if (partner >= 0)
-		aim->other = held_moving(slots, loads, partner, joint_anchor(joints, side ^ 1), now, length, part, by_velocity);
+		aim->other = held_moving(slots, loads, partner, joint_anchor(joints, side ^ 1), now, length, k, by_velocity);
 	aim->h = hold_of(joints, side, aim->own, aim->other, by_velocity);
 }
 
 /* Is a step too long for what a side's joint does? What its forces make turn adds to itself, or the anchors are far from where they belong, or a spring could not swing. */
-bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, float length, float part)
+bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, float length, float k)
 {
 	int kind = joint_kind(joints, side);
 	float gives = held_gives(aim->own) + held_gives(aim->other), far = JOINT_FAR * (aim->own.radius + aim->other.radius), target = aim->h.target[0];
 	if (kind == JOINT_SPRING)
-		return spring_of(joints, side, length, part).at_end;
+		return spring_of(joints, side, length, k).at_end;
 	if (!joint_turns(joints, side))
 		gives += (aim->own.inverse_mass + aim->other.inverse_mass) / CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH);
 	if (kind == JOINT_SLIDER)
@@ -272,7 +277,7 @@ bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, 
 	return force * gives > JOINT_STIFF || (kind == JOINT_ROPE ? -target : magnitude(target)) > far || magnitude(aim->h.target[1]) > far;
 }
 
-/* So that they have that rate, as a way of a whole step, when the step ends, of which it is such a part. */
+/* So that they have that rate, as a way of a whole step, when the step ends. */
 float least_at_last(float rate, float parts, float k)
 {
 	return -((rate - (1.0f - k) * parts) / k);
@@ -282,15 +287,12 @@ float least_at_last(float rate, float parts, float k)
 float spring_least(RECORD_IN(joints), int side, const aimed *aim, float2 n, float parts, float length, float k)
 {
 	springing spring = spring_of(joints, side, length, k);
-	held own = aim->own, other = aim->other;
 	float rest = CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), distance = aim->h.distance, last = aim->h.last_distance;
 	if (aim->stiff) {
 		float pull = spring.stiffness * ((last - k * parts) - rest);
 		return (pull + (spring.stiffness * k + spring.damping) * ((1.0f - k) * parts)) / spring.per_way;
 	}
-	float2 gone = (float2)((own.way.x - other.way.x) + ((own.last_lever.x - own.lever.x) - (other.last_lever.x - other.lever.x)),
-		(own.way.y - other.way.y) + ((own.last_lever.y - own.lever.y) - (other.last_lever.y - other.lever.y)));
-	float way = inner(n, gone), mean = 0.5f * (distance + last) - rest;
+	float way = inner(n, aim->h.gone), mean = 0.5f * (distance + last) - rest;
 	float pull = spring.stiffness * (aim->h.straight * mean - 0.5f * way) + (spring.damping / k) * (aim->h.straight * (last - distance) - way);
 	return (2.0f / k - 1.0f) * parts + pull / spring.per_way;
 }

@@ -149,17 +149,11 @@ carom_status carom_joints_send(carom_world *world, carom_error *error)
 	return status;
 }
 
-static int compare_numbers(const void *left, const void *right)
-{
-	const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-	return a < b ? -1 : a > b;
-}
-
 /* Each once, for the device changes them side by side. How many there are. */
 static uint32_t sort_driven(uint32_t *driven, size_t count)
 {
 	uint32_t left = 0;
-	qsort(driven, count, sizeof *driven, compare_numbers);
+	qsort(driven, count, sizeof *driven, carom_compare_indices);
 	for (size_t k = 0; k < count; k++)
 		if (left == 0 || driven[k] != driven[left - 1])
 			driven[left++] = driven[k];
@@ -180,10 +174,7 @@ carom_status carom_joints_drive(carom_world *world, carom_error *error)
 		texels[4 * k + DRIVEN_SPEED] = joints[driven[k]].motor_speed;
 		texels[4 * k + DRIVEN_TORQUE] = joints[driven[k]].motor_torque;
 	}
-	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, carom_row_count(count), texels,
-		error);
-	free(texels);
-	TRY(status);
+	TRY(carom_records_send(world, count, texels, error));
 	TRY(carom_run(world, STAGE_DRIVE, (int32_t)count, 1, 0, 0, error));
 	world->driven.used = 0;
 	return CAROM_OK;
@@ -364,14 +355,6 @@ carom_status carom_world_set_joints(carom_world *world, size_t count, const caro
 	return CAROM_OK;
 }
 
-/* As if all were set. */
-static carom_status send_all_later(carom_world *world, carom_error *error)
-{
-	TRY(carom_contacts_fetch(world, error));
-	world->contacts_sent = false;
-	return CAROM_OK;
-}
-
 carom_status carom_world_set_motor(carom_world *world, size_t index, float speed, float torque, carom_error *error)
 {
 	GIVEN(world, error);
@@ -384,10 +367,12 @@ carom_status carom_world_set_motor(carom_world *world, size_t index, float speed
 	TRY(carom_joint_check_numbers(world, index, &changed, error));
 	if (world->contacts_sent) {
 		uint32_t *driven = used < carom_joint_count(world) * sizeof *driven ? carom_array_grow(&world->driven, sizeof *driven) : NULL;
-		if (!driven)
-			TRY(send_all_later(world, error));
-		else
+		if (driven) {
 			*driven = (uint32_t)index;
+		} else { /* as if all were set */
+			TRY(carom_contacts_fetch(world, error));
+			world->contacts_sent = false;
+		}
 	}
 	*joint = changed;
 	return CAROM_OK;

@@ -34,31 +34,36 @@ static bool fit_kind(const char *name, carom_joint_kind *kind)
 	return false;
 }
 
-/* A key that can't be there, and why; NULL: all may be. */
-static const char *find_misplaced(const struct joint *joint, const char **why)
+/* A key that can't be there, and what is allowed; NULL: all may be. */
+static const char *find_misplaced(const struct joint *joint, const char **allowed)
 {
 	const carom_joint *given = &joint->joint;
 	const bool is_spring = given->kind == CAROM_SPRING, is_slider = given->kind == CAROM_SLIDER, turns = is_slider || given->kind == CAROM_REVOLUTE;
-	const char *const stop = !isnan(joint->lower) ? "lower_angle" : !isnan(joint->upper) ? "upper_angle" : NULL;
-	*why = turns ? "only with \"distance\", \"rope\" or \"spring\"" : "only with \"revolute\" or \"slider\"";
-	if (turns && !isnan(given->length))
-		return "length";
-	if (!turns && given->motor_speed != 0.0f)
-		return "motor_speed";
-	if (!turns && given->motor_torque != 0.0f)
-		return "motor_torque";
-	if (!turns && stop)
-		return stop;
-	*why = "only with \"slider\"";
-	if (!is_slider && given->axis != 0.0f)
-		return "axis";
-	*why = "only with \"spring\"";
-	if (!is_spring && given->stiffness != 0.0f)
-		return "stiffness";
-	if (!is_spring && given->damping != 0.0f)
-		return "damping";
-	*why = "lower_angle and upper_angle, or neither";
-	return isnan(joint->lower) != isnan(joint->upper) ? stop : NULL;
+	const bool has_lower = !isnan(joint->lower), has_upper = !isnan(joint->upper);
+	static const char of_lines[] = "only with \"distance\", \"rope\" or \"spring\"", of_turns[] = "only with \"revolute\" or \"slider\"",
+					  of_sliders[] = "only with \"slider\"", of_springs[] = "only with \"spring\"",
+					  both[] = "lower_angle and upper_angle, or neither";
+	const struct {
+		const char *key, *allowed;
+		bool is_misplaced;
+	} rules[] = {
+		{"length", of_lines, turns && !isnan(given->length)},
+		{"motor_speed", of_turns, !turns && given->motor_speed != 0.0f},
+		{"motor_torque", of_turns, !turns && given->motor_torque != 0.0f},
+		{"lower_angle", of_turns, !turns && has_lower},
+		{"upper_angle", of_turns, !turns && has_upper},
+		{"axis", of_sliders, !is_slider && given->axis != 0.0f},
+		{"stiffness", of_springs, !is_spring && given->stiffness != 0.0f},
+		{"damping", of_springs, !is_spring && given->damping != 0.0f},
+		{"lower_angle", both, has_lower && !has_upper},
+		{"upper_angle", both, has_upper && !has_lower},
+	};
+	for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
+		*allowed = rules[i].allowed;
+		if (rules[i].is_misplaced)
+			return rules[i].key;
+	}
+	return NULL;
 }
 
 static const struct scene_field fields[] = {
@@ -105,17 +110,17 @@ static carom_status read_one(struct scene_reader *reader, const struct scene_pla
 		return status;
 	if (!fit_kind(joint.kind, &joint.joint.kind))
 		return scene_fail(reader, &(struct scene_place){place, "kind", 0}, "found \"%.40s\"; allowed: " KINDS, joint.kind);
-	const char *why, *misplaced = find_misplaced(&joint, &why);
+	const char *allowed, *misplaced = find_misplaced(&joint, &allowed);
 	if (misplaced)
-		return scene_fail(reader, &(struct scene_place){place, misplaced, 0}, "found with \"%s\"; allowed: %s", joint.kind, why);
+		return scene_fail(reader, &(struct scene_place){place, misplaced, 0}, "found with \"%s\"; allowed: %s", joint.kind, allowed);
 	return add(reader->scene, &joint) ? CAROM_OK : scene_fail_memory(reader);
 }
 
 static bool quick_one(struct scene_text *text)
 {
 	struct joint joint = begin(text->scene);
-	const char *why;
-	return scene_quick_object(text, &joint, fields) && fit_kind(joint.kind, &joint.joint.kind) && !find_misplaced(&joint, &why)
+	const char *allowed;
+	return scene_quick_object(text, &joint, fields) && fit_kind(joint.kind, &joint.joint.kind) && !find_misplaced(&joint, &allowed)
 		&& add(text->scene, &joint);
 }
 

@@ -249,12 +249,6 @@ static void find_in_cells(const carom_crowd *crowd, const carom_grid *g, uint32_
 	}
 }
 
-static int compare_indices(const void *left, const void *right)
-{
-	const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-	return a < b ? -1 : a > b;
-}
-
 static void find(const carom_crowd *crowd, finding *f, size_t *count)
 {
 	const carom_placed *what = f->what;
@@ -267,7 +261,7 @@ static void find(const carom_crowd *crowd, finding *f, size_t *count)
 			find_in_cells(crowd, g, g->starts[row * g->columns + first], g->starts[row * g->columns + last + 1], f);
 	}
 	if (f->count > 1 && f->room > 1)
-		qsort(f->indices, f->count < f->room ? f->count : f->room, sizeof *f->indices, compare_indices);
+		qsort(f->indices, f->count < f->room ? f->count : f->room, sizeof *f->indices, carom_compare_indices);
 	*count = f->count;
 }
 

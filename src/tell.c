@@ -49,14 +49,19 @@ carom_status carom_records_create(carom_world *world, uint32_t count, float **re
 	return *records ? CAROM_OK : carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory for %u records of bodies", count);
 }
 
-/* Hands them over, of bodies that will be elsewhere, and lets go of the host's. */
-static carom_status send(carom_world *world, uint32_t count, float *records, carom_error *error)
+carom_status carom_records_send(carom_world *world, uint32_t count, float *records, carom_error *error)
 {
 	const carom_status status = world->device->kind->upload(world->device, world->textures[ROLE_CHANGES].front, carom_row_count(count), records,
 		error);
-	world->events.told = true;
 	free(records);
 	return status;
+}
+
+/* Of bodies that will be elsewhere. */
+static carom_status send(carom_world *world, uint32_t count, float *records, carom_error *error)
+{
+	world->events.told = true;
+	return carom_records_send(world, count, records, error);
 }
 
 /* ---- What holds for all ---- */

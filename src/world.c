@@ -28,6 +28,12 @@ void *carom_array_grow(carom_array *array, size_t size)
 	return (char *)array->items + array->used - size;
 }
 
+int carom_compare_indices(const void *left, const void *right)
+{
+	const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+	return a < b ? -1 : a > b;
+}
+
 static const carom_step *step_named(const char *name)
 {
 	for (size_t i = 0; i < carom_step_count; i++)

@@ -49,6 +49,8 @@ typedef struct carom_array {
 
 /* Where `size` more bytes go; NULL if there is no memory, or may be where they are none. */
 void *carom_array_grow(carom_array *array, size_t size);
+/* For qsort of uint32_t. */
+int carom_compare_indices(const void *left, const void *right);
 
 /* Front and back; the same texture twice where there is only one. */
 typedef struct carom_pair {
@@ -230,6 +232,8 @@ void carom_roster_changed(carom_world *world, size_t first);
 carom_status carom_removed_send(carom_world *world, const uint32_t *indices, uint32_t count, carom_error *error);
 /* Room in Changes for so many records, and as many numbers for the host, to be given to free. */
 carom_status carom_records_create(carom_world *world, uint32_t count, float **records, carom_error *error);
+/* Hands them over, and lets go of the host's. */
+carom_status carom_records_send(carom_world *world, uint32_t count, float *records, carom_error *error);
 /* Nothing of bodies on the device is as it is now. */
 void carom_load_anew(carom_world *world);
 /* Can a body not be here, at this speed? */

@@ -51,7 +51,7 @@ carom_body_info joined_info(carom_world *world, uint32_t body)
 	return info;
 }
 
-static void place(carom_world *world, int32_t body, carom_vec2 anchor, double *x, double *y)
+void joined_place(carom_world *world, int32_t body, carom_vec2 anchor, double *x, double *y)
 {
 	carom_body_state state = {.angle = 0.0f};
 	if (body != CAROM_GROUND)
@@ -68,8 +68,8 @@ double joined_slack(carom_world *world)
 	for (size_t k = 0; k < carom_world_joint_count(world); k++) {
 		const carom_joint joint = joined_get(world, k);
 		double x, y, other_x, other_y;
-		place(world, (int32_t)joint.body, joint.anchor, &x, &y);
-		place(world, joint.other, joint.other_anchor, &other_x, &other_y);
+		joined_place(world, (int32_t)joint.body, joint.anchor, &x, &y);
+		joined_place(world, joint.other, joint.other_anchor, &other_x, &other_y);
 		worst = fmax(worst, fabs(hypot(x - other_x, y - other_y) - (double)joint.length));
 	}
 	return worst;

@@ -16,16 +16,11 @@ static carom_joint slider(uint32_t body, int32_t other, float axis)
 static double off_line(carom_world *world)
 {
 	const carom_joint joint = joined_get(world, 0);
-	const carom_body_state own = runs_state(world, joint.body);
-	carom_body_state other = {.angle = 0.0f};
-	if (joint.other != CAROM_GROUND)
-		other = runs_state(world, (uint32_t)joint.other);
-	const double c = cos((double)own.angle), s = sin((double)own.angle), oc = cos((double)other.angle), os = sin((double)other.angle);
-	const double x = (double)own.position.x + c * (double)joint.anchor.x - s * (double)joint.anchor.y;
-	const double y = (double)own.position.y + s * (double)joint.anchor.x + c * (double)joint.anchor.y;
-	const double ox = (double)other.position.x + oc * (double)joint.other_anchor.x - os * (double)joint.other_anchor.y;
-	const double oy = (double)other.position.y + os * (double)joint.other_anchor.x + oc * (double)joint.other_anchor.y;
-	const double along = (double)other.angle + (double)joint.axis;
+	const double turned = joint.other == CAROM_GROUND ? 0.0 : (double)runs_state(world, (uint32_t)joint.other).angle,
+				 along = turned + (double)joint.axis;
+	double x, y, ox, oy;
+	joined_place(world, (int32_t)joint.body, joint.anchor, &x, &y);
+	joined_place(world, joint.other, joint.other_anchor, &ox, &oy);
 	return (y - oy) * cos(along) - (x - ox) * sin(along);
 }
 

@@ -170,7 +170,7 @@ template <typename T> struct Held {
 
 /* How a joint holds one of its bodies, seen from the other: along which ways, so that forces along them do no work, and how far the anchors are to get along them. */
 template <typename T> struct Hold {
-	Vec<T> n[2] = {{0, 0}, {0, 0}};
+	Vec<T> n[2] = {{0, 0}, {0, 0}}, gone = {0, 0}; /* gone: how far the anchors get, one seen from the other */
 	T target[2] = {0, 0};
 	/* Of what has a length: how far the anchors are, and come to be; and how much of that the way in the middle has. */
 	T distance = 0, last_distance = 0, straight = 0;
@@ -186,13 +186,13 @@ template <typename T> struct Hold {
 	Hold(const Joint<T> &joint, bool is_other, const Held<T> &own, const Held<T> &other, bool at_end) : sign(is_other ? T(-1) : T(1))
 	{
 		const Vec<T> first = (own.x - other.x) + (own.lever - other.lever);
-		const Vec<T> gone = (own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever));
+		gone = (own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever));
 		if (joint.turns()) {
 			if (joint.is(JOINT_PIN)) {
 				n[0] = Vec<T>(sign, 0), n[1] = Vec<T>(0, sign);
 				target[0] = -inner(n[0], first), target[1] = -inner(n[1], first);
 			} else {
-				slide(joint, is_other ? own : other, first, gone, at_end);
+				slide(joint, is_other ? own : other, first, at_end);
 			}
 			if (!joint.is_fixed() && joint.points(false) == 0)
 				return;
@@ -231,7 +231,7 @@ template <typename T> struct Hold {
 	}
 
 	/* A slider, whose line that body has. */
-	void slide(const Joint<T> &joint, const Held<T> &owner, const Vec<T> &first, const Vec<T> &gone, bool at_end)
+	void slide(const Joint<T> &joint, const Held<T> &owner, const Vec<T> &first, bool at_end)
 	{
 		const T axis = joint.parties[JOINT_LENGTH];
 		const auto normal = [&](T angle) {

@@ -177,10 +177,8 @@ private:
 
 	Held<T> other_at(bool by_velocity) const
 	{
-		const T *anchor = rows->joint().anchors[!rows->is_other()];
-		if (partner.moves())
-			return at(partner.slot(), anchor, by_velocity);
-		return rows->partner() < 0 ? Held<T>(anchor) : Held<T>(rests->slots[rests->places[rows->partner()]], anchor);
+		return partner.moves() ? at(partner.slot(), rows->joint().anchors[!rows->is_other()], by_velocity)
+							   : HeldNow<T>::other_of(*rows, rests->slots, rests->places);
 	}
 
 	Held<T> at(int32_t slot_index, const T *anchor, bool by_velocity) const
@@ -225,8 +223,7 @@ private:
 			const T pull = answer.stiffness * ((held.last_distance - k * parts) - rest);
 			return (pull + (answer.stiffness * k + answer.damping) * ((1 - k) * parts)) / answer.per_way;
 		}
-		const Vec<T> gone = (own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever));
-		const T way = inner(n, gone), mean = T(0.5) * (held.distance + held.last_distance) - rest;
+		const T way = inner(n, held.gone), mean = T(0.5) * (held.distance + held.last_distance) - rest;
 		const T pull = answer.stiffness * (held.straight * mean - T(0.5) * way)
 			+ (answer.damping / k) * (held.straight * (held.last_distance - held.distance) - way);
 		return (2 / k - 1) * parts + pull / answer.per_way;

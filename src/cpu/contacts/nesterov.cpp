@@ -51,7 +51,7 @@ static void sort_touching(Touching *touching, int32_t count)
 /* First those that are awake; then those that they wake. */
 template <typename T> static void find(const Job<T> &job)
 {
-	const T length = step_length(job.texels(2), job.texels(1)), whole = whole_length(length, job.texels(1));
+	const T length = step_length(job.texels(2), job.texels(1)), whole = whole_length(length, job.texels(1)), part = part_of_whole(length, whole);
 	const Clusters<T> clusters(job, 14, whole);
 	Points<T> *points = reinterpret_cast<Points<T> *>(job.records(12));
 	const Sleepers<T> sleepers{
@@ -86,8 +86,7 @@ template <typename T> static void find(const Job<T> &job)
 		for (const RestingBody &body : bodies) {
 			const Touching &own = touching[body.s];
 			if (own.joined > 0)
-				write_joined(joints, clusters.slots, places, part_of_whole(length, whole), body.s, points + own.first,
-					rubs.any ? grips + own.first : nullptr);
+				write_joined(joints, clusters.slots, places, part, body.s, points + own.first, rubs.any ? grips + own.first : nullptr);
 			if (own.count > 0)
 				finder.write(body, points + own.first, grips + (rubs.any ? own.first : 0));
 			/* what rests on a kinematic body goes by that one's load */
