@@ -183,10 +183,10 @@ template <typename T> struct Hold {
 	bool owns_line = false, has_line = false;
 
 	Hold() = default;
-	Hold(const Joint<T> &joint, bool is_other, const Held<T> &own, const Held<T> &other, bool at_end) : sign(is_other ? T(-1) : T(1))
+	Hold(const Joint<T> &joint, bool is_other, const Held<T> &own, const Held<T> &other, bool at_end)
+		: gone((own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever))), sign(is_other ? T(-1) : T(1))
 	{
 		const Vec<T> first = (own.x - other.x) + (own.lever - other.lever);
-		gone = (own.way - other.way) + ((own.last_lever - own.lever) - (other.last_lever - other.lever));
 		if (joint.turns()) {
 			if (joint.is(JOINT_PIN)) {
 				n[0] = Vec<T>(sign, 0), n[1] = Vec<T>(0, sign);
