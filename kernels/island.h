@@ -37,12 +37,13 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 	RECORD_OUT(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), int s, int done, bool rub, float length, float part)
 {
 	bool impulses = status[STATUS_PASS] == PASS_IMPULSES;
-	int number = status[STATUS_FIRST] + done, most = rub && impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS;
+	bool held = first_contact(touching, s) > 0;
+	int number = status[STATUS_FIRST] + done, most = rub && impulses && !held ? GRIP_IMPULSES : CONTACT_ITERATIONS;
 	int wants = TOUCH(done == 0 ? island_root(touching, islands, s) : islands[s], TOUCHING_WANTED);
 	if (PEEK(touching, wants) < number)
 		return false;
 	bool aims = joined[JOINED_COUNT] > 0 && !impulses;
-	if (aims && is_aimed(done) && first_contact(touching, s) > 0) {
+	if (aims && is_aimed(done) && held) {
 		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, length, part);
 		/* with which the next one has its steps */
 		CHANNEL(loads[LOADS_OF(s) + LOADS_ALONE], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);

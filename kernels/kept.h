@@ -169,14 +169,28 @@ __global float *joint_forces(RECORD_OUT(joints), int side)
 	return (__global float *)(joints + JOINT(side / 2, JOINT_FORCES));
 }
 
-/* Forces begin with the last ones. */
-void joined_warm(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
+/* Is what a side's joint holds firmly farther than that from where it belongs? Then the last forces were not right: what iterations can't find would add up from step to step. */
+bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, int s, float far)
+{
+	held own = held_body(slots, s, joint_anchor(joints, side)), other = held_other(slots, places, joints, side);
+	hold h = hold_of(joints, side, own, other, true);
+	float anchors = larger(magnitude(h.target[0]), magnitude(h.target[1]));
+	bool fixed = joint_turns(joints, side) && CHANNEL(joint_drive(joints, side), DRIVE_HALF) == 0.0f;
+	return joint_points(joints, side, true) > 0 && (anchors > far || (fixed && magnitude(h.turned * h.arm) > far));
+}
+
+/* Forces begin with the last ones, unless a joint strays. */
+void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
 {
 	int point = 0, first = first_four(touching, s);
+	bool strays = false;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 		int part = row_part(joints, &row);
 		float kept = ((__global const float *)(joints + JOINT(row.side / 2, JOINT_FORCES)))[part_kept(part)];
+		if (row.point == 0)
+			strays = joint_strays(slots, places, joints, row.side, s, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE]);
+		kept = strays ? 0.0f : kept;
 		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
 	}
 }

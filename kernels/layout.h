@@ -573,7 +573,7 @@
  * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies.
  *
  * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,
- * or, in the last of TUG_SWEEPS, TUG_ENOUGH times that: where that is not enough, or not possible, or where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, they pass on nothing, and the next step's impulses do. A body has TUG_POINTS. */
+ * or for TUG_SWEEPS. Where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, it goes on once more, as if no anchor were to move against another. A body has TUG_POINTS. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -588,7 +588,6 @@
 #define SHOCK_PARTIES 64
 #define SHOCK_SWEEPS 32
 #define TUG_SWEEPS 256
-#define TUG_ENOUGH 1024.0f
 #define TUG_GAIN 0.015625f
 #define TUG_POINTS 11 /* one fewer than SHOCK_POINTS */
 #define TUG_WITHIN 0.0000152587890625f
@@ -640,8 +639,10 @@
  * of both radii, along ways that are right in the middle of the step, so that they take no energy and give none; it is looked where that is before the iterations of
  * JOINT_AIMED, and a body is taken to turn by no more than JOINT_TURN. A step is too long for that where what a force makes turn in it, by its arm's growth, is more than JOINT_STIFF, and might grow from
  * step to step, or where anchors are farther from where they belong than JOINT_FAR of both radii: there forces take the speed along the ways at the step's end, as impulses do, and bring
- * anchors by EASE of the way. */
+ * anchors by EASE of the way. Where anchors, or angles that are fixed, are JOINT_ASTRAY times what they are found within from where they belong, forces begin with none: the last ones were not
+ * right, and iterations that come to no end would add to them from step to step. */
 #define JOINT_PART 0.25f
+#define JOINT_ASTRAY 16.0f
 #define JOINT_MOST 1.0f
 #define JOINT_AIMED 0x10117 /* bits: 0, 1, 2, 4, 8, 16 */
 #define JOINT_TURN 1.0f     /* rad */

@@ -47,9 +47,9 @@ bool joints_meet(RECORD_OUT(shocks), int party, int s, int id)
 	return any;
 }
 
-/* A party more: it is moved to the time, and its points of joints come behind so many others. */
+/* A party more: it is moved to the time, and its points of joints come behind so many others. They are to have the rates that they had, or none if the tug `stops`. */
 void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
-	LIST_IN(touching), RECORD_IN(contacts), int id, int point, const struck *hit, shock *all)
+	LIST_IN(touching), RECORD_IN(contacts), int id, int point, bool stops, const struck *hit, shock *all)
 {
 	int s = active[id], first = touching[TOUCH(s, TOUCHING_FIRST)];
 	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
@@ -74,7 +74,7 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 		}
 		__global float4 *to = shocks + SHOCK(id, point++);
 		to[SHOCK_NORMAL] = (float4)(n.x, n.y, arm, other_arm);
-		to[SHOCK_GRIP] = (float4)(0.0f, 0.0f, SHOCK_JOINT, part);
+		to[SHOCK_GRIP] = (float4)(0.0f, 0.0f, SHOCK_JOINT, stops ? 0.0f : part);
 		to[SHOCK_PUSH] = (float4)((float)partner, (float)party, party < 0 && partner >= 0 && slot_is_dynamic(slots, partner) ? coming : 0.0f, 0.0f);
 	}
 	if (point < TUG_POINTS)
@@ -133,31 +133,33 @@ float tug_gain(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(shocks), int one,
 	return gain;
 }
 
-/* It has come to no end, or to none that may be: all move as before it, and the hit is what it was. */
-void tug_give_up(LIST_OUT(members), RECORD_OUT(work), RECORD_OUT(shocks), const struck *hit, const shock *all)
+/* All move as before it, and the hit is what it was; joints are to have no speeds, and so give nothing. */
+void tug_begin_anew(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), RECORD_OUT(shocks), const struck *hit, const shock *all)
 {
+	__global float4 *struck_at = shocks + SHOCK(all->first, 0) + SHOCK_PUSH;
 	for (int id = all->first; id >= 0; id = party_next(members, id)) {
 		work_store(work, id, tug_first(work, shocks, id));
+		for (int point = id == all->first ? 1 : 0; point < TUG_POINTS; point++) {
+			__global float4 *at = shocks + SHOCK(id, point);
+			float4 push = at[SHOCK_PUSH];
+			if (point_is_none(push))
+				break;
+			CHANNEL(at[SHOCK_GRIP], SHOCK_PART) = 0.0f;
+			if (point_is_open(slots, push))
+				CHANNEL(at[SHOCK_PUSH], SHOCK_IMPULSE) = 0.0f;
+		}
 	}
-	float4 push = shocks[SHOCK(all->first, 0) + SHOCK_PUSH];
-	CHANNEL(push, SHOCK_IMPULSE) = inner(hit->impulse, hit->n);
-	CHANNEL(push, SHOCK_RUB) = inner(hit->impulse, aside(hit->n));
-	shocks[SHOCK(all->first, 0) + SHOCK_PUSH] = push;
+	CHANNEL(*struck_at, SHOCK_IMPULSE) = inner(hit->impulse, hit->n);
+	CHANNEL(*struck_at, SHOCK_RUB) = inner(hit->impulse, aside(hit->n));
 }
 
-/* From the two of a hit, of which the second may be none, -1; false if the cluster has to be given up. */
-bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
-	RECORD_IN(contacts), int one, int other, const struck *hit, shock *all, int *first)
+/* False if the cluster has to be given up. */
+bool tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
+	RECORD_IN(contacts), int one, float least, bool stops, const struck *hit, shock *all, int *first)
 {
 	bool more = true;
-	tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, one, 1, hit, all);
-	if (other >= 0)
-		tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, other, 0, hit, all);
-	float changed = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all), least = TUG_WITHIN * changed;
 	for (int sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
 		more = false;
-		if (sweep + 1 == TUG_SWEEPS)
-			least *= TUG_ENOUGH;
 		for (int id = all->first; id >= 0; id = party_next(members, id))
 			for (int point = id == one ? 1 : 0; point < TUG_POINTS; point++) {
 				float4 push = shocks[SHOCK(id, point) + SHOCK_PUSH];
@@ -171,7 +173,7 @@ bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), 
 						party = join(slots, LISTS, work, owners, parents, partner, one, all->leader, all->head, all->round, first);
 						if (party < 0)
 							return false;
-						tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, party, 0, hit, all);
+						tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, party, 0, stops, hit, all);
 					}
 					/* also where that one has no room for this point */
 					shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)partner, (float)party, 0.0f, 0.0f);
@@ -180,9 +182,23 @@ bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), 
 			}
 		more |= tug_push(slots, active, work, shocks, one, 0, least); /* in the end the two part, whatever joints wanted */
 	}
-	if (more || tug_gain(slots, members, shocks, one, all) > TUG_GAIN * (CHANNEL(shocks[SHOCK(one, 0) + SHOCK_PUSH], SHOCK_IMPULSE) * changed))
-		tug_give_up(members, work, shocks, hit, all);
 	return true;
+}
+
+/* From the two of a hit, of which the second may be none, -1; false if the cluster has to be given up. */
+bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
+	RECORD_IN(contacts), int one, int other, const struck *hit, shock *all, int *first)
+{
+	tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, one, 1, false, hit, all);
+	if (other >= 0)
+		tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, other, 0, false, hit, all);
+	float changed = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all), least = TUG_WITHIN * changed;
+	if (!tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, false, hit, all, first))
+		return false;
+	if (!(tug_gain(slots, members, shocks, one, all) > TUG_GAIN * (CHANNEL(shocks[SHOCK(one, 0) + SHOCK_PUSH], SHOCK_IMPULSE) * changed)))
+		return true;
+	tug_begin_anew(slots, members, work, shocks, hit, all);
+	return tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, true, hit, all, first);
 }
 
 /* Counts what it did, and to whom; the hit, which is the last one that was counted of a member, has another impulse now. */

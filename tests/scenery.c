@@ -166,9 +166,9 @@ carom_body_def scenery_circle(float x, float y, float vx, float vy, float radius
 
 carom_body_def scenery_box(float x, float y, float vx, float vy, float width, float height)
 {
-	static carom_vec2 corners[8][4]; /* the library copies them at carom_world_add, before so many more are made */
+	static carom_vec2 corners[32][4]; /* the library copies them at carom_world_add, before so many more are made */
 	static int next;
-	carom_vec2 *c = corners[next++ % 8];
+	carom_vec2 *c = corners[next++ % 32];
 	carom_body_def def = carom_default_body_def();
 	c[0] = (carom_vec2){-0.5f * width, -0.5f * height};
 	c[1] = (carom_vec2){0.5f * width, -0.5f * height};

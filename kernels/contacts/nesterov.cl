@@ -37,7 +37,7 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 }
 
 __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_OUT(warm_spans), RECORD_IN(pushes), RECORD_IN(joints),
-	LIST_IN(joined), int4 domain)
+	LIST_IN(joined), LIST_IN(places), int4 domain)
 {
 	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES, due = status[STATUS_FIRST] == domain.z;
@@ -50,7 +50,7 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_
 			warm_take(slots, status, contacts, touching, warm, warm_spans, s, rub);
 			island_join(slots, contacts, touching, islands, s);
 		} else {
-			joined_warm(slots, contacts, touching, joints, joined, s, length);
+			joined_warm(slots, places, contacts, touching, joints, joined, s, length);
 			rests_warm(slots, contacts, grips, touching, warm, warm_spans, s, rub, length);
 		}
 		float4 load = load_alone(slots, impulses, s, length);

@@ -244,6 +244,15 @@ template <typename T> struct Hold {
 		target[0] = -inner(normal(owner.angle + axis), first);
 	}
 
+	/* How far what is firm is from where it belongs; of ropes and springs nothing is. */
+	T astray(const Joint<T> &joint) const
+	{
+		if (joint.points(true) == 0)
+			return 0;
+		const T anchors = larger(std::abs(target[0]), std::abs(target[1]));
+		return joint.is_fixed() ? larger(anchors, std::abs(turned * arm)) : anchors;
+	}
+
 	/* How far the two are to get, at least where it pushes one way alone. */
 	T aim(Part part, const Joint<T> &joint) const
 	{

@@ -109,14 +109,17 @@ template <typename T> T &kept_at(Joint<T> &joint, Part part)
 	return joint.forces[part == Part::motor ? JOINT_TORQUE : is_angular(part) ? JOINT_STOP : JOINT_FORCE + (part == Part::pin_y)];
 }
 
-/* Forces begin with the last ones. */
+/* Forces begin with the last ones, but where these have led astray: what iterations can't find would add up from step to step. */
 template <typename T> void warm_joined(const Rests<T> &rests, const Joints<T> &joints, int32_t s)
 {
 	int32_t point = 0;
+	bool is_astray = false;
 	for (JointRows<T> rows(joints, rests.slots[s].body()); rows.has() && point < rests.touching[s].joined; rows.next(), point++) {
 		Points<T> &points = rests.points[rests.touching[s].first + point / lane_count];
 		const int32_t i = point % lane_count;
-		const T force = begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]);
+		if (rows.begins())
+			is_astray = HeldNow<T>(rows, rests.slots, rests.places, s).hold.astray(rows.joint()) > T(JOINT_ASTRAY) * points.tolerance[i];
+		const T force = is_astray ? T(0) : begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]);
 		points.force[i] = points.start[i] = begun(rests, rests.slots[s], Partner(points.partner[i]), force, rests.length);
 	}
 }

@@ -43,24 +43,13 @@ public:
 		if (other >= 0)
 			open(other, 0, own);
 		strike(struck, partner, own);
-		bool more = true;
-		for (int32_t sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
-			more = false;
-			if (sweep + 1 == TUG_SWEEPS)
-				least *= T(TUG_ENOUGH);
-			for (int32_t k = 0; k < count; k++)
-				for (int32_t point = 0; point < parties[k].points; point++) {
-					Point &p = points[parties[k].first + point];
-					if (p.other == closed && !reach(p, parties[k], own, join))
-						continue;
-					if (is_lost)
-						return false;
-					more |= push(parties[k], p, p.other, true);
-				}
-			more |= push(parties[0], contact, contact.other, false); /* in the end the two part, whatever joints wanted */
+		sweep(own, join);
+		if (!is_lost && gain() > T(TUG_GAIN) * (contact.impulse * changed)) {
+			begin_anew();
+			sweep(own, join);
 		}
-		if (more || gain() > T(TUG_GAIN) * (contact.impulse * changed)) /* it came to no end, or to none that may be */
-			give_up();
+		if (is_lost)
+			return false;
 		for (int32_t k = 0; k < count; k++)
 			if (!parties[k].is_held) {
 				Work<T> &to = work[parties[k].id];
@@ -80,6 +69,24 @@ public:
 	Vec<T> impulse() const { return Vec<T>(contact.impulse * contact.n + contact.rub * contact.along()); }
 
 private:
+	template <typename Join> void sweep(const Membership<T> &own, const Join &join)
+	{
+		bool more = true;
+		for (int32_t sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
+			more = false;
+			for (int32_t k = 0; k < count; k++)
+				for (int32_t point = 0; point < parties[k].points; point++) {
+					Point &p = points[parties[k].first + point];
+					if (p.other == closed && !reach(p, parties[k], own, join))
+						continue;
+					if (is_lost)
+						return;
+					more |= push(parties[k], p, p.other, true);
+				}
+			more |= push(parties[0], contact, contact.other, false); /* in the end the two part, whatever joints wanted */
+		}
+	}
+
 	struct Party : Pushed<T> {
 		int32_t id, first, points; /* of those of joints */
 		bool is_held;
@@ -157,9 +164,11 @@ private:
 				party >= 0                                                 ? party
 					: moves && clusters.slots[partner.slot()].is_dynamic() ? closed
 																		   : fixed};
-			p.part = speed_on(way_of(s, own, true), p.n, p.arm);
+			if (!stops)
+				p.part = speed_on(way_of(s, own, true), p.n, p.arm);
 			if (moves) {
-				p.part -= speed_on(way_of(partner.slot(), own, true), p.n, p.other_arm);
+				if (!stops)
+					p.part -= speed_on(way_of(partner.slot(), own, true), p.n, p.other_arm);
 				p.coming = speed_on(way_of(partner.slot(), own, false), p.n, p.other_arm);
 			}
 		}
@@ -206,10 +215,15 @@ private:
 		return all;
 	}
 
-	void give_up()
+	/* All move as before it, and the hit is what it was; joints are to have no speeds, and so give nothing. */
+	void begin_anew()
 	{
-		for (int32_t k = 0; k < count; k++)
+		stops = true;
+		for (int32_t k = 0; k < count; k++) {
 			static_cast<Pushed<T> &>(parties[k]) = parties[k].before;
+			for (int32_t point = 0; point < parties[k].points; point++)
+				points[parties[k].first + point].part = points[parties[k].first + point].impulse = 0;
+		}
 		contact.impulse = first_impulse, contact.rub = first_rub;
 	}
 
@@ -225,6 +239,7 @@ private:
 	const Trajectory<T> *before[2] = {nullptr, nullptr};
 	T time = 0, changed = 0, least = 0, /* how much the hit changed a rate, and what of that is too little */
 		first_impulse = 0, first_rub = 0;
+	bool stops = false;   /* joints are to have no speeds, instead of those that they had */
 	bool is_lost = false; /* the cluster has to be given up */
 	Point contact{};
 	Party parties[SHOCK_PARTIES];

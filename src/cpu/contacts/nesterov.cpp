@@ -123,7 +123,8 @@ template <typename T> [[gnu::noinline]] static T share_of(const Rests<T> &rests,
 
 template <typename T> static void join(const Job<T> &job)
 {
-	const Rests<T> rests(job);
+	Rests<T> rests(job);
+	rests.places = job.list(14);
 	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
 	const Warm<T> warm(job.records(9), job.list(10), rests.rubs);
 	const Joints<T> joints(job.records(12), job.list(13));
@@ -234,7 +235,6 @@ template <bool rubs, typename T>
 static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T> *loads, int32_t from, int32_t to, int32_t number)
 {
 	const int32_t done = number - rests.status[STATUS_FIRST];
-	const bool is_last = done + 1 >= (rubs && rests.impulses ? GRIP_IMPULSES : CONTACT_ITERATIONS);
 	const bool aims = joints.has_any() && !rests.impulses, anew = done == 0 || (aims && is_aimed(done - 1));
 	bool wanted = false;
 	for (int32_t k = from; k < to; k++) {
@@ -242,14 +242,15 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 		int32_t *const island_wants = &rests.touching[done == 0 ? settled_root(rests, s) : rests.islands.parents[s]].wanted;
 		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) < number)
 			continue;
-		if (aims && is_aimed(done) && rests.touching[s].joined > 0) {
+		const bool is_joined = rests.touching[s].joined > 0;
+		if (aims && is_aimed(done) && is_joined) {
 			aim_joined(rests, joints, loads, s, number & 1);
 			loads[LOADS_OF(s) + LOADS_ALONE][LOAD_SHARE] = share_of(rests, s); /* with which the next one has its steps */
 		}
 		const bool is_loose = rests.touching[s].joined > rests.touching[s].firm;
 		const bool wants = is_loose ? iterate_one<rubs, true>(rests, joints, loads, s, number & 1, done, anew)
 									: iterate_one<rubs, false>(rests, joints, loads, s, number & 1, done, anew);
-		if (!wants || is_last)
+		if (!wants || done + 1 >= (rubs && rests.impulses && !is_joined ? GRIP_IMPULSES : CONTACT_ITERATIONS))
 			continue;
 		wanted = true;
 		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
