@@ -38,7 +38,7 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 {
 	bool impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	bool held = first_contact(touching, s) > 0;
-	int number = status[STATUS_FIRST] + done, most = rub && impulses && !held ? GRIP_IMPULSES : CONTACT_ITERATIONS;
+	int number = status[STATUS_FIRST] + done, most = !(rub && impulses) ? CONTACT_ITERATIONS : held ? JOINT_IMPULSES : GRIP_IMPULSES;
 	int wants = TOUCH(done == 0 ? island_root(touching, islands, s) : islands[s], TOUCHING_WANTED);
 	if (PEEK(touching, wants) < number)
 		return false;

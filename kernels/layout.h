@@ -643,6 +643,7 @@
  * right, and iterations that come to no end would add to them from step to step. */
 #define JOINT_PART 0.25f
 #define JOINT_ASTRAY 16.0f
+#define JOINT_IMPULSES 128 /* iterations, in place of GRIP_IMPULSES, of bodies that rub and are joined: what those leave is no hit */
 #define JOINT_MOST 1.0f
 #define JOINT_AIMED 0x10117 /* bits: 0, 1, 2, 4, 8, 16 */
 #define JOINT_TURN 1.0f     /* rad */

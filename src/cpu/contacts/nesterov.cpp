@@ -250,7 +250,7 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 		const bool is_loose = rests.touching[s].joined > rests.touching[s].firm;
 		const bool wants = is_loose ? iterate_one<rubs, true>(rests, joints, loads, s, number & 1, done, anew)
 									: iterate_one<rubs, false>(rests, joints, loads, s, number & 1, done, anew);
-		if (!wants || done + 1 >= (rubs && rests.impulses && !is_joined ? GRIP_IMPULSES : CONTACT_ITERATIONS))
+		if (!wants || done + 1 >= (!(rubs && rests.impulses) ? CONTACT_ITERATIONS : is_joined ? JOINT_IMPULSES : GRIP_IMPULSES))
 			continue;
 		wanted = true;
 		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
