@@ -42,16 +42,21 @@ bool joint_has_motor(RECORD_IN(joints), int side)
 	return CHANNEL(joint_drive(joints, side), DRIVE_TORQUE) > 0.0f;
 }
 
+/* Do its bodies stay at one angle to each other? */
+bool joint_is_fixed(RECORD_IN(joints), int side)
+{
+	return joint_turns(joints, side) && CHANNEL(joint_drive(joints, side), DRIVE_HALF) == 0.0f;
+}
+
 /* How many points a side's joint has that are firm, or that are not. */
 int joint_points(RECORD_IN(joints), int side, bool firm)
 {
 	int kind = joint_kind(joints, side);
-	float stop = CHANNEL(joint_drive(joints, side), DRIVE_HALF);
 	if (!joint_turns(joints, side))
 		return firm == (kind == JOINT_ROD) ? 1 : 0;
 	if (firm)
-		return (kind == JOINT_PIN ? 2 : 1) + (stop == 0.0f ? 1 : 0);
-	return (joint_has_motor(joints, side) ? 1 : 0) + (stop > 0.0f ? 2 : 0);
+		return (kind == JOINT_PIN ? 2 : 1) + (joint_is_fixed(joints, side) ? 1 : 0);
+	return (joint_has_motor(joints, side) ? 1 : 0) + (CHANNEL(joint_drive(joints, side), DRIVE_HALF) > 0.0f ? 2 : 0);
 }
 
 /* The next row that there is, from this one on. */

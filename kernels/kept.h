@@ -172,11 +172,10 @@ __global float *joint_forces(RECORD_OUT(joints), int side)
 /* Is what a side's joint holds firmly farther than that from where it belongs? Then the last forces were not right: what iterations can't find would add up from step to step. */
 bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, int s, float far)
 {
-	held own = held_body(slots, s, joint_anchor(joints, side)), other = held_other(slots, places, joints, side);
-	hold h = hold_of(joints, side, own, other, true);
-	float anchors = larger(magnitude(h.target[0]), magnitude(h.target[1]));
-	bool fixed = joint_turns(joints, side) && CHANNEL(joint_drive(joints, side), DRIVE_HALF) == 0.0f;
-	return joint_points(joints, side, true) > 0 && (anchors > far || (fixed && magnitude(h.turned * h.arm) > far));
+	if (joint_points(joints, side, true) == 0)
+		return false;
+	hold h = hold_of(joints, side, held_body(slots, s, joint_anchor(joints, side)), held_other(slots, places, joints, side), true);
+	return larger(magnitude(h.target[0]), magnitude(h.target[1])) > far || (joint_is_fixed(joints, side) && magnitude(h.turned * h.arm) > far);
 }
 
 /* Forces begin with the last ones, unless a joint strays. */

@@ -153,6 +153,12 @@ carom_measure runs_measure(carom_world *world)
 	return measure;
 }
 
+double runs_energy(carom_world *world)
+{
+	const carom_measure measure = runs_measure(world);
+	return measure.kinetic_energy + measure.potential_energy;
+}
+
 uint64_t runs_hash(carom_world *world)
 {
 	uint64_t hash;

@@ -31,6 +31,8 @@ carom_report runs_step(carom_world *world, uint64_t steps);
 carom_report runs_advance(carom_world *world, double seconds);
 carom_body_state runs_state(carom_world *world, uint32_t index);
 carom_measure runs_measure(carom_world *world);
+/* Kinetic and potential, J. */
+double runs_energy(carom_world *world);
 /* To be destroyed. */
 carom_snapshot *runs_snapshot(carom_world *world);
 uint64_t runs_hash(carom_world *world);

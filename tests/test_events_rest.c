@@ -18,23 +18,17 @@ static void nothing_overlaps(carom_world *world, double size)
 	runs_near(runs_measure(world).max_penetration, 0.0, size * (double)SLOP);
 }
 
-static double energy_of(carom_world *world)
-{
-	const carom_measure measure = runs_measure(world);
-	return measure.kinetic_energy + measure.potential_energy;
-}
-
 /* Steps one by one: energy grows by no more than rounding, and by the speed that CONTRACT gives in a microcollision, MICRO of what
  * gravity makes in a step: half of it squared for each hit, of a body of `mass` at most. */
 static carom_report run_down(carom_world *world, uint64_t steps, double mass)
 {
 	const double micro = (double)MICRO * GRAVITY * (double)carom_world_get_def(world)->time_step, begun = runs_seconds();
 	carom_report sum = {0};
-	double energy = energy_of(world);
+	double energy = runs_energy(world);
 	const double scale = fabs(energy) + mass * GRAVITY;
 	for (uint64_t i = 0; i < steps; i++) {
 		const carom_report report = runs_step(world, 1);
-		const double now = energy_of(world), allowed = 0.5 * mass * micro * micro * (double)report.hits + 1e-5 * scale;
+		const double now = runs_energy(world), allowed = 0.5 * mass * micro * micro * (double)report.hits + 1e-5 * scale;
 		if (!(now - energy <= allowed))
 			fail_msg("step %llu: energy grew from %.9g to %.9g J, allowed are %.3g", (unsigned long long)i, energy, now, allowed);
 		energy = now;

@@ -6,12 +6,6 @@
 
 #include "joined.h"
 
-static double energy(carom_world *world)
-{
-	const carom_measure measure = runs_measure(world);
-	return measure.kinetic_energy + measure.potential_energy;
-}
-
 static double force_of(carom_world *world, size_t k)
 {
 	const carom_joint joint = joined_get(world, k);
@@ -42,11 +36,11 @@ static void a_pendulum_keeps_its_period_and_its_height(void **unused)
 			carom_body_info info;
 			carom_error error;
 			scenery_check(carom_world_get_body(world, 0, &info, &error), &error);
-			const double begin = energy(world), mass = (double)info.mass, range = (double)RUNS_GRAVITY * mass * r * (1.0 - cos(a));
+			const double begin = runs_energy(world), mass = (double)info.mass, range = (double)RUNS_GRAVITY * mass * r * (1.0 - cos(a));
 			for (int swing = 1; swing <= 10; swing++) {
 				runs_advance(world, period);
 				assert_true(joined_slack(world) < 3e-6);
-				runs_near(energy(world), begin, 1e-3 * range * swing);
+				runs_near(runs_energy(world), begin, 1e-3 * range * swing);
 			}
 			runs_near((double)runs_state(world, 0).position.x, r * sin(a), 0.02 * r);
 			runs_same_hash(&first, runs_hash(world), device);
@@ -127,11 +121,11 @@ static void a_chain_that_falls_holds(void **unused)
 			carom_world *world = joined_chain(device, of_rods, RUNS_GRAVITY, 0.0f);
 			if (!world)
 				continue;
-			const double begin = energy(world);
+			const double begin = runs_energy(world);
 			double most = 0.0;
 			for (int k = 0; k < 100; k++) {
 				runs_step(world, 6);
-				most = fmax(most, energy(world) - begin);
+				most = fmax(most, runs_energy(world) - begin);
 				assert_true(joined_slack(world) < 0.1);
 			}
 			assert_true(most < 0.2);

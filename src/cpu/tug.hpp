@@ -43,10 +43,10 @@ public:
 		if (other >= 0)
 			open(other, 0, own);
 		strike(struck, partner, own);
-		sweep(own, join);
+		pass_on(own, join);
 		if (!is_lost && gain() > T(TUG_GAIN) * (contact.impulse * changed)) {
 			begin_anew();
-			sweep(own, join);
+			pass_on(own, join);
 		}
 		if (is_lost)
 			return false;
@@ -69,7 +69,8 @@ public:
 	Vec<T> impulse() const { return Vec<T>(contact.impulse * contact.n + contact.rub * contact.along()); }
 
 private:
-	template <typename Join> void sweep(const Membership<T> &own, const Join &join)
+	/* In sweeps over all points, until they do no more, or the cluster is lost. */
+	template <typename Join> void pass_on(const Membership<T> &own, const Join &join)
 	{
 		bool more = true;
 		for (int32_t sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
@@ -164,13 +165,13 @@ private:
 				party >= 0                                                 ? party
 					: moves && clusters.slots[partner.slot()].is_dynamic() ? closed
 																		   : fixed};
-			if (!stops)
-				p.part = speed_on(way_of(s, own, true), p.n, p.arm);
+			p.part = speed_on(way_of(s, own, true), p.n, p.arm);
 			if (moves) {
-				if (!stops)
-					p.part -= speed_on(way_of(partner.slot(), own, true), p.n, p.other_arm);
+				p.part -= speed_on(way_of(partner.slot(), own, true), p.n, p.other_arm);
 				p.coming = speed_on(way_of(partner.slot(), own, false), p.n, p.other_arm);
 			}
+			if (stops)
+				p.part = 0;
 		}
 	}
 

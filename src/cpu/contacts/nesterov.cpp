@@ -243,6 +243,7 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) < number)
 			continue;
 		const bool is_joined = rests.touching[s].joined > 0;
+		const int32_t most = !(rubs && rests.impulses) ? CONTACT_ITERATIONS : is_joined ? JOINT_IMPULSES : GRIP_IMPULSES;
 		if (aims && is_aimed(done) && is_joined) {
 			aim_joined(rests, joints, loads, s, number & 1);
 			loads[LOADS_OF(s) + LOADS_ALONE][LOAD_SHARE] = share_of(rests, s); /* with which the next one has its steps */
@@ -250,7 +251,7 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 		const bool is_loose = rests.touching[s].joined > rests.touching[s].firm;
 		const bool wants = is_loose ? iterate_one<rubs, true>(rests, joints, loads, s, number & 1, done, anew)
 									: iterate_one<rubs, false>(rests, joints, loads, s, number & 1, done, anew);
-		if (!wants || done + 1 >= (!(rubs && rests.impulses) ? CONTACT_ITERATIONS : is_joined ? JOINT_IMPULSES : GRIP_IMPULSES))
+		if (!wants || done + 1 >= most)
 			continue;
 		wanted = true;
 		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
