@@ -754,7 +754,7 @@
 #define LIGHT_BLUE 2
 
 /* Lists of whole numbers: shapes sorted by rows of tiles of pixels, then by tile */
-#define PIXEL_TILE 16
+#define PIXEL_TILE 16 /* of kernels: each is a work-item's */
 #define BIN_CHUNK 256 /* shapes that a work-item sorts */
 
 /* How a picture looks */

@@ -146,8 +146,8 @@ static carom_status check_lists(carom_world *world, int32_t rows, bool *again, c
 /* Draws the pass's shapes over what there is of a block; sorts them again where a list was too short, for nothing is left out. */
 static carom_status draw_pass(carom_world *world, carom_pixels block, uint32_t ground, carom_pass *pass, carom_error *error)
 {
-	const int32_t columns = carom_parts_of((uint32_t)(block.x1 - block.x0), PIXEL_TILE);
-	const int32_t rows = carom_parts_of((uint32_t)(block.y1 - block.y0), PIXEL_TILE);
+	const int32_t columns = carom_parts_of((uint32_t)(block.x1 - block.x0), world->device->kind->tile_width);
+	const int32_t rows = carom_parts_of((uint32_t)(block.y1 - block.y0), world->device->kind->tile_height);
 	const uint64_t counts = (uint64_t)carom_parts_of(pass->shapes, BIN_CHUNK) * (uint64_t)rows;
 	bool again = true;
 	TRY(carom_canvas_hold(world, ROLE_BIN_COUNTS, 2 * counts, error));

@@ -269,8 +269,8 @@ carom_status carom_canvas_send_frame(carom_world *world, carom_pixels block, uin
 {
 	float texels[4 * TILE] = {0}, *tiles = texels + 4 * FRAME_TILES;
 	fill_box(block, texels + 4 * FRAME_BOX);
-	tiles[TILES_COLUMNS] = (float)carom_parts_of((uint32_t)(block.x1 - block.x0), PIXEL_TILE);
-	tiles[TILES_ROWS] = (float)carom_parts_of((uint32_t)(block.y1 - block.y0), PIXEL_TILE);
+	tiles[TILES_COLUMNS] = (float)carom_parts_of((uint32_t)(block.x1 - block.x0), world->device->kind->tile_width);
+	tiles[TILES_ROWS] = (float)carom_parts_of((uint32_t)(block.y1 - block.y0), world->device->kind->tile_height);
 	tiles[TILES_GROUND] = (float)ground;
 	tiles[TILES_PASS] = (float)pass;
 	TRY(carom_canvas_hold(world, ROLE_FRAME, FRAME_WIDTH, error));

@@ -21,6 +21,7 @@ typedef enum carom_texel_format {
 
 /* Rows first: (x, y) is column x of row y. Functions that fail fill in the error. */
 typedef struct carom_device_class {
+	uint32_t tile_width, tile_height; /* pixels, of the tiles in which it draws */
 	void (*close)(carom_device *device);
 	/* Fills every texel with `fill` (floats; converted for bytes). CAROM_LIMIT if the device can't hold it. Errors call the texture
 	 * by its name, which stays the caller's. */

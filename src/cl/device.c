@@ -236,8 +236,8 @@ static void close_device(carom_device *device)
 	free(d);
 }
 
-static const carom_device_class cl_class = {close_device, carom_cl_create_texture, NULL, carom_cl_destroy_texture, carom_cl_upload, carom_cl_download,
-	has_kernel, run_stage, flush, read_profile, count_reads};
+static const carom_device_class cl_class = {PIXEL_TILE, PIXEL_TILE, close_device, carom_cl_create_texture, NULL, carom_cl_destroy_texture,
+	carom_cl_upload, carom_cl_download, has_kernel, run_stage, flush, read_profile, count_reads};
 
 /* On a CPU a texel of an image is a call out of line: there steps that are not the paper's take buffers by themselves. */
 static bool prefers_buffers(const carom_device_def *def, const carom_cl_found *found)

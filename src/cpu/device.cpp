@@ -9,6 +9,7 @@
 #include <string>
 
 #include "cpu/machine.hpp"
+#include "cpu/pixels.hpp"
 #include "cpu/stages.hpp"
 #include "status.h"
 
@@ -259,7 +260,7 @@ template <typename T> static void close(carom_device *device)
 
 template <typename T>
 static constexpr carom_device_class device_class{
-	close<T>, create<T>, wrap, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile, reads<T>};
+	tile_width, tile_height, close<T>, create<T>, wrap, destroy, upload<T>, download<T>, has<T>, run<T>, flush, profile, reads<T>};
 
 /* The alternative that fills the slot: some stages' is fixed, others' is the pipeline's. */
 static bool is_chosen(const carom_pipeline &pipeline, const Stage &stage, const char *fixed)

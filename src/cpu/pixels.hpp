@@ -9,7 +9,9 @@
 
 namespace carom::cpu {
 
-constexpr int32_t side = PIXEL_TILE, half = side / 2, small = 4, area = side * side;
+/* Of tiles, in pixels: the larger they are the fewer shapes lie in several, while their light is near; and the lower, the fewer pages of the picture are written at once. */
+constexpr int32_t tile_width = 64, tile_height = 32, tile_area = tile_width * tile_height;
+constexpr int32_t block = 16, small = 4; /* pixels that are dealt with together: as many rows as columns */
 
 typedef int32_t Whole __attribute__((vector_size(lane_count * sizeof(int32_t))));
 
@@ -26,35 +28,42 @@ template <typename T> struct Light {
 	}
 };
 
-/* The pixels of a tile, row by row. While all are alike it is plain, and the first row stands for all. */
+/* The pixels of a tile, row by row. Blocks of them on which nothing was drawn yet are plain: one row stands for all. */
 template <typename T> struct Tile {
 	T x, y; /* of the first pixel */
-	bool plain;
-	alignas(64) T light[3][area]; /* whole lines of the cache, a row each */
+	bool plain[tile_height / block][tile_width / block];
+	int32_t plain_left;                                  /* blocks */
+	alignas(64) T light[3][tile_area], ground[3][block]; /* whole lines of the cache, a row each */
 
 	void fill(const Light<T> &all)
 	{
-		plain = true;
+		std::memset(plain, true, sizeof plain);
+		plain_left = sizeof plain / sizeof **plain;
 		for (int c = 0; c < 3; c++)
-			spread(all.channels[c], light[c], side);
+			std::fill(ground[c], ground[c] + block, all.channels[c]);
 	}
 
-	/* Before a part of it changes. */
-	void spread()
+	/* Before pixels change: so many columns and rows. */
+	void open(int32_t left, int32_t top, int32_t columns, int32_t rows)
 	{
-		if (!plain)
+		if (plain_left == 0)
 			return;
-		plain = false;
-		for (T *channel : light)
-			spread(channel[0], channel + side, area - side);
+		for (int32_t row = top / block; row * block < top + rows; row++) {
+			for (int32_t column = left / block; column * block < left + columns; column++) {
+				if (plain[row][column])
+					open_block(row, column);
+			}
+		}
 	}
 
 private:
-	static void spread(T level, T *to, int32_t count)
+	void open_block(int32_t row, int32_t column)
 	{
-#pragma omp simd
-		for (int32_t i = 0; i < count; i++)
-			to[i] = level;
+		plain[row][column] = false;
+		plain_left--;
+		for (int c = 0; c < 3; c++)
+			for (int32_t i = 0; i < block; i++)
+				std::memcpy(light[c] + (row * block + i) * tile_width + column * block, ground[c], sizeof ground[c]);
 	}
 };
 
@@ -122,7 +131,7 @@ template <typename T> struct Stroke {
 	int32_t columns, rows, first; /* the first pixel */
 	T opacity;
 	Light<T> fill, outline;
-	T cover[area], inside[area];
+	T *cover, *inside;
 };
 
 /* Where in a word the byte lies that is number `c` in memory. */
@@ -131,16 +140,14 @@ constexpr int32_t shift_of(int c)
 	return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? 8 * c : 24 - 8 * c;
 }
 
-/* The bytes of the tile's first pixels, `count` of them, as words, of which compilers make vectors. */
-template <int32_t count, typename T> void round_light(const Tile<T> &tile, uint32_t *pixels)
+/* The bytes of pixels from one on as words, of which compilers make vectors. */
+template <int32_t count, typename T, size_t room> void round_light(const T (&light)[3][room], int32_t first, uint32_t *pixels)
 {
+	const auto level = [](T square) { return static_cast<uint32_t>(static_cast<int32_t>(std::sqrt(larger(T(0), square)) + T(0.5))); };
+	const T *const red = light[0] + first, *const green = light[1] + first, *const blue = light[2] + first;
 #pragma omp simd
-	for (int32_t i = 0; i < count; i++) {
-		uint32_t word = uint32_t(255) << shift_of(3);
-		for (int c = 0; c < 3; c++)
-			word |= static_cast<uint32_t>(static_cast<int32_t>(std::sqrt(larger(T(0), tile.light[c][i])) + T(0.5))) << shift_of(c);
-		pixels[i] = word;
-	}
+	for (int32_t i = 0; i < count; i++)
+		pixels[i] = level(red[i]) << shift_of(0) | level(green[i]) << shift_of(1) | level(blue[i]) << shift_of(2) | uint32_t(255) << shift_of(3);
 }
 
 }

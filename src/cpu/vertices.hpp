@@ -79,8 +79,12 @@ template <typename T> struct Batch {
 			rotations(angle, cosine, sine);
 			const Lanes<T> channels[] = {(cosine * lx - sine * ly) * to.scale, -((sine * lx + cosine * ly) * to.scale),
 				((x - to.left) - to.left_low) * to.scale, ((to.top - y) + to.top_low) * to.scale};
-			for (int32_t c = 0; c < 4; c++)
-				std::memcpy(columns[c] + k, &channels[c], sizeof(T) * static_cast<size_t>(std::min(lane_count, count - k)));
+			for (int32_t c = 0; c < 4; c++) {
+				if (count - k >= lane_count)
+					std::memcpy(columns[c] + k, &channels[c], sizeof channels[c]); /* no call: the compiler knows how long it is */
+				else
+					std::memcpy(columns[c] + k, &channels[c], sizeof(T) * static_cast<size_t>(count - k));
+			}
 		}
 	}
 };

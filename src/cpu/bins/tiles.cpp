@@ -1,4 +1,4 @@
-#include "cpu/stages.hpp"
+#include "cpu/pixels.hpp"
 
 #include <algorithm>
 
@@ -31,7 +31,7 @@ public:
 		const int32_t bottom = whole(smaller(boxes.of(shape, BOX_Y1), y1) - y0);
 		if (left >= right || top >= bottom)
 			return {0, 0, 0, 0};
-		return {left / PIXEL_TILE, top / PIXEL_TILE, (right - 1) / PIXEL_TILE + 1, (bottom - 1) / PIXEL_TILE + 1};
+		return {left / tile_width, top / tile_height, (right - 1) / tile_width + 1, (bottom - 1) / tile_height + 1};
 	}
 
 private:

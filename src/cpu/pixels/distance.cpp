@@ -19,7 +19,7 @@ template <typename T> struct Seen {
 		const Lanes<T> zero{};
 		std::memcpy(&box, &records.of(SHAPE_BOX, 0), sizeof box);
 		from_tile = box - Lanes<T>{tile.x, tile.y, tile.x, tile.y};
-		cut = __builtin_convertvector(smaller(larger(from_tile, zero), zero + T(side)), Whole);
+		cut = __builtin_convertvector(smaller(larger(from_tile, zero), Lanes<T>{tile_width, tile_height, tile_width, tile_height}), Whole);
 	}
 
 	T of(int32_t part, int32_t channel) const { return records.of(part, channel); }
@@ -35,31 +35,29 @@ public:
 	{
 		const Seen<T> seen(Records<T>(&shapes.of(SHAPES_WIDTH * shape, 0)), tile);
 		const int32_t left = seen.cut[BOX_X0], top = seen.cut[BOX_Y0], width = seen.cut[BOX_X1] - left, height = seen.cut[BOX_Y1] - top;
-		if (seen.count == 0 || waiting == batch)
+		const bool is_small = width <= small && height <= small;
+		const int32_t columns = is_small ? small : (width + block - 1) / block * block, rows = is_small ? small : height;
+		if (seen.count == 0 || waiting == batch || taken + columns * rows > tile_area)
 			finish(tile);
 		if (seen.count == 0)
 			cover(tile, seen);
-		else if (width <= small && height <= small)
-			begin<small, small>(seen, std::min(left, side - small), std::min(top, side - small), small);
-		else if (width <= half)
-			begin<half, 1>(seen, std::min(left, half), top, height);
+		else if (is_small)
+			begin<small, small>(seen, std::min(left, tile_width - small), std::min(top, tile_height - small), small, small);
 		else
-			begin<side, 1>(seen, 0, top, height);
+			begin<block, 1>(seen, std::min(left, tile_width - columns), top, columns, height);
 	}
 
 	void finish(Tile<T> &tile)
 	{
-		if (waiting > 0)
-			tile.spread();
 		for (int32_t k = 0; k < waiting; k++) {
-			if (strokes[k].columns == small)
-				blend<small>(tile, strokes[k], small);
-			else if (strokes[k].columns == half)
-				blend<half>(tile, strokes[k], strokes[k].rows);
+			const Stroke<T> &stroke = strokes[k];
+			tile.open(stroke.first % tile_width, stroke.first / tile_width, stroke.columns, stroke.rows);
+			if (stroke.columns == small)
+				blend<small>(tile, stroke, small, small);
 			else
-				blend<side>(tile, strokes[k], strokes[k].rows);
+				blend<block>(tile, stroke, stroke.columns, stroke.rows);
 		}
-		waiting = 0;
+		waiting = taken = 0;
 	}
 
 	/* Shapes lie in the order of the bodies, which may be anywhere: those that are drawn soon are fetched while others are drawn. */
@@ -79,38 +77,43 @@ private:
 	{
 		const Light<T> fill(seen.of(SHAPE_INK, INK_FILL));
 		const Whole cut = seen.cut;
-		if ((cut[BOX_X1] - cut[BOX_X0]) * (cut[BOX_Y1] - cut[BOX_Y0]) == area) {
+		if ((cut[BOX_X1] - cut[BOX_X0]) * (cut[BOX_Y1] - cut[BOX_Y0]) == tile_area) {
 			tile.fill(fill);
 			return;
 		}
-		tile.spread();
+		tile.open(cut[BOX_X0], cut[BOX_Y0], cut[BOX_X1] - cut[BOX_X0], cut[BOX_Y1] - cut[BOX_Y0]);
 		for (int c = 0; c < 3; c++)
 			for (int32_t row = cut[BOX_Y0]; row < cut[BOX_Y1]; row++)
-				std::fill(tile.light[c] + row * side + cut[BOX_X0], tile.light[c] + row * side + cut[BOX_X1], fill.channels[c]);
+				std::fill(tile.light[c] + row * tile_width + cut[BOX_X0], tile.light[c] + row * tile_width + cut[BOX_X1], fill.channels[c]);
 	}
 
-	/* Measures pixels from column `left` and row `top` of the tile on, `height` rows of them. */
-	template <int32_t columns, int32_t rows> void begin(const Seen<T> &seen, int32_t left, int32_t top, int32_t height)
+	/* Measures so many columns and rows of pixels, from column `left` and row `top` of the tile on, some at a time. */
+	template <int32_t wide, int32_t high> void begin(const Seen<T> &seen, int32_t left, int32_t top, int32_t columns, int32_t rows)
 	{
 		Stroke<T> &stroke = strokes[waiting++];
-		Patch<T, columns, rows> patch;
 		stroke.columns = columns;
-		stroke.rows = height;
-		stroke.first = top * side + left;
+		stroke.rows = rows;
+		stroke.first = top * tile_width + left;
 		stroke.opacity = seen.of(SHAPE_INK, INK_OPACITY);
 		stroke.fill = Light<T>(seen.of(SHAPE_INK, INK_FILL));
 		stroke.outline = Light<T>(seen.of(SHAPE_INK, INK_OUTLINE));
-		for (int32_t row = 0; row < height; row += rows) {
-			patch.begin(static_cast<T>(left) - seen.from_tile[BOX_X0], static_cast<T>(top + row) - seen.from_tile[BOX_Y0]);
-			measure(patch, seen.records, SHAPE_EDGE);
-			if (seen.count > 1) {
-				const Records<T> rest(&edges.of(static_cast<int32_t>(seen.of(SHAPE_EDGES, EDGES_REST)), 0));
-				for (int32_t k = 0; k < seen.count - 1; k++)
-					measure(patch, rest, k);
+		stroke.cover = covers + taken;
+		stroke.inside = insides + taken;
+		for (int32_t row = 0; row < rows; row += high) {
+			for (int32_t column = 0; column < columns; column += wide) {
+				Patch<T, wide, high> patch;
+				patch.begin(static_cast<T>(left + column) - seen.from_tile[BOX_X0], static_cast<T>(top + row) - seen.from_tile[BOX_Y0]);
+				measure(patch, seen.records, SHAPE_EDGE);
+				if (seen.count > 1) {
+					const Records<T> rest(&edges.of(static_cast<int32_t>(seen.of(SHAPE_EDGES, EDGES_REST)), 0));
+					for (int32_t k = 0; k < seen.count - 1; k++)
+						measure(patch, rest, k);
+				}
+				patch.mask(seen.box[BOX_X1] - seen.box[BOX_X0], seen.box[BOX_Y1] - seen.box[BOX_Y0]);
+				patch.share(covers + taken, 0);
+				patch.share(insides + taken, seen.of(SHAPE_INK, INK_WIDTH));
+				taken += wide * high;
 			}
-			patch.mask(seen.box[BOX_X1] - seen.box[BOX_X0], seen.box[BOX_Y1] - seen.box[BOX_Y0]);
-			patch.share(stroke.cover + row * columns, 0);
-			patch.share(stroke.inside + row * columns, seen.of(SHAPE_INK, INK_WIDTH));
 		}
 	}
 
@@ -123,16 +126,18 @@ private:
 			patch.beyond_line(edge);
 	}
 
-	template <int32_t columns> static void blend(Tile<T> &tile, const Stroke<T> &stroke, int32_t rows)
+	template <int32_t wide> static void blend(Tile<T> &tile, const Stroke<T> &stroke, int32_t columns, int32_t rows)
 	{
 		for (int c = 0; c < 3; c++) {
 			const T line = stroke.outline.channels[c], middle = stroke.fill.channels[c];
+			const T *cover = stroke.cover, *inside = stroke.inside;
 			for (int32_t row = 0; row < rows; row++) {
-				const T *cover = stroke.cover + row * columns, *inside = stroke.inside + row * columns;
-				T *ground = tile.light[c] + stroke.first + row * side;
+				T *ground = tile.light[c] + stroke.first + row * tile_width;
+				for (int32_t column = 0; column < columns; column += wide, ground += wide, cover += wide, inside += wide) {
 #pragma omp simd
-				for (int32_t i = 0; i < columns; i++)
-					ground[i] = ground[i] + stroke.opacity * ((line * (cover[i] - inside[i]) + middle * inside[i]) - cover[i] * ground[i]);
+					for (int32_t i = 0; i < wide; i++)
+						ground[i] = ground[i] + stroke.opacity * ((line * (cover[i] - inside[i]) + middle * inside[i]) - cover[i] * ground[i]);
+				}
 			}
 		}
 	}
@@ -141,7 +146,8 @@ private:
 	 * of it at once. */
 	static constexpr int32_t batch = 8;
 	Stroke<T> strokes[batch];
-	int32_t waiting = 0;
+	alignas(64) T covers[tile_area], insides[tile_area]; /* side by side, for most are small */
+	int32_t waiting = 0, taken = 0;
 	const Records<T> shapes, edges;
 };
 
@@ -161,15 +167,15 @@ template <typename T> struct Frame {
 /* Calls `visit(i, pixel)` for each pixel i of the tile that the frame has, with its number there; the tile begins at column x and row y. */
 template <typename T, typename Visit> static void visit_pixels(const Frame<T> &frame, int32_t x, int32_t y, Visit visit)
 {
-	for (int32_t row = 0; row < std::min(side, frame.height - y); row++)
-		for (int32_t i = 0; i < std::min(side, frame.width - x); i++)
-			visit(row * side + i, (y + row) * frame.width + x + i);
+	for (int32_t row = 0; row < std::min(tile_height, frame.height - y); row++)
+		for (int32_t i = 0; i < std::min(tile_width, frame.width - x); i++)
+			visit(row * tile_width + i, (y + row) * frame.width + x + i);
 }
 
 /* The passes hand on what they have drawn, unrounded. */
 template <typename T> static void take_light(Tile<T> &tile, const T *light, const Frame<T> &frame, int32_t x, int32_t y)
 {
-	tile.plain = false;
+	tile.open(0, 0, tile_width, tile_height);
 	visit_pixels(frame, x, y, [&](int32_t i, int32_t pixel) {
 		for (int c = 0; c < 3; c++)
 			tile.light[c][i] = light[4 * pixel + c];
@@ -178,7 +184,7 @@ template <typename T> static void take_light(Tile<T> &tile, const T *light, cons
 
 template <typename T> static void leave_light(Tile<T> &tile, T *light, const Frame<T> &frame, int32_t x, int32_t y)
 {
-	tile.spread();
+	tile.open(0, 0, tile_width, tile_height);
 	visit_pixels(frame, x, y, [&](int32_t i, int32_t pixel) {
 		for (int c = 0; c < 3; c++)
 			light[4 * pixel + c] = tile.light[c][i];
@@ -188,82 +194,86 @@ template <typename T> static void leave_light(Tile<T> &tile, T *light, const Fra
 /* Writes the tile that begins at column x and row y of the frame. */
 template <typename T> static void put_tile(const Tile<T> &tile, const Bytes &picture, const Frame<T> &frame, int32_t x, int32_t y)
 {
-	constexpr size_t whole_row = sizeof(uint32_t) * side;
-	const size_t row_size = std::min(sizeof(uint32_t) * static_cast<size_t>(frame.width - x), whole_row);
-	uint32_t pixels[area];
-	if (tile.plain)
-		round_light<side>(tile, pixels);
-	else
-		round_light<area>(tile, pixels);
-	for (int32_t row = 0; row < std::min(side, frame.height - y); row++) {
-		uint8_t *to = picture.texel(x, y + row);
-		const uint32_t *from = pixels + (tile.plain ? 0 : side * row);
-		if (row_size == whole_row)
-			std::memcpy(to, from, whole_row); /* no call: the compiler knows how long it is */
+	const int32_t width = std::min(tile_width, frame.width - x);
+	uint32_t plain[block], pixels[tile_width];
+	round_light<block>(tile.ground, 0, plain);
+	for (int32_t row = 0; row < std::min(tile_height, frame.height - y); row++) {
+		const int32_t first = row * tile_width;
+		if (tile.plain_left == 0)
+			round_light<tile_width>(tile.light, first, pixels);
+		for (int32_t column = 0; tile.plain_left > 0 && column < tile_width; column += block) {
+			if (!tile.plain[row / block][column / block])
+				round_light<block>(tile.light, first + column, pixels + column);
+			else if (row % block == 0) /* and so are the block's other rows */
+				std::memcpy(pixels + column, plain, sizeof plain);
+		}
+		if (width == tile_width)
+			std::memcpy(picture.texel(x, y + row), pixels, sizeof pixels); /* no call: the compiler knows how long it is */
 		else
-			std::memcpy(to, from, row_size);
+			std::memcpy(picture.texel(x, y + row), pixels, sizeof *pixels * static_cast<size_t>(width));
 	}
 }
 
-template <typename T> static void draw_row(const Job<T> &job, const Frame<T> &frame, int32_t row)
+/* Some tiles, which are numbered row by row. */
+template <typename T> static void draw_tiles(const Job<T> &job, const Frame<T> &frame, int32_t begin, int32_t end)
 {
-	const int32_t *ends = job.list(FROM_ENDS) + row * (frame.columns + 1), *list = job.list(FROM_LIST);
-	const uint32_t room = static_cast<uint32_t>(job.domain[2]);
-	const uint32_t last = std::min(static_cast<uint32_t>(ends[frame.columns]), room);
+	const auto place = [&](int32_t tile, int32_t later) { /* each row has one end more than tiles */
+		const int32_t at = job.list(FROM_ENDS)[tile + tile / frame.columns + later];
+		return job.list(FROM_LIST) + std::min(static_cast<uint32_t>(at), static_cast<uint32_t>(job.domain[2]));
+	};
+	const int32_t *const all = place(end - 1, 1);
 	Painter<T> painter(job);
 	Tile<T> tile;
-	for (int32_t c = 0; c < frame.columns; c++) {
-		const uint32_t end = std::min(static_cast<uint32_t>(ends[c + 1]), room);
-		tile.x = frame.x0 + static_cast<T>(c * side);
-		tile.y = frame.y0 + static_cast<T>(row * side);
+	for (int32_t k = begin; k < end; k++) {
+		const int32_t x = k % frame.columns * tile_width, y = k / frame.columns * tile_height;
+		tile.x = frame.x0 + static_cast<T>(x);
+		tile.y = frame.y0 + static_cast<T>(y);
 		tile.fill(frame.ground);
 		if (frame.pass & PASS_OVER)
-			take_light(tile, job.records(LIGHT), frame, c * side, row * side);
-		for (uint32_t k = static_cast<uint32_t>(ends[c]); k < end; k++) {
-			painter.fetch(list + k, list + last);
-			painter.draw(tile, list[k]);
+			take_light(tile, job.records(LIGHT), frame, x, y);
+		for (const int32_t *next = place(k, 0), *const last = place(k, 1); next < last; next++) {
+			painter.fetch(next, all);
+			painter.draw(tile, *next);
 		}
 		painter.finish(tile);
 		if (frame.pass & PASS_UNDER)
-			leave_light(tile, job.records(LIGHT), frame, c * side, row * side);
+			leave_light(tile, job.records(LIGHT), frame, x, y);
 		else
-			put_tile(tile, job.bytes(TO_PICTURE), frame, c * side, row * side);
+			put_tile(tile, job.bytes(TO_PICTURE), frame, x, y);
 	}
 }
 
 #if defined(__x86_64__)
 /* The same with longer vectors, where the processor has them, or with more of them that are masked: each lane is rounded as before. */
-[[gnu::target("avx2"), gnu::flatten]] static void draw_row_avx2(const Job<float> &job, const Frame<float> &frame, int32_t row)
+[[gnu::target("avx2"), gnu::flatten]] static void draw_tiles_avx2(const Job<float> &job, const Frame<float> &frame, int32_t begin, int32_t end)
 {
-	draw_row(job, frame, row);
+	draw_tiles(job, frame, begin, end);
 }
 
-[[gnu::target("avx512f,avx512vl"), gnu::flatten]] static void draw_row_avx512(const Job<float> &job, const Frame<float> &frame, int32_t row)
+[[gnu::target("avx512f,avx512vl"), gnu::flatten]] static void draw_tiles_avx512(const Job<float> &job, const Frame<float> &frame, int32_t begin,
+	int32_t end)
 {
-	draw_row(job, frame, row);
+	draw_tiles(job, frame, begin, end);
 }
 
-static auto best_draw_row(float)
+static auto best_draw_tiles(float)
 {
 	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-		return draw_row_avx512;
-	return __builtin_cpu_supports("avx2") ? draw_row_avx2 : draw_row<float>;
+		return draw_tiles_avx512;
+	return __builtin_cpu_supports("avx2") ? draw_tiles_avx2 : draw_tiles<float>;
 }
 #endif
 
-template <typename T> static auto best_draw_row(T)
+template <typename T> static auto best_draw_tiles(T)
 {
-	return draw_row<T>;
+	return draw_tiles<T>;
 }
 
 template <typename T> static void distance(const Job<T> &job)
 {
 	const Frame<T> frame(job.texels(FROM_FRAME));
-	const auto draw = best_draw_row(T());
-	job.pool.run(job.domain[1], 2, [&](int32_t begin, int32_t end) {
-		for (int32_t row = begin; row < end; row++)
-			draw(job, frame, row);
-	});
+	const auto draw = best_draw_tiles(T());
+	job.pool.run(job.domain[0] * job.domain[1], 16, [&](int32_t begin, int32_t end) { draw(job, frame, begin, end); });
 }
 
 extern const Stage pixels_distance;
