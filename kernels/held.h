@@ -203,6 +203,7 @@ void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(
 	int point = 0, first = first_four(touching, s);
 	touching[TOUCH(s, TOUCHING_JOINED)] = points.x;
 	touching[TOUCH(s, TOUCHING_FIRM)] = points.y;
+	touching[TOUCH(s, TOUCHING_TURNS)] = as_int(1.0f);
 	held own, other;
 	hold h;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {

@@ -178,20 +178,28 @@ bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side
 	return larger(magnitude(h.target[0]), magnitude(h.target[1])) > far || (joint_is_fixed(joints, side) && magnitude(h.turned * h.arm) > far);
 }
 
-/* Forces begin with the last ones, unless a joint strays. */
-void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
+/* Forces begin with the last ones, unless a joint strays. Where those hold the body's angle too fast for the step, by what they pull at its levers, forces turn it less. */
+void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_OUT(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
 {
 	int point = 0, first = first_four(touching, s);
 	bool strays = false;
+	float2 lever = (float2)(0.0f, 0.0f);
+	float holds = 0.0f;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 		int part = row_part(joints, &row);
 		float kept = ((__global const float *)(joints + JOINT(row.side / 2, JOINT_FORCES)))[part_kept(part)];
-		if (row.point == 0)
+		if (row.point == 0) {
 			strays = joint_strays(slots, places, joints, row.side, s, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE]);
-		kept = strays ? 0.0f : kept;
-		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
+			lever = held_body(slots, s, joint_anchor(joints, row.side)).lever;
+		}
+		float last = part_begins(part, kept, at[4 * FOUR_ARM]);
+		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], strays ? 0.0f : last, length);
+		if (!part_turns(part))
+			holds += ((last * length) * length) * (at[4 * FOUR_NORMAL_X] * lever.x + at[4 * FOUR_NORMAL_Y] * lever.y);
 	}
+	holds *= CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE_INERTIA);
+	touching[TOUCH(s, TOUCHING_TURNS)] = as_int(holds > JOINT_STIFF ? 1.0f / (1.0f + 0.5f * holds) : 1.0f);
 }
 
 /* Keeps the forces for the next step, each at one of its two bodies. If this one did not begin with them its island is not to fall asleep. */

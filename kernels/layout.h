@@ -423,7 +423,7 @@
 #define JOINED_NEXT(bodies, side) (JOINED_FIRST + (bodies) + (side))
 
 /* Touching: ints of each slot */
-#define TOUCHING_WIDTH 12
+#define TOUCHING_WIDTH 13
 #define TOUCHING_COUNT 0          /* of its points */
 #define TOUCHING_SLOT 1           /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
 #define TOUCHING_WANTED 2         /* of a root: the last iteration that its island wants */
@@ -440,6 +440,7 @@
 #define CARRIER_STATIC 0x7fffffff /* it touches something static */
 #define TOUCHING_JOINED 10        /* how many of its points, the first ones, are of joints, */
 #define TOUCHING_FIRM 11          /* and of these, the first ones, are firm */
+#define TOUCHING_TURNS 12         /* the bits of a float: by how much of its inverse inertia forces turn the body: 1, or less where joints hold its angle too fast for the step */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
@@ -640,7 +641,8 @@
  * JOINT_AIMED, and a body is taken to turn by no more than JOINT_TURN. A step is too long for that where what a force makes turn in it, by its arm's growth, is more than JOINT_STIFF, and might grow from
  * step to step, or where anchors are farther from where they belong than JOINT_FAR of both radii: there forces take the speed along the ways at the step's end, as impulses do, and bring
  * anchors by EASE of the way. Where anchors, or angles that are fixed, are JOINT_ASTRAY times what they are found within from where they belong, forces begin with none: the last ones were not
- * right, and iterations that come to no end would add to them from step to step. */
+ * right, and iterations that come to no end would add to them from step to step. What last forces pull at a body's levers holds its angle, like a spring: where that makes it turn by more than JOINT_STIFF
+ * times as far as it is from there, in a step, forces turn it less, as if they knew where it will be. */
 #define JOINT_PART 0.25f
 #define JOINT_ASTRAY 16.0f
 #define JOINT_IMPULSES 128 /* iterations, in place of GRIP_IMPULSES, of bodies that rub and are joined: what those leave is no hit */

@@ -55,6 +55,14 @@ joint_row loose_row(RECORD_IN(slots), LIST_IN(touching), RECORD_IN(joints), LIST
 	return first_contact(touching, s) > touching[TOUCH(s, TOUCHING_FIRM)] ? first_row(joints, joined, slot_body(slots, s), false) : none;
 }
 
+/* By how much forces move a body, and turn it. */
+float4 rests_mass(RECORD_IN(slots), LIST_IN(touching), int s)
+{
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	CHANNEL(mass, MASS_INVERSE_INERTIA) *= as_float(touching[TOUCH(s, TOUCHING_TURNS)]);
+	return mass;
+}
+
 /* What forces add to a load, x, y and torque: a sum each of every fourth point, and then of those. */
 typedef struct sums {
 	float4 x, y, torque;
@@ -127,7 +135,7 @@ void responses_of(responses *r, const ways *w, float4 mass)
 /* What a body's points, each as if it alone pushed it, have to be multiplied with to bound what all of them do together. */
 float rests_share(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub)
 {
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
+	float4 mass = rests_mass(slots, touching, s), none = (float4)(0.0f);
 	response all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
 	for (int four = first_four(touching, s); four < end_four(touching, s); four++) {
 		ways normals;
@@ -167,7 +175,7 @@ float4 load_alone(RECORD_IN(slots), bool impulses, int s, float length)
 /* What all forces on a body add to a load. */
 float4 rests_add(RECORD_IN(slots), RECORD_IN(contacts), RECORD_IN(grips), LIST_IN(touching), int s, bool rub, float4 load)
 {
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), none = (float4)(0.0f);
+	float4 mass = rests_mass(slots, touching, s), none = (float4)(0.0f);
 	sums all = {none, none, none};
 	for (int four = first_four(touching, s); four < end_four(touching, s); four++) {
 		ways normals;
@@ -192,7 +200,7 @@ float point_gives(float4 mass, float arm)
 void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), RECORD_IN(joints), LIST_IN(joined),
 	int s, int now, bool rub, bool impulses, float length, float part)
 {
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	float4 mass = rests_mass(slots, touching, s);
 	joint_row row = loose_row(slots, touching, joints, joined, s);
 	int firm = touching[TOUCH(s, TOUCHING_FIRM)];
 	float share = CHANNEL(loads[LOADS_OF(s) + now], LOAD_SHARE);
@@ -203,7 +211,7 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 			float arm = i ? grip[4 * GRIP_ARM] : at[4 * FOUR_ARM], other_arm = i ? grip[4 * GRIP_OTHER_ARM] : at[4 * FOUR_OTHER_ARM];
 			float gives = share * point_gives(mass, arm);
 			if (other >= 0)
-				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE) * point_gives(SLOT_LOAD(slots, other, SLOT_MASS), other_arm);
+				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE) * point_gives(rests_mass(slots, touching, other), other_arm);
 			if (i == 0 && row.side >= 0 && point >= firm)
 				gives += bounds_of(joints, &row, arm, length, part, impulses).give;
 			*(i ? &grip[4 * GRIP_STEP] : &at[4 * FOUR_STEP]) = 1.0f / gives;
@@ -279,7 +287,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 {
 	float closer = impulses || done == 0 ? 1.0f : CONTACT_CLOSER;
 	float beta = (float)done / (float)(done + 2);
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS), load = loads[LOADS_OF(s) + now], none = (float4)(0.0f);
+	float4 mass = rests_mass(slots, touching, s), load = loads[LOADS_OF(s) + now], none = (float4)(0.0f);
 	sums next = {none, none, none};
 	int4 wanted = (int4)(0);
 	if (anew)

@@ -109,19 +109,29 @@ template <typename T> T &kept_at(Joint<T> &joint, Part part)
 	return joint.forces[part == Part::motor ? JOINT_TORQUE : is_angular(part) ? JOINT_STOP : JOINT_FORCE + (part == Part::pin_y)];
 }
 
-/* Forces begin with the last ones, but where these have led astray: what iterations can't find would add up from step to step. */
+/* Forces begin with the last ones, but where these have led astray: what iterations can't find would add up from step to step. What they pull at the body's levers holds its angle, like a
+ * spring; where that is too fast for the step they turn the body less, as if they knew how far it will have turned. */
 template <typename T> void warm_joined(const Rests<T> &rests, const Joints<T> &joints, int32_t s)
 {
 	int32_t point = 0;
 	bool is_astray = false;
+	Vec<T> lever(0, 0);
+	T holds = 0;
 	for (JointRows<T> rows(joints, rests.slots[s].body()); rows.has() && point < rests.touching[s].joined; rows.next(), point++) {
 		Points<T> &points = rests.points[rests.touching[s].first + point / lane_count];
 		const int32_t i = point % lane_count;
-		if (rows.begins())
-			is_astray = HeldNow<T>(rows, rests.slots, rests.places, s).hold.astray(rows.joint()) > T(JOINT_ASTRAY) * points.tolerance[i];
-		const T force = is_astray ? T(0) : begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]);
+		if (rows.begins()) {
+			const HeldNow<T> now(rows, rests.slots, rests.places, s);
+			is_astray = now.hold.astray(rows.joint()) > T(JOINT_ASTRAY) * points.tolerance[i];
+			lever = now.own.lever;
+		}
+		const T last = begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]), force = is_astray ? T(0) : last;
 		points.force[i] = points.start[i] = begun(rests, rests.slots[s], Partner(points.partner[i]), force, rests.length);
+		if (!is_angular(rows.part()))
+			holds += ((last * rests.length) * rests.length) * inner(Vec<T>(points.normal_x[i], points.normal_y[i]), lever);
 	}
+	holds *= rests.slots[s].mass[MASS_INVERSE_INERTIA];
+	rests.touching[s].turns = holds > T(JOINT_STIFF) ? static_cast<float>(1 / (1 + T(0.5) * holds)) : 1.0f;
 }
 
 /* Is it looked, after so many iterations, where all would get? */

@@ -6,27 +6,22 @@
 
 namespace carom::cpu {
 
-/* What forces at points add to the x, y and torque of a load, which has a body's share besides: a sum each of every fourth point, and then of those. */
+/* What forces at points of a body add to the x, y and torque of its load, which has its share besides: a sum each of every fourth point, and then of those. */
 template <typename T> struct Sums {
+	const T inverse_mass, inverse_inertia;
 	Lanes<T> x{}, y{}, torque{};
 
 	/* Forces at four points, along a unit vector each. */
-	void add(const Slot<T> &slot, const Lanes<T> &forces, const Lanes<T> &along_x, const Lanes<T> &along_y, const Lanes<T> &arm)
+	void add(const Lanes<T> &forces, const Lanes<T> &along_x, const Lanes<T> &along_y, const Lanes<T> &arm)
 	{
-		const Lanes<T> straight = slot.mass[MASS_INVERSE] * forces, turning = slot.mass[MASS_INVERSE_INERTIA] * forces;
+		const Lanes<T> straight = inverse_mass * forces, turning = inverse_inertia * forces;
 		x += straight * along_x, y += straight * along_y, torque += turning * arm;
 	}
 
-	void add(const Slot<T> &slot, const Points<T> &points, const Lanes<T> &forces)
-	{
-		add(slot, forces, points.normal_x, points.normal_y, points.arm);
-	}
+	void add(const Points<T> &points, const Lanes<T> &forces) { add(forces, points.normal_x, points.normal_y, points.arm); }
 
 	/* What friction does follows the force of its point. */
-	void add(const Slot<T> &slot, const Points<T> &points, const Grips<T> &grips, const Lanes<T> &forces)
-	{
-		add(slot, forces, grips.x(points), grips.y(points), grips.arm);
-	}
+	void add(const Points<T> &points, const Grips<T> &grips, const Lanes<T> &forces) { add(forces, grips.x(points), grips.y(points), grips.arm); }
 
 	void add_to(Lanes<T> &load) const
 	{
@@ -108,16 +103,20 @@ template <typename T> struct Rests {
 		return slot.turn[TURN_VELOCITY] == 0 ? Vec<T>(slot.place[LINEAR_VX], slot.place[LINEAR_VY]) : Vec<T>(0, 0);
 	}
 
+	/* By how much forces move a body, and turn it. */
+	T inverse_mass(int32_t s) const { return slots[s].mass[MASS_INVERSE]; }
+	T inverse_inertia(int32_t s) const { return slots[s].mass[MASS_INVERSE_INERTIA] * static_cast<T>(touching[s].turns); }
+
 	bool gives_way(Partner partner) const { return partner.moves() && slots[partner.slot()].is_dynamic(); }
 
 	/* Adds what all forces on a slot come to. */
 	void add_forces(int32_t s, Lanes<T> &load) const
 	{
-		Sums<T> sums;
+		Sums<T> sums{inverse_mass(s), inverse_inertia(s)};
 		each(s, [&](const Points<T> &all, const Grips<T> &rubbing) {
-			sums.add(slots[s], all, all.force);
+			sums.add(all, all.force);
 			if (rubs)
-				sums.add(slots[s], all, rubbing, rubbing.force);
+				sums.add(all, rubbing, rubbing.force);
 		});
 		sums.add_to(load);
 	}

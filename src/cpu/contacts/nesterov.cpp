@@ -84,7 +84,8 @@ template <typename T> static void find(const Job<T> &job)
 		}
 		take_fours(bodies, touching, status);
 		for (const RestingBody &body : bodies) {
-			const Touching &own = touching[body.s];
+			Touching &own = touching[body.s];
+			own.turns = 1;
 			if (own.joined > 0)
 				write_joined(joints, clusters.slots, places, part, body.s, points + own.first, rubs.any ? grips + own.first : nullptr);
 			if (own.count > 0)
@@ -101,8 +102,7 @@ template <typename T> static void find(const Job<T> &job)
 /* A bound of what all points do together, each as if it alone gave way by 1. */
 template <typename T> [[gnu::noinline]] static T share_of(const Rests<T> &rests, int32_t s)
 {
-	const Slot<T> &slot = rests.slots[s];
-	const T straight = slot.mass[MASS_INVERSE], turning = slot.mass[MASS_INVERSE_INERTIA], both = std::sqrt(straight) * std::sqrt(turning);
+	const T straight = rests.inverse_mass(s), turning = rests.inverse_inertia(s), both = std::sqrt(straight) * std::sqrt(turning);
 	Response<T> all;
 	rests.each(s, [&](const Points<T> &points, const Grips<T> &grips) {
 		const Responses<T> normal(straight, turning, both, points.normal_x, points.normal_y, points.arm);
@@ -189,13 +189,12 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 template <bool rubs, bool is_loose, typename T>
 static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T> *loads, int32_t s, int32_t now, int32_t done, bool anew)
 {
-	const Slot<T> &slot = rests.slots[s];
 	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
 	const T beta = static_cast<T>(done) / static_cast<T>(done + 2);
 	const T closer = rests.impulses || done == 0 ? T(1) : T(CONTACT_CLOSER);
-	Sums<T> next;
+	Sums<T> next{rests.inverse_mass(s), rests.inverse_inertia(s)};
 	int32_t firm = rests.touching[s].firm;
-	Loose<T> loose(rests, joints, slot, is_loose ? rests.touching[s].joined - firm : 0, anew);
+	Loose<T> loose(rests, joints, s, is_loose ? rests.touching[s].joined - firm : 0, anew);
 	decltype(load < zero) wanted{};
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
@@ -203,7 +202,7 @@ static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T>
 			others[i] = loads[LOADS_OF(Partner(points.partner[i]).slot()) + now];
 		transpose<T>(others);
 		if (anew)
-			set_steps(rests, points, grips, slot, load[LOAD_SHARE], others[LOAD_SHARE]);
+			set_steps(rests, points, grips, s, load[LOAD_SHARE], others[LOAD_SHARE]);
 		Lanes<T> rate;
 		find_rates<T>(points.normal_x, points.normal_y, points.arm, points.other_arm, load, others, rate);
 		rate += points.least;
@@ -218,10 +217,10 @@ static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T>
 		wanted |= left > closer * points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
-		next.add(slot, points, points.start);
+		next.add(points, points.start);
 		if constexpr (rubs) {
 			rub(points, grips, load, others, smaller(beta, T(GRIP_MOMENTUM)), done, wanted);
-			next.add(slot, points, grips, grips.start);
+			next.add(points, grips, grips.start);
 		}
 	});
 	Lanes<T> &to = loads[LOADS_OF(s) + 1 - now];
