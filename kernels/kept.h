@@ -193,10 +193,10 @@ void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_O
 			strays = joint_strays(slots, places, joints, row.side, s, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE]);
 			lever = held_body(slots, s, joint_anchor(joints, row.side)).lever;
 		}
-		float last = part_begins(part, kept, at[4 * FOUR_ARM]);
-		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], strays ? 0.0f : last, length);
+		float last = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
+		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = strays ? 0.0f : last;
 		if (!part_turns(part))
-			holds += ((last * length) * length) * (at[4 * FOUR_NORMAL_X] * lever.x + at[4 * FOUR_NORMAL_Y] * lever.y);
+			holds += last * (at[4 * FOUR_NORMAL_X] * lever.x + at[4 * FOUR_NORMAL_Y] * lever.y);
 	}
 	holds *= CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE_INERTIA);
 	touching[TOUCH(s, TOUCHING_TURNS)] = as_int(holds > JOINT_STIFF ? 1.0f / (1.0f + 0.5f * holds) : 1.0f);

@@ -125,10 +125,11 @@ template <typename T> void warm_joined(const Rests<T> &rests, const Joints<T> &j
 			is_astray = now.hold.astray(rows.joint()) > T(JOINT_ASTRAY) * points.tolerance[i];
 			lever = now.own.lever;
 		}
-		const T last = begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]), force = is_astray ? T(0) : last;
-		points.force[i] = points.start[i] = begun(rests, rests.slots[s], Partner(points.partner[i]), force, rests.length);
+		const T kept = begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]);
+		const T last = begun(rests, rests.slots[s], Partner(points.partner[i]), kept, rests.length);
+		points.force[i] = points.start[i] = is_astray ? T(0) : last;
 		if (!is_angular(rows.part()))
-			holds += ((last * rests.length) * rests.length) * inner(Vec<T>(points.normal_x[i], points.normal_y[i]), lever);
+			holds += last * inner(Vec<T>(points.normal_x[i], points.normal_y[i]), lever);
 	}
 	holds *= rests.slots[s].mass[MASS_INVERSE_INERTIA];
 	rests.touching[s].turns = holds > T(JOINT_STIFF) ? static_cast<float>(1 / (1 + T(0.5) * holds)) : 1.0f;
