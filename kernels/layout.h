@@ -440,8 +440,7 @@
 #define CARRIER_STATIC 0x7fffffff /* it touches something static */
 #define TOUCHING_JOINED 10        /* how many of its points, the first ones, are of joints, */
 #define TOUCHING_FIRM 11          /* and of these, the first ones, are firm */
-#define TOUCHING_TURNS \
-	12 /* the bits of a float: by how much of its inverse inertia forces turn the body: 1, or less where joints hold its angle too fast for the step */
+#define TOUCHING_TURNS 12         /* the bits of a float: by which part of its inverse inertia forces turn the body; 1, unless joints hold it */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
