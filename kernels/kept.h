@@ -170,11 +170,11 @@ __global float *joint_forces(RECORD_OUT(joints), int side)
 }
 
 /* Is what a side's joint holds firmly farther than that from where it belongs? Then the last forces were not right: what iterations can't find would add up from step to step. */
-bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, int s, float far)
+bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, held own, float far)
 {
 	if (joint_points(joints, side, true) == 0)
 		return false;
-	hold h = hold_of(joints, side, held_body(slots, s, joint_anchor(joints, side)), held_other(slots, places, joints, side), true);
+	hold h = hold_of(joints, side, own, held_other(slots, places, joints, side), true);
 	return larger(magnitude(h.target[0]), magnitude(h.target[1])) > far || (joint_is_fixed(joints, side) && magnitude(h.turned * h.arm) > far);
 }
 
@@ -190,8 +190,9 @@ void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_O
 		int part = row_part(joints, &row);
 		float kept = ((__global const float *)(joints + JOINT(row.side / 2, JOINT_FORCES)))[part_kept(part)];
 		if (row.point == 0) {
-			strays = joint_strays(slots, places, joints, row.side, s, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE]);
-			lever = held_body(slots, s, joint_anchor(joints, row.side)).lever;
+			held own = held_body(slots, s, joint_anchor(joints, row.side));
+			strays = joint_strays(slots, places, joints, row.side, own, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE]);
+			lever = own.lever;
 		}
 		float last = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
 		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = strays ? 0.0f : last;

@@ -56,6 +56,7 @@ static void check_lists(trial *t, carom_world *world, uint32_t shapes, uint32_t 
 	int32_t *ends = fetch(world, ROLE_TILE_ENDS, rows * (columns + 1), sizeof(float));
 	const int32_t all = ends[rows * (columns + 1) - 1];
 	int32_t *list = fetch(world, ROLE_TILE_LIST, (uint32_t)all, sizeof(float)), next = 0;
+	int32_t *totals = fetch(world, ROLE_BIN_TOTALS, 2 * rows, sizeof(float));
 	float *boxes = fetch(world, ROLE_BOXES, shapes, sizeof(float));
 	for (uint32_t tile = 0; tile < columns * rows; tile++) {
 		const float left = (float)(tile % columns * wide), top = (float)(tile / columns * high);
@@ -70,7 +71,17 @@ static void check_lists(trial *t, carom_world *world, uint32_t shapes, uint32_t 
 		}
 		t->wrong_bits += ends[tile + tile / columns + 1] != next;
 	}
-	t->compared += (size_t)next;
+	for (uint32_t row = 0; row < rows; row++) {
+		int32_t touching = 0;
+		for (uint32_t k = 0; k < shapes; k++) {
+			const float *box = boxes + 4 * k, top = (float)(row * high);
+			touching += box[BOX_X0] < box[BOX_X1] && box[BOX_Y0] < top + (float)high && box[BOX_Y1] > top;
+		}
+		t->wrong_bits += totals[2 * row] != touching;
+		t->wrong_bits += totals[2 * row + 1] != ends[(row + 1) * (columns + 1) - 1] - ends[row * (columns + 1)];
+	}
+	t->compared += (size_t)next + 2 * rows;
+	free(totals);
 	free(ends);
 	free(list);
 	free(boxes);
@@ -147,7 +158,7 @@ static void every_stage_on_every_device(void **state)
 			trial t;
 			if (!try_device(device, options[k], &t))
 				continue;
-			assert_true(t.compared > 900);
+			assert_true(t.compared > 1000);
 			assert_int_equal(t.wrong_bits, 0);
 			assert_int_equal(t.wrong_values, 0);
 		}
@@ -210,7 +221,8 @@ static void lists_grow(void **state)
 		}
 		scenery_check(carom_world_add(world, bodies, LAYERS, NULL, &error), &error);
 		picture p = picture_of(world, ten_a_metre(320, 240)), again = picture_of(world, ten_a_metre(320, 240));
-		assert_true(world->canvas.room[ROLE_TILE_LIST] > 6 * LAYERS);
+		const uint32_t wide = 160 / world->device->kind->tile_width, high = 160 / world->device->kind->tile_height; /* at least, of each */
+		assert_true(world->canvas.room[ROLE_TILE_LIST] > wide * high * LAYERS);
 		assert_int_equal(color_at(p, 180, 120), 0x010101 * ((LAYERS - 1) % 256));
 		assert_memory_equal(p.pixels, again.pixels, bytes_of(p));
 		free(again.pixels);
