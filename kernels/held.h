@@ -179,54 +179,72 @@ held held_other(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side)
 	return partner < 0 ? held_place(anchor) : held_body(slots, places[partner], anchor);
 }
 
-/* How many points joints of the body in a slot have, and how many of these are firm: none of what is not dynamic. If it is awake, all that it is joined with is disturbed in its sleep. */
-int2 joined_find(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), LIST_IN(islands), int s)
+/* How many points joints of the body in a slot have, how many of these are firm, and how many are rows': none of what is not dynamic. If it is awake, all that it is joined with is disturbed in its sleep. */
+int4 joined_find(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), LIST_IN(islands), int s, float length)
 {
-	int points = 0, firm = 0;
+	int rows = 0, firm = 0, others = 0;
 	bool awake = !touching[TOUCH(s, TOUCHING_ASLEEP)];
 	if (joined[JOINED_COUNT] == 0 || slot_is_static(slots, s))
-		return (int2)(0, 0);
+		return (int4)(0);
 	for (joint_row row = first_row(joints, joined, slot_body(slots, s), true); row.side >= 0; row_next(joints, joined, &row)) {
 		int partner = joint_partner(joints, row.side);
-		points++;
+		rows++;
 		firm += row.firm ? 1 : 0;
 		if (awake && partner >= 0 && touching[TOUCH(places[partner], TOUCHING_ASLEEP)])
 			island_disturb(touching, islands, places[partner]);
 	}
-	return slot_is_dynamic(slots, s) ? (int2)(points, firm) : (int2)(0, 0);
+	for (int side = first_aside(joints, joined, slot_body(slots, s), length); side >= 0; side = next_aside(joints, joined, side, length))
+		others++;
+	return slot_is_dynamic(slots, s) ? (int4)(rows + others, firm, rows, 0) : (int4)(0);
 }
 
-/* So many points of a slot's joints, as the step begins. What pushes one way may get as far as its bound by impulses. */
-void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), RECORD_OUT(contacts), RECORD_OUT(grips),
-	int s, int2 points, float k, bool rub)
+/* One of them as the step begins: along n, with those arms, so near. */
+void point_hold(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, RECORD_OUT(contacts), RECORD_OUT(grips), int first, int point,
+	held own, held other, float2 n, float2 arms, float least, bool rub)
 {
-	int point = 0, first = first_four(touching, s);
+	int partner = joint_partner(joints, side), code = PARTNER_WALL(0);
+	if (partner >= 0)
+		code = slot_is_static(slots, places[partner]) ? PARTNER_STATIC(partner) : places[partner];
+	float place = larger(larger(magnitude(own.x.x), magnitude(own.x.y)), larger(magnitude(other.x.x), magnitude(other.x.y)));
+	float levers = larger(magnitude(own.lever.x), magnitude(own.lever.y)) + larger(magnitude(other.lever.x), magnitude(other.lever.y));
+	__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);
+	point_drop(contacts, grips, first, point, rub);
+	to[4 * FOUR_PARTNER] = (float)code;
+	to[4 * FOUR_NORMAL_X] = n.x;
+	to[4 * FOUR_NORMAL_Y] = n.y;
+	to[4 * FOUR_ARM] = arms.x;
+	to[4 * FOUR_OTHER_ARM] = arms.y;
+	to[4 * FOUR_LEAST] = least;
+	to[4 * FOUR_TOLERANCE] = JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
+}
+
+/* So many points of a slot's joints, as the step begins. What pushes one way may get as far as its bound by impulses; what holds aside does nothing yet. */
+void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), RECORD_OUT(contacts), RECORD_OUT(grips),
+	int s, int4 points, float length, float k, bool rub)
+{
+	int point = 0, body = slot_body(slots, s), first = first_four(touching, s);
 	touching[TOUCH(s, TOUCHING_JOINED)] = points.x;
 	touching[TOUCH(s, TOUCHING_FIRM)] = points.y;
+	touching[TOUCH(s, TOUCHING_ROWS)] = points.z;
 	touching[TOUCH(s, TOUCHING_TURNS)] = as_int(1.0f);
 	held own, other;
 	hold h;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
-		int side = row.side, part = row_part(joints, &row), partner = joint_partner(joints, side), code = PARTNER_WALL(0);
+		int side = row.side, part = row_part(joints, &row);
 		if (row.point == 0) {
 			own = held_body(slots, s, joint_anchor(joints, side));
 			other = held_other(slots, places, joints, side);
 			h = hold_of(joints, side, own, other, true);
 		}
-		float2 n = part_way(&h, part);
-		if (partner >= 0)
-			code = slot_is_static(slots, places[partner]) ? PARTNER_STATIC(partner) : places[partner];
-		float place = larger(larger(magnitude(own.x.x), magnitude(own.x.y)), larger(magnitude(other.x.x), magnitude(other.x.y)));
-		float levers = larger(magnitude(own.lever.x), magnitude(own.lever.y)) + larger(magnitude(other.lever.x), magnitude(other.lever.y));
-		__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);
-		point_drop(contacts, grips, first, point, rub);
-		to[4 * FOUR_PARTNER] = (float)code;
-		to[4 * FOUR_NORMAL_X] = n.x;
-		to[4 * FOUR_NORMAL_Y] = n.y;
-		to[4 * FOUR_ARM] = part_arm(&h, part, own, true, true);
-		to[4 * FOUR_OTHER_ARM] = part_arm(&h, part, other, false, true);
-		to[4 * FOUR_LEAST] = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / k : 0.0f;
-		to[4 * FOUR_TOLERANCE] = JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
+		float2 arms = (float2)(part_arm(&h, part, own, true, true), part_arm(&h, part, other, false, true));
+		float least = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / k : 0.0f;
+		point_hold(slots, places, joints, side, contacts, grips, first, point, own, other, part_way(&h, part), arms, least, rub);
+	}
+	for (int side = points.x > 0 ? first_aside(joints, joined, body, length) : -1; side >= 0;
+		 side = next_aside(joints, joined, side, length), point++) {
+		float2 none = (float2)(0.0f, 0.0f);
+		own = held_body(slots, s, joint_anchor(joints, side));
+		point_hold(slots, places, joints, side, contacts, grips, first, point, own, held_other(slots, places, joints, side), none, none, 0.0f, rub);
 	}
 }
 
@@ -318,11 +336,33 @@ float row_forces(RECORD_IN(contacts), int first, int point, int part)
 	return part == PART_PIN_X ? force + magnitude(POINT_IN(contacts, FOUR_WIDTH, first, point + 1)[4 * FOUR_FORCE]) : force;
 }
 
+void point_aim(__global float *to, float2 n, float arm, float other_arm)
+{
+	to[4 * FOUR_NORMAL_X] = n.x;
+	to[4 * FOUR_NORMAL_Y] = n.y;
+	to[4 * FOUR_ARM] = arm;
+	to[4 * FOUR_OTHER_ARM] = other_arm;
+}
+
+/* What holds aside, where all would get as they move now: against what forces make of that across it, as its tension will turn with it. */
+void aside_aim(__global float *to, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int now, float length,
+	float k)
+{
+	int partner = (int)to[4 * FOUR_PARTNER];
+	aimed aim;
+	aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, k, true);
+	float2 n = aside(aim.h.n[0]);
+	float arm = held_arm(aim.own, n, true), other_arm = held_arm(aim.other, n, true);
+	point_aim(to, n, arm, other_arm);
+	to[4 * FOUR_LEAST] = -(way_along(slots, s, n, arm, length) - way_along(slots, partner, n, other_arm, length));
+	to[4 * FOUR_GIVE] = 1.0f / (joint_aside(joints, side, length) * (0.5f * (k * k)));
+}
+
 /* What forces are to do, once it is known where all would get with those that there are. */
 void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined),
 	int s, int now, float length, float k)
 {
-	int point = 0, first = first_four(touching, s);
+	int point = 0, rows = touching[TOUCH(s, TOUCHING_ROWS)], first = first_four(touching, s);
 	aimed aim;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
 		int part = row_part(joints, &row), side = row.side;
@@ -336,10 +376,9 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 		float2 n = part_way(&aim.h, part);
 		float arm = part_arm(&aim.h, part, aim.own, true, aim.stiff), other_arm = part_arm(&aim.h, part, aim.other, false, aim.stiff);
 		float parts = way_along(slots, s, n, arm, length) - way_along(slots, partner, n, other_arm, length);
-		to[4 * FOUR_NORMAL_X] = n.x;
-		to[4 * FOUR_NORMAL_Y] = n.y;
-		to[4 * FOUR_ARM] = arm;
-		to[4 * FOUR_OTHER_ARM] = other_arm;
+		point_aim(to, n, arm, other_arm);
+		if (part == PART_SPRING)
+			to[4 * FOUR_GIVE] = 1.0f / spring_of(joints, side, length, k).per_way;
 		if (part == PART_MOTOR)
 			to[4 * FOUR_LEAST] = least_at_last((CHANNEL(joint_drive(joints, side), DRIVE_SPEED) * length) * aim.h.arm, parts, k);
 		else if (part == PART_SPRING)
@@ -347,4 +386,6 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 		else
 			to[4 * FOUR_LEAST] = part_least(joints, side, &aim, part, parts, k);
 	}
+	for (int side = first_aside_of(slots, touching, joints, joined, s, length); side >= 0; side = next_aside(joints, joined, side, length), rows++)
+		aside_aim(POINT_OUT(contacts, FOUR_WIDTH, first, rows), slots, loads, places, joints, side, s, now, length, k);
 }

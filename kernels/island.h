@@ -49,7 +49,7 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 		CHANNEL(loads[LOADS_OF(s) + LOADS_ALONE], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 	}
 	if (!rests_iterate(slots, contacts, grips, touching, loads, joints, joined, s, number & 1, done, rub, impulses,
-			done == 0 || (aims && is_aimed(done - 1)), length, part)
+			done == 0 || (aims && is_aimed(done - 1)), length)
 		|| done + 1 >= most)
 		return false;
 	if (PEEK(touching, wants) == number)

@@ -136,28 +136,58 @@ springing spring_of(RECORD_IN(joints), int side, float length, float part)
 	springing spring;
 	spring.stiffness = smaller((CHANNEL(drive, SPRING_STIFFNESS) * length) * length, SPRING_MOST);
 	spring.damping = smaller(CHANNEL(drive, SPRING_DAMPING) * length, SPRING_MOST);
-	spring.at_end = (0.5f * spring.stiffness + spring.damping) * CHANNEL(drive, SPRING_GIVES) > SPRING_STIFF;
+	spring.at_end = (0.5f * spring.stiffness + spring.damping) * CHANNEL(drive, DRIVE_GIVES) > SPRING_STIFF;
 	spring.per_way = spring.at_end ? part * (spring.stiffness * part + spring.damping)
 								   : 0.5f * (part * part) * (0.5f * spring.stiffness + spring.damping / part);
 	spring.per_way = larger(spring.per_way, SPRING_LEAST);
 	return spring;
 }
 
-/* What a force at a joint's point may be, and by how much that gives way of itself. */
+/* How a side's joint holds aside, kg: what it does, by the tension that the last step ended with, against a way across it; 0 of one that is not too fast in that for the step, and of what turns. */
+float joint_aside(RECORD_IN(joints), int side, float length)
+{
+	float tension = larger(-((CHANNEL(joints[JOINT(side / 2, JOINT_FORCES)], JOINT_FORCE) * length) * length), 0.0f);
+	float rest = CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH), holds = tension / rest;
+	if (joint_turns(joints, side) || !(tension > 0.0f))
+		return 0.0f;
+	if (joint_kind(joints, side) == JOINT_SPRING) {
+		springing spring = spring_of(joints, side, length, 1.0f);
+		holds = spring.at_end ? (tension * spring.stiffness) / (rest * spring.stiffness + tension) : 0.0f;
+	}
+	return holds * CHANNEL(joint_drive(joints, side), DRIVE_GIVES) > JOINT_STIFF ? holds : 0.0f;
+}
+
+/* The first side of the same body, from this one on, that holds aside; -1: none. */
+int aside_from(RECORD_IN(joints), LIST_IN(joined), int side, float length)
+{
+	while (side >= 0 && !(joint_aside(joints, side, length) > 0.0f))
+		side = joined[JOINED_NEXT(joined[JOINED_BODIES], side)];
+	return side;
+}
+
+int first_aside(RECORD_IN(joints), LIST_IN(joined), int body, float length)
+{
+	return aside_from(joints, joined, joined[JOINED_COUNT] > 0 ? joined[JOINED_FIRST + body] : -1, length);
+}
+
+int next_aside(RECORD_IN(joints), LIST_IN(joined), int side, float length)
+{
+	return aside_from(joints, joined, joined[JOINED_NEXT(joined[JOINED_BODIES], side)], length);
+}
+
+/* What a force at a joint's point may be. */
 typedef struct bounds {
-	float low, high, give;
+	float low, high;
 } bounds;
 
-bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float length, float part_of_step, bool impulses)
+bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float length, bool impulses)
 {
 	int part = row_part(joints, row);
-	bounds of = {part_pushes_one_way(part) ? 0.0f : -INFINITY, INFINITY, 0.0f};
+	bounds of = {part_pushes_one_way(part) ? 0.0f : -INFINITY, INFINITY};
 	if (part == PART_MOTOR)
 		of.high = impulses ? 0.0f : ((CHANNEL(joint_drive(joints, row->side), DRIVE_TORQUE) * length) * length) / magnitude(arm);
 	if (part == PART_SPRING && impulses)
 		of.high = 0.0f;
-	if (part == PART_SPRING && !impulses)
-		of.give = 1.0f / spring_of(joints, row->side, length, part_of_step).per_way;
 	if (part == PART_MOTOR || (part == PART_SPRING && impulses))
 		of.low = -of.high;
 	return of;

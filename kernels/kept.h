@@ -169,12 +169,16 @@ __global float *joint_forces(RECORD_OUT(joints), int side)
 	return (__global float *)(joints + JOINT(side / 2, JOINT_FORCES));
 }
 
-/* Is what a side's joint holds firmly farther than that from where it belongs? Then the last forces were not right: what iterations can't find would add up from step to step. */
-bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, held own, float far)
+/* Is what a side's joint holds farther than that from where it belongs, or, of a spring that is too stiff for the step, from where the last force has it? Then that was not right: what
+ * iterations can't find would add up from step to step. */
+bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, held own, float far, float length)
 {
-	if (joint_points(joints, side, true) == 0)
-		return false;
 	hold h = hold_of(joints, side, own, held_other(slots, places, joints, side), true);
+	if (joint_kind(joints, side) == JOINT_SPRING) {
+		float stiffness = CHANNEL(joint_drive(joints, side), SPRING_STIFFNESS);
+		float stretched = CHANNEL(joints[JOINT(side / 2, JOINT_FORCES)], JOINT_FORCE) / stiffness;
+		return stiffness > 0.0f && spring_of(joints, side, length, 1.0f).at_end && magnitude(stretched - h.target[0]) > far;
+	}
 	return larger(magnitude(h.target[0]), magnitude(h.target[1])) > far || (joint_is_fixed(joints, side) && magnitude(h.turned * h.arm) > far);
 }
 
@@ -191,7 +195,7 @@ void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_O
 		float kept = ((__global const float *)(joints + JOINT(row.side / 2, JOINT_FORCES)))[part_kept(part)];
 		if (row.point == 0) {
 			held own = held_body(slots, s, joint_anchor(joints, row.side));
-			strays = joint_strays(slots, places, joints, row.side, own, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE]);
+			strays = joint_strays(slots, places, joints, row.side, own, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE], length);
 			lever = own.lever;
 		}
 		float last = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);

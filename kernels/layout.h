@@ -332,7 +332,7 @@
 
 /* Contacts, of the step contacts: points of what joints hold a body, and then of what it leans on, or is leaned on by, in the order of the others' indices, walls (-1 - wall) first, one or
  * two points each. Ten records for four points side by side; where there are no more, points of zeros. A slot's fours follow each other; Touching tells where they begin. */
-#define FOUR_WIDTH 10
+#define FOUR_WIDTH 11
 #define FOUR_PARTNER 0  /* as below */
 #define FOUR_NORMAL_X 1 /* from the partner to this body, 1 long */
 #define FOUR_NORMAL_Y 2
@@ -343,6 +343,7 @@
 #define FOUR_STEP 7      /* kg: by how much a rate changes a force in an iteration */
 #define FOUR_FORCE 8     /* kg m / step^2, 0 or more, but of joints */
 #define FOUR_START 9     /* that from which the next iteration starts */
+#define FOUR_GIVE 10     /* 1/kg: by how much it gives way of itself, of joints */
 /* The other's slot if it moves, as a kinematic body does, else one of these. */
 #define PARTNER_NONE (-1)
 #define PARTNER_WALL(wall) (-2 - (wall))
@@ -407,7 +408,7 @@
 #define DRIVE_MIDDLE 2     /* rad, between the two stops; and */
 #define DRIVE_HALF 3       /* as far from each, 0: it does not turn, below 0: there are none; or of a spring */
 #define SPRING_STIFFNESS 0 /* N/m */
-#define SPRING_GIVES 2     /* 1/kg, how much a force at its anchors parts them, at most */
+#define DRIVE_GIVES 2      /* 1/kg, likewise, and of a rod or a rope: how much a force at its anchors parts them, at most */
 #define SPRING_DAMPING 1   /* N s/m */
 
 /* Changes of Joints: a record each */
@@ -423,7 +424,7 @@
 #define JOINED_NEXT(bodies, side) (JOINED_FIRST + (bodies) + (side))
 
 /* Touching: ints of each slot */
-#define TOUCHING_WIDTH 13
+#define TOUCHING_WIDTH 14
 #define TOUCHING_COUNT 0          /* of its points */
 #define TOUCHING_SLOT 1           /* a list: slots with contacts, in this step or in the last, and kinematic bodies that move */
 #define TOUCHING_WANTED 2         /* of a root: the last iteration that its island wants */
@@ -439,8 +440,9 @@
 #define TOUCHING_CARRIER 9        /* of a root: the largest index of the kinematic bodies that its island touches, -1: none; or: */
 #define CARRIER_STATIC 0x7fffffff /* it touches something static */
 #define TOUCHING_JOINED 10        /* how many of its points, the first ones, are of joints, */
-#define TOUCHING_FIRM 11          /* and of these, the first ones, are firm */
-#define TOUCHING_TURNS 12         /* the bits of a float: by which part of its inverse inertia forces turn the body; 1, unless joints hold it */
+#define TOUCHING_FIRM 11          /* and of these, the first ones, are firm; */
+#define TOUCHING_ROWS 12          /* those behind so many hold aside */
+#define TOUCHING_TURNS 13         /* the bits of a float: by which part of its inverse inertia forces turn the body; 1, unless joints hold it */
 
 /* What sleep_begin is for */
 #define SLEEP_BEGINS 0    /* after a step, of islands that it left as they were; what was moved in its sleep wakes */
@@ -642,7 +644,8 @@
  * step to step, or where anchors are farther from where they belong than JOINT_FAR of both radii: there forces take the speed along the ways at the step's end, as impulses do, and bring
  * anchors by EASE of the way. Where anchors, or angles that are fixed, are JOINT_ASTRAY times what they are found within from where they belong, forces begin with none: the last ones were not
  * right, and iterations that come to no end would add to them from step to step. What last forces pull at a body's levers holds its angle, like a spring: where that makes it turn by more than JOINT_STIFF
- * times as far as it is from there, in a step, forces turn it less, as if they knew where it will be. */
+ * times as far as it is from there, in a step, forces turn it less, as if they knew where it will be. A tension holds likewise where its ends are across it: of what has a length that is a point
+ * more, which holds aside as if it knew how far forces take them. */
 #define JOINT_PART 0.25f
 #define JOINT_ASTRAY 16.0f
 #define JOINT_IMPULSES 128 /* iterations, in place of GRIP_IMPULSES, of bodies that rub and are joined: what those leave is no hit */

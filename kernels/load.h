@@ -48,11 +48,17 @@ joint_row held_row(RECORD_IN(slots), LIST_IN(touching), RECORD_IN(joints), LIST_
 	return first_contact(touching, s) > 0 ? first_row(joints, joined, slot_body(slots, s), true) : none;
 }
 
+/* What of its joints holds aside. */
+int first_aside_of(RECORD_IN(slots), LIST_IN(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
+{
+	return first_contact(touching, s) > touching[TOUCH(s, TOUCHING_ROWS)] ? first_aside(joints, joined, slot_body(slots, s), length) : -1;
+}
+
 /* Those that are not firm. */
 joint_row loose_row(RECORD_IN(slots), LIST_IN(touching), RECORD_IN(joints), LIST_IN(joined), int s)
 {
 	joint_row none = {-1, -1, 0, false};
-	return first_contact(touching, s) > touching[TOUCH(s, TOUCHING_FIRM)] ? first_row(joints, joined, slot_body(slots, s), false) : none;
+	return touching[TOUCH(s, TOUCHING_ROWS)] > touching[TOUCH(s, TOUCHING_FIRM)] ? first_row(joints, joined, slot_body(slots, s), false) : none;
 }
 
 /* By how much forces move a body, and turn it. */
@@ -197,12 +203,9 @@ float point_gives(float4 mass, float arm)
 }
 
 /* By how much rates change forces, once all bodies have their share; 0 where there is no point. */
-void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), RECORD_IN(joints), LIST_IN(joined),
-	int s, int now, bool rub, bool impulses, float length, float part)
+void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, int now, bool rub)
 {
 	float4 mass = rests_mass(slots, touching, s);
-	joint_row row = loose_row(slots, touching, joints, joined, s);
-	int firm = touching[TOUCH(s, TOUCHING_FIRM)];
 	float share = CHANNEL(loads[LOADS_OF(s) + now], LOAD_SHARE);
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
@@ -212,12 +215,8 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 			float gives = share * point_gives(mass, arm);
 			if (other >= 0)
 				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE) * point_gives(rests_mass(slots, touching, other), other_arm);
-			if (i == 0 && row.side >= 0 && point >= firm)
-				gives += bounds_of(joints, &row, arm, length, part, impulses).give;
-			*(i ? &grip[4 * GRIP_STEP] : &at[4 * FOUR_STEP]) = 1.0f / gives;
+			*(i ? &grip[4 * GRIP_STEP] : &at[4 * FOUR_STEP]) = 1.0f / (i ? gives : gives + at[4 * FOUR_GIVE]);
 		}
-		if (row.side >= 0 && point >= firm)
-			row_next(joints, joined, &row);
 	}
 }
 
@@ -257,33 +256,37 @@ int4 grips_iterate(RECORD_OUT(grips), int four, float4 force, const ways *w, flo
 	return fabs(left) > few;
 }
 
-/* The least forces of four points, the first of which is that of a body's: those that are firm pull, too. */
-float4 weakest_of(int point, int firm)
+/* Does a point push and pull as is needed: one that is firm, or holds aside, which those from `rows` on do that are of joints? */
+float weakest_at(int point, int firm, int rows, int held)
 {
-	return (float4)(point < firm ? -INFINITY : 0.0f, point + 1 < firm ? -INFINITY : 0.0f, point + 2 < firm ? -INFINITY : 0.0f,
-		point + 3 < firm ? -INFINITY : 0.0f);
+	return point < firm || (point >= rows && point < held) ? -INFINITY : 0.0f;
 }
 
-/* Four points, of which these, from `begin` to `end`, are of joints and not firm, from this row on: their bounds. */
-void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin, int end, float4 arm, float length, float part, bool impulses,
-	float4 *low, float4 *high, float4 *give)
+/* The least forces of four points, the first of which is that of a body's. */
+float4 weakest_of(int point, int firm, int rows, int held)
 {
-	float lows[4] = {low->x, low->y, low->z, low->w}, highs[4] = {INFINITY, INFINITY, INFINITY, INFINITY}, gives[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+	return (float4)(weakest_at(point, firm, rows, held), weakest_at(point + 1, firm, rows, held), weakest_at(point + 2, firm, rows, held),
+		weakest_at(point + 3, firm, rows, held));
+}
+
+/* Four points, of which these, from `begin` to `end`, are of rows and not firm, from this row on: their bounds. */
+void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin, int end, float4 arm, float length, bool impulses, float4 *low,
+	float4 *high)
+{
+	float lows[4] = {low->x, low->y, low->z, low->w}, highs[4] = {INFINITY, INFINITY, INFINITY, INFINITY};
 	float arms[4] = {arm.x, arm.y, arm.z, arm.w};
 	for (int i = begin; i < end; i++, row_next(joints, joined, row)) {
-		bounds of = bounds_of(joints, row, arms[i], length, part, impulses);
+		bounds of = bounds_of(joints, row, arms[i], length, impulses);
 		lows[i] = of.low;
 		highs[i] = of.high;
-		gives[i] = of.give;
 	}
 	*low = (float4)(lows[0], lows[1], lows[2], lows[3]);
 	*high = (float4)(highs[0], highs[1], highs[2], highs[3]);
-	*give = (float4)(gives[0], gives[1], gives[2], gives[3]);
 }
 
 /* One iteration of a body's points, after so many, from the loads of one parity to the other; `anew`: with other steps than the one before. True if another is wanted. */
 bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), RECORD_IN(joints),
-	LIST_IN(joined), int s, int now, int done, bool rub, bool impulses, bool anew, float length, float part)
+	LIST_IN(joined), int s, int now, int done, bool rub, bool impulses, bool anew, float length)
 {
 	float closer = impulses || done == 0 ? 1.0f : CONTACT_CLOSER;
 	float beta = (float)done / (float)(done + 2);
@@ -291,22 +294,22 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 	sums next = {none, none, none};
 	int4 wanted = (int4)(0);
 	if (anew)
-		rests_steps(slots, contacts, grips, touching, loads, joints, joined, s, now, rub, impulses, length, part);
+		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
 	joint_row row = loose_row(slots, touching, joints, joined, s);
-	int held = first_contact(touching, s), firm = touching[TOUCH(s, TOUCHING_FIRM)];
+	int held = first_contact(touching, s), firm = touching[TOUCH(s, TOUCHING_FIRM)], rows = touching[TOUCH(s, TOUCHING_ROWS)];
 	for (int four = first_four(touching, s), point = 0; four < end_four(touching, s); four++, point += 4) {
 		__global float4 *at = contacts + FOUR(four, 0);
-		float4 low = weakest_of(point, firm), high = (float4)(INFINITY), give = none;
+		float4 low = weakest_of(point, firm, rows, held), high = (float4)(INFINITY);
 		ways normals;
 		ways_of_normals(&normals, contacts, four);
 		moves others;
 		moves_of(&others, loads, at[FOUR_PARTNER], now);
 		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
-		int begin = max(firm - point, 0), end = min(held - point, 4);
-		if (begin < end) {
-			loose_bounds(joints, joined, &row, begin, end, normals.arm, length, part, impulses, &low, &high, &give);
-			rate += give * at[FOUR_START];
-		}
+		int begin = max(firm - point, 0), end = min(rows - point, 4);
+		if (begin < end)
+			loose_bounds(joints, joined, &row, begin, end, normals.arm, length, impulses, &low, &high);
+		if (max(firm, point) < held)
+			rate += at[FOUR_GIVE] * at[FOUR_START];
 		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = low > pushed ? low : pushed, left = force > low ? fabs(rate) : -rate;
 		if (begin < end) {
 			left = force > high ? rate : left;

@@ -46,10 +46,10 @@ static double gives_at(const carom_world *world, int32_t body, carom_vec2 anchor
 static void fill_drive(const carom_world *world, const carom_joint *joint, float *drive)
 {
 	const double lower = (double)joint->lower_angle, upper = (double)joint->upper_angle;
-	if (joint->kind == CAROM_SPRING) {
+	if (joint->kind != CAROM_REVOLUTE && joint->kind != CAROM_SLIDER) {
 		drive[SPRING_STIFFNESS] = joint->stiffness;
 		drive[SPRING_DAMPING] = joint->damping;
-		drive[SPRING_GIVES] = (float)(gives_at(world, (int32_t)joint->body, joint->anchor) + gives_at(world, joint->other, joint->other_anchor));
+		drive[DRIVE_GIVES] = (float)(gives_at(world, (int32_t)joint->body, joint->anchor) + gives_at(world, joint->other, joint->other_anchor));
 		return;
 	}
 	drive[DRIVE_SPEED] = joint->motor_speed;

@@ -27,10 +27,10 @@ __kernel void contacts_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD
 		slot_keep(slots, pushes, s);
 	islands[s] = s;
 	float step = step_length(TEX(uniforms), TEX(clock)), length = whole_length(TEX(uniforms), step);
-	int2 held = joined_find(slots, places, joints, joined, touching, islands, s);
+	int4 held = joined_find(slots, places, joints, joined, touching, islands, s, length);
 	int count = rests_find(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, pushes, touching, islands, contacts, grips, s, held.x, length);
 	touching[TOUCH(s, TOUCHING_COUNT)] = count;
-	joined_write(slots, places, joints, joined, touching, contacts, grips, s, count > 0 ? held : (int2)(0, 0), part_of_whole(step, length),
+	joined_write(slots, places, joints, joined, touching, contacts, grips, s, count > 0 ? held : (int4)(0), length, part_of_whole(step, length),
 		anything_rubs(TEX(uniforms)));
 	if (count > 0 || warm_count(slots, warm_spans, s) > 0 || slot_is_kinematic(slots, s)) /* what rests on that one goes by its load */
 		touching[TOUCH(atomic_inc(&status[STATUS_TOUCHING]), TOUCHING_SLOT)] = s;

@@ -31,8 +31,8 @@ inline void take_fours(const std::vector<RestingBody> &bodies, Touching *touchin
 		if (room > 0 && has_room)
 			own.first = first, own.room = room, own.made = status[STATUS_MADE];
 		own.count = room > 0 && !has_room ? 0 : body.points;
-		own.joined = own.count > 0 ? body.joined : 0;
-		own.firm = own.count > 0 ? body.firm : 0;
+		const JoinedCount joined = own.count > 0 ? body.joined : JoinedCount{};
+		own.joined = joined.all, own.firm = joined.firm, own.rows = joined.rows;
 		first += room;
 	}
 }

@@ -51,9 +51,23 @@ template <typename T> struct Joint {
 	{
 		const T most = SPRING_MOST, stiffness = smaller((drive[SPRING_STIFFNESS] * length) * length, most);
 		const T damping = smaller(drive[SPRING_DAMPING] * length, most);
-		const bool at_end = (T(0.5) * stiffness + damping) * drive[SPRING_GIVES] > T(SPRING_STIFF);
+		const bool at_end = (T(0.5) * stiffness + damping) * drive[DRIVE_GIVES] > T(SPRING_STIFF);
 		const T per_way = at_end ? k * (stiffness * k + damping) : T(0.5) * (k * k) * (T(0.5) * stiffness + damping / k);
 		return {stiffness, damping, larger(per_way, T(SPRING_LEAST)), at_end};
+	}
+
+	/* How what has a length holds what it joins where that is across it, kg, by the tension that the last step ended with; 0 where a step of that length is not too long for it, and of others. */
+	T aside(T length) const
+	{
+		const T tension = larger(-((forces[JOINT_FORCE] * length) * length), T(0)), rest = parties[JOINT_LENGTH];
+		if (turns() || !(tension > 0))
+			return 0;
+		T holds = tension / rest;
+		if (is(JOINT_SPRING)) {
+			const Springing<T> spring = answer(length, 1);
+			holds = spring.at_end ? (tension * spring.stiffness) / (rest * spring.stiffness + tension) : T(0);
+		}
+		return holds * drive[DRIVE_GIVES] > T(JOINT_STIFF) ? holds : T(0);
 	}
 
 	Part part(bool firm, int32_t k) const
@@ -83,6 +97,21 @@ public:
 	int32_t first_side(int32_t body) const { return has_any() ? list[JOINED_FIRST + body] : -1; }
 	int32_t next_side(int32_t side) const { return list[JOINED_NEXT(list[JOINED_BODIES], side)]; }
 	Joint<T> &of(int32_t side) const { return joints[side / 2]; }
+	/* The body at the other end, -1 for none. */
+	int32_t partner(int32_t side) const { return static_cast<int32_t>(of(side).parties[is_other(side) ? JOINT_BODY : JOINT_OTHER]); }
+	/* Is it the joint's other body's? */
+	static bool is_other(int32_t side) { return side % 2 == 1; }
+	/* A body's anchor, in its own frame, or a place. */
+	const T *anchor(int32_t side) const { return of(side).anchors[is_other(side)]; }
+	const T *other_anchor(int32_t side) const { return of(side).anchors[!is_other(side)]; }
+
+	/* Calls `visit(side)` for each of a body's joints that holds aside in a step of that length, in order. */
+	template <typename Visit> void each_aside(int32_t body, T length, const Visit &visit) const
+	{
+		for (int32_t side = first_side(body); side >= 0; side = next_side(side))
+			if (of(side).aside(length) > 0)
+				visit(side);
+	}
 
 private:
 	Joint<T> *const joints;
@@ -106,10 +135,10 @@ public:
 
 	Joint<T> &joint() const { return joints.of(side); }
 	bool is_firm() const { return firm; }
-	/* Is the body the joint's other one? */
-	bool is_other() const { return side % 2 == 1; }
-	/* The body at the other end, -1 for none. */
-	int32_t partner() const { return static_cast<int32_t>(joint().parties[is_other() ? JOINT_BODY : JOINT_OTHER]); }
+	/* Of the joint. */
+	int32_t which_side() const { return side; }
+	bool is_other() const { return Joints<T>::is_other(side); }
+	int32_t partner() const { return joints.partner(side); }
 	/* Is it the first of its joint's that are firm, or that are not? */
 	bool begins() const { return k == 0; }
 	Part part() const { return joint().part(firm, k); }
@@ -244,11 +273,13 @@ template <typename T> struct Hold {
 		target[0] = -inner(normal(owner.angle + axis), first);
 	}
 
-	/* How far what is firm is from where it belongs; of ropes and springs nothing is. */
-	T astray(const Joint<T> &joint) const
+	/* How far the anchors are from where they belong, or an angle that is fixed; of a spring that is too stiff for a step of that length, from where the last force has them. */
+	T astray(const Joint<T> &joint, T length) const
 	{
-		if (joint.points(true) == 0)
-			return 0;
+		if (joint.is(JOINT_SPRING)) {
+			const T stiffness = joint.drive[SPRING_STIFFNESS];
+			return stiffness > 0 && joint.answer(length, 1).at_end ? std::abs(joint.forces[JOINT_FORCE] / stiffness - target[0]) : T(0);
+		}
 		const T anchors = larger(std::abs(target[0]), std::abs(target[1]));
 		return joint.is_fixed() ? larger(anchors, std::abs(turned * arm)) : anchors;
 	}
@@ -267,20 +298,16 @@ template <typename T> struct Hold {
 	}
 };
 
-/* What the force at a point of a joint may be, and by how much it gives way of itself. */
+/* What the force at a point of a joint may be. */
 template <typename T> struct ForceBounds {
-	T low, high = infinite<T>, give = 0;
+	T low, high = infinite<T>;
 
-	/* Of a point with that arm, as a step begins, or in such a part of a whole one. */
-	ForceBounds(const Joint<T> &joint, Part part, T arm, T length, T part_of_step, bool impulses) : low(is_one_sided(part) ? T(0) : -infinite<T>)
+	/* Of a point with that arm. */
+	ForceBounds(const Joint<T> &joint, Part part, T arm, T length, bool impulses) : low(is_one_sided(part) ? T(0) : -infinite<T>)
 	{
-		if (part != Part::motor && part != Part::spring)
-			return;
-		if (impulses)
+		if (impulses && (part == Part::motor || part == Part::spring))
 			low = high = 0;
-		else if (part == Part::spring)
-			give = 1 / joint.answer(length, part_of_step).per_way;
-		else
+		else if (part == Part::motor)
 			high = ((joint.drive[DRIVE_TORQUE] * length) * length) / std::abs(arm), low = -high;
 	}
 };

@@ -8,24 +8,21 @@
 
 namespace carom::cpu {
 
-/* How many points a body's joints have. */
-struct JoinedCount {
-	int32_t all = 0, firm = 0; /* firm: the first ones, which push and pull as is needed */
-};
-
 /* Of a dynamic body, or a kinematic one, which has no points; those with which it is joined wake, if it is awake. */
 template <typename T>
-JoinedCount count_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *places, const Sleepers<T> &sleepers, int32_t s)
+JoinedCount count_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *places, const Sleepers<T> &sleepers, int32_t s, T length)
 {
 	JoinedCount count;
 	if (slots[s].is_static())
 		return count;
 	for (JointRows<T> rows(joints, slots[s].body()); rows.has(); rows.next()) {
-		count.all++;
+		count.rows++;
 		count.firm += rows.is_firm();
 		if (const int32_t partner = rows.partner(); partner >= 0 && !sleepers.sleeps(s) && sleepers.sleeps(places[partner]))
 			sleepers.disturb(places[partner]);
 	}
+	count.all = count.rows;
+	joints.each_aside(slots[s].body(), length, [&](int32_t) { count.all++; });
 	return slots[s].is_dynamic() ? count : JoinedCount{};
 }
 
@@ -36,50 +33,61 @@ template <typename T> struct HeldNow {
 	Partner partner;
 
 	HeldNow() = default;
-	HeldNow(const JointRows<T> &rows, const Slot<T> *slots, const int32_t *places, int32_t s)
-		: own(slots[s], rows.joint().anchors[rows.is_other()]), other(other_of(rows, slots, places)),
-		  hold(rows.joint(), rows.is_other(), own, other, true)
+	HeldNow(const Joints<T> &joints, int32_t side, const Slot<T> *slots, const int32_t *places, int32_t s)
+		: own(slots[s], joints.anchor(side)), other(other_of(joints, side, slots, places)),
+		  hold(joints.of(side), Joints<T>::is_other(side), own, other, true)
 	{
-		const int32_t body = rows.partner();
+		const int32_t body = joints.partner(side);
 		if (body < 0)
 			partner = Partner::that_stays(-1);
 		else
 			partner = slots[places[body]].is_static() ? Partner::that_stays(body) : Partner(places[body]);
 	}
 
-	static Held<T> other_of(const JointRows<T> &rows, const Slot<T> *slots, const int32_t *places)
+	static Held<T> other_of(const Joints<T> &joints, int32_t side, const Slot<T> *slots, const int32_t *places)
 	{
-		const int32_t body = rows.partner();
-		const T *anchor = rows.joint().anchors[!rows.is_other()];
-		return body < 0 ? Held<T>(anchor) : Held<T>(slots[places[body]], anchor);
+		const int32_t body = joints.partner(side);
+		return body < 0 ? Held<T>(joints.other_anchor(side)) : Held<T>(slots[places[body]], joints.other_anchor(side));
+	}
+
+	/* What forces at its points are found within. */
+	T tolerance() const
+	{
+		const T size = (larger(largest(own.x), largest(other.x)) + (own.radius + other.radius)) + (largest(own.lever) + largest(other.lever));
+		return T(JOINT_PART) * (size * T(SLOP));
 	}
 };
 
-/* Writes the points, which come first of a body's. Impulses let what is still apart get as far as its bound in the step, and no farther. */
+/* Writes the points, which come first of a body's. Impulses let what is still apart get as far as its bound in the step, and no farther; what holds aside does nothing yet. */
 template <typename T>
-void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *places, T part_of_step, int32_t s, Points<T> *to, Grips<T> *grips)
+void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *places, T length, T part_of_step, int32_t s, Points<T> *to,
+	Grips<T> *grips)
 {
 	int32_t written = 0;
 	HeldNow<T> now;
-	for (JointRows<T> rows(joints, slots[s].body()); rows.has(); rows.next(), written++) {
-		if (rows.begins())
-			now = HeldNow<T>(rows, slots, places, s);
-		const Held<T> &own = now.own, &other = now.other;
-		const Part part = rows.part();
-		const Vec<T> n = now.hold.way(part);
-		const T size = (larger(largest(own.x), largest(other.x)) + (own.radius + other.radius)) + (largest(own.lever) + largest(other.lever));
+	const auto write = [&](const Vec<T> &n, T arm, T other_arm, T least) {
 		Points<T> &points = to[written / lane_count];
 		const int32_t i = written % lane_count;
 		points.drop(i);
 		points.partner[i] = static_cast<T>(now.partner.code);
 		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
-		points.arm[i] = now.hold.arm_of(part, own, true, true);
-		points.other_arm[i] = now.hold.arm_of(part, other, false, true);
-		points.least[i] = is_one_sided(part) ? larger(-now.hold.aim(part, rows.joint()), T(0)) / part_of_step : T(0);
-		points.tolerance[i] = T(JOINT_PART) * (size * T(SLOP));
+		points.arm[i] = arm, points.other_arm[i] = other_arm;
+		points.least[i] = least, points.tolerance[i] = now.tolerance();
 		if (grips)
 			grips[written / lane_count].drop(i);
+		written++;
+	};
+	for (JointRows<T> rows(joints, slots[s].body()); rows.has(); rows.next()) {
+		if (rows.begins())
+			now = HeldNow<T>(joints, rows.which_side(), slots, places, s);
+		const Part part = rows.part();
+		write(now.hold.way(part), now.hold.arm_of(part, now.own, true, true), now.hold.arm_of(part, now.other, false, true),
+			is_one_sided(part) ? larger(-now.hold.aim(part, rows.joint()), T(0)) / part_of_step : T(0));
 	}
+	joints.each_aside(slots[s].body(), length, [&](int32_t side) {
+		now = HeldNow<T>(joints, side, slots, places, s);
+		write({0, 0}, 0, 0, 0);
+	});
 }
 
 /* What a joint keeps of a force at one of its points, whose arm that is; or, by what was kept, of the other bound of two, `beside`. */
@@ -121,8 +129,8 @@ template <typename T> void warm_joined(const Rests<T> &rests, const Joints<T> &j
 		Points<T> &points = rests.points[rests.touching[s].first + point / lane_count];
 		const int32_t i = point % lane_count;
 		if (rows.begins()) {
-			const HeldNow<T> now(rows, rests.slots, rests.places, s);
-			is_astray = now.hold.astray(rows.joint()) > T(JOINT_ASTRAY) * points.tolerance[i];
+			const HeldNow<T> now(joints, rows.which_side(), rests.slots, rests.places, s);
+			is_astray = now.hold.astray(rows.joint(), rests.length) > T(JOINT_ASTRAY) * points.tolerance[i];
 			lever = now.own.lever;
 		}
 		const T kept = begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]);
@@ -145,54 +153,67 @@ inline bool is_aimed(int32_t done)
 template <typename T> class Aim
 {
 public:
-	Aim(const Rests<T> &all, const JointRows<T> &joints, const Lanes<T> *now, int32_t slot, Partner other_slot)
-		: rests(&all), rows(&joints), loads(now), s(slot), partner(other_slot), own(own_at(false)), other(other_at(false)),
-		  held(joints.joint(), joints.is_other(), own, other, false)
+	Aim(const Rests<T> &all, const Joints<T> &every_joint, int32_t slot_side, const Lanes<T> *now, int32_t slot, Partner other_slot, bool at_end)
+		: rests(&all), joints(&every_joint), side(slot_side), loads(now), s(slot), partner(other_slot), own(own_at(at_end)), other(other_at(at_end)),
+		  held(every_joint.of(slot_side), Joints<T>::is_other(slot_side), own, other, at_end), is_stiff(at_end)
 	{
 	}
 
 	/* Whether the step is too long, by what the forces at its point, of a pin at both, add up to. */
 	void choose(T forces)
 	{
-		const Joint<T> &joint = rows->joint();
+		const Joint<T> &joint = joints->of(side);
 		const T far = T(JOINT_FAR) * (own.radius + other.radius);
 		T gives = own.gives() + other.gives();
 		if (!joint.turns())
 			gives += (own.inverse_mass + other.inverse_mass) / joint.parties[JOINT_LENGTH];
 		if (joint.is(JOINT_SLIDER))
-			gives += largest(held.slid) * (rows->is_other() ? own : other).inverse_inertia;
+			gives += largest(held.slid) * (Joints<T>::is_other(side) ? own : other).inverse_inertia;
 		const T least = joint.is(JOINT_ROPE) ? -held.target[0] : std::abs(held.target[0]);
 		is_stiff = joint.is(JOINT_SPRING) ? joint.answer(rests->length, rests->part).at_end
 										  : forces * gives > T(JOINT_STIFF) || least > far || std::abs(held.target[1]) > far;
-		if (!is_stiff)
-			return;
-		own = own_at(true), other = other_at(true);
-		held = Hold<T>(joint, rows->is_other(), own, other, true);
+		if (is_stiff)
+			*this = Aim(*rests, *joints, side, loads, s, partner, true);
 	}
 
-	void write(Points<T> &points, int32_t i) const
+	void write(Part part, Points<T> &points, int32_t i) const
 	{
-		const Part part = rows->part();
 		const Vec<T> n = held.way(part);
-		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
-		points.arm[i] = held.arm_of(part, own, true, is_stiff);
-		points.other_arm[i] = held.arm_of(part, other, false, is_stiff);
-		const T parts = along(n, s, points.arm[i]) - along(n, partner.slot(), points.other_arm[i]);
+		const T parts = point(points, i, n, held.arm_of(part, own, true, is_stiff), held.arm_of(part, other, false, is_stiff));
+		if (part == Part::spring)
+			points.give[i] = 1 / joints->of(side).answer(rests->length, rests->part).per_way;
 		if (part == Part::spring)
 			points.least[i] = spring(n, parts);
 		else if (part == Part::motor)
-			points.least[i] = at_last((rows->joint().drive[DRIVE_SPEED] * rests->length) * held.arm, parts);
+			points.least[i] = at_last((joints->of(side).drive[DRIVE_SPEED] * rests->length) * held.arm, parts);
 		else
 			points.least[i] = least(part, parts);
 	}
 
+	/* Of what holds aside: it acts against what forces make of a way across it, for its tension turns with that. */
+	void write_aside(Points<T> &points, int32_t i) const
+	{
+		const Vec<T> n(-held.n[0].y(), held.n[0].x());
+		const T k = rests->part;
+		points.least[i] = -point(points, i, n, own.arm(n, true), other.arm(n, true));
+		points.give[i] = 1 / (joints->of(side).aside(rests->length) * (T(0.5) * (k * k)));
+	}
+
 private:
-	Held<T> own_at(bool by_velocity) const { return at(s, rows->joint().anchors[rows->is_other()], by_velocity); }
+	/* A point along n: how fast it parts as all moves now. */
+	T point(Points<T> &points, int32_t i, const Vec<T> &n, T arm, T other_arm) const
+	{
+		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
+		points.arm[i] = arm, points.other_arm[i] = other_arm;
+		return along(n, s, arm) - along(n, partner.slot(), other_arm);
+	}
+
+	Held<T> own_at(bool by_velocity) const { return at(s, joints->anchor(side), by_velocity); }
 
 	Held<T> other_at(bool by_velocity) const
 	{
-		return partner.moves() ? at(partner.slot(), rows->joint().anchors[!rows->is_other()], by_velocity)
-							   : HeldNow<T>::other_of(*rows, rests->slots, rests->places);
+		return partner.moves() ? at(partner.slot(), joints->other_anchor(side), by_velocity)
+							   : HeldNow<T>::other_of(*joints, side, rests->slots, rests->places);
 	}
 
 	Held<T> at(int32_t slot_index, const T *anchor, bool by_velocity) const
@@ -222,7 +243,7 @@ private:
 	T least(Part part, T parts) const
 	{
 		const T most = T(JOINT_MOST) * (own.radius + other.radius), far = T(JOINT_FAR) * (own.radius + other.radius), k = rests->part;
-		const T aim = held.aim(part, rows->joint()), up = smaller(aim, most), target = is_one_sided(part) ? up : larger(up, -most);
+		const T aim = held.aim(part, joints->of(side)), up = smaller(aim, most), target = is_one_sided(part) ? up : larger(up, -most);
 		const bool eases = is_angular(part) ? (is_one_sided(part) ? aim : std::abs(aim)) > far : is_stiff;
 		const T way = is_one_sided(part) && target < 0 ? target : k * target;
 		return eases ? at_last(T(EASE) * target, parts) : (2 / k - 1) * parts - (2 / (k * k)) * way;
@@ -231,8 +252,8 @@ private:
 	/* What a spring pulls with where all get as they would now, but for what it gives way by then: that comes with its force. */
 	T spring(const Vec<T> &n, T parts) const
 	{
-		const Springing<T> answer = rows->joint().answer(rests->length, rests->part);
-		const T rest = rows->joint().parties[JOINT_LENGTH], k = rests->part;
+		const Springing<T> answer = joints->of(side).answer(rests->length, rests->part);
+		const T rest = joints->of(side).parties[JOINT_LENGTH], k = rests->part;
 		if (is_stiff) {
 			const T pull = answer.stiffness * ((held.last_distance - k * parts) - rest);
 			return (pull + (answer.stiffness * k + answer.damping) * ((1 - k) * parts)) / answer.per_way;
@@ -244,13 +265,14 @@ private:
 	}
 
 	const Rests<T> *rests;
-	const JointRows<T> *rows;
+	const Joints<T> *joints;
+	int32_t side;
 	const Lanes<T> *loads; /* of the iteration's parity */
 	int32_t s;
 	Partner partner;
 	Held<T> own, other;
 	Hold<T> held;
-	bool is_stiff = false;
+	bool is_stiff;
 };
 
 /* What forces are to do, once it is known where all would get with those that they begin with. */
@@ -259,17 +281,24 @@ template <typename T>
 {
 	int32_t point = 0;
 	std::optional<Aim<T>> aim;
+	const auto four = [&](int32_t k) -> Points<T> & { return rests.points[rests.touching[s].first + (point + k) / lane_count]; };
 	for (JointRows<T> rows(joints, rests.slots[s].body()); rows.has(); rows.next(), point++) {
-		const auto four = [&](int32_t k) -> Points<T> & { return rests.points[rests.touching[s].first + (point + k) / lane_count]; };
 		const auto force = [&](int32_t k) { return std::abs(four(k).force[(point + k) % lane_count]); };
 		const int32_t i = point % lane_count;
 		if (rows.begins()) {
-			aim.emplace(rests, rows, loads + now, s, Partner(four(0).partner[i]));
+			aim.emplace(rests, joints, rows.which_side(), loads + now, s, Partner(four(0).partner[i]), false);
 			if (rows.is_firm() || !is_angular(rows.part()))
 				aim->choose(rows.part() == Part::pin_x ? force(0) + force(1) : force(0));
 		}
-		aim->write(four(0), i);
+		aim->write(rows.part(), four(0), i);
 	}
+	if (rests.touching[s].joined == point)
+		return;
+	joints.each_aside(rests.slots[s].body(), rests.length, [&](int32_t side) {
+		const int32_t i = point % lane_count;
+		Aim<T>(rests, joints, side, loads + now, s, Partner(four(0).partner[i]), true).write_aside(four(0), i);
+		point++;
+	});
 }
 
 /* Keeps the forces for the next step, each at one of its two bodies. True if this one began with the same. */

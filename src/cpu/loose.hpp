@@ -1,4 +1,4 @@
-/* By how much rates change forces, and what an iteration comes to at points of joints that are not firm: CONTRACT.md, "contacts". */
+/* By how much rates change forces, and what an iteration comes to at points of joints that are not firm, or that give way of themselves: CONTRACT.md, "contacts". */
 #ifndef CAROM_CPU_LOOSE_HPP
 #define CAROM_CPU_LOOSE_HPP
 
@@ -27,41 +27,44 @@ template <typename T> void set_steps(const Rests<T> &rests, Points<T> &points, G
 		const Partner partner(points.partner[i]);
 		if (partner.is_none())
 			continue;
-		points.step[i] = 1 / gives_with_all(rests, s, partner, share, others[i], points.arm[i], points.other_arm[i]);
+		points.step[i] = 1 / (gives_with_all(rests, s, partner, share, others[i], points.arm[i], points.other_arm[i]) + points.give[i]);
 		if (rests.rubs)
 			grips.step[i] = 1 / gives_with_all(rests, s, partner, share, others[i], grips.arm[i], grips.other_arm[i]);
 	}
 }
 
-/* The same for the points of a body's joints that are not firm, with what they give way of themselves; and what an iteration comes to there: lanes of four points, from `first` on. */
+/* What an iteration comes to at the points of a body's joints that are not firm: some in a row, and then those that hold aside. */
 template <typename T> class Loose
 {
 public:
-	Loose(const Rests<T> &all, const Joints<T> &joints, int32_t own, int32_t points, bool has_new_steps)
-		: rests(all), s(own), rows(JointRows<T>::others(joints, all.slots[own].body(), points > 0)), left(points), anew(has_new_steps)
+	Loose(const Rests<T> &all, const Joints<T> &joints, int32_t own, bool has_any)
+		: rests(all), rows(JointRows<T>::others(joints, all.slots[own].body(), has_any && all.touching[own].rows > all.touching[own].firm)),
+		  bounded(all.touching[own].rows - all.touching[own].firm), aside(all.touching[own].joined - all.touching[own].rows)
 	{
 	}
 
-	[[gnu::noinline]] void iterate(Points<T> &points, int32_t first, T share, const Lanes<T> &others, const Lanes<T> &rates, Lanes<T> &force,
-		Lanes<T> &wanted)
+	/* Of four points, from that one on. */
+	[[gnu::noinline]] void iterate(const Points<T> &points, int32_t i, const Lanes<T> &rates, Lanes<T> &force, Lanes<T> &wanted)
 	{
-		for (int32_t i = first; i < lane_count && left > 0; i++, left--, rows.next()) {
-			const ForceBounds<T> bounds(rows.joint(), rows.part(), points.arm[i], rests.length, rests.part, rests.impulses);
-			if (anew)
-				points.step[i] = 1
-					/ (gives_with_all(rests, s, Partner(points.partner[i]), share, others[i], points.arm[i], points.other_arm[i]) + bounds.give);
-			const T rate = rates[i] + bounds.give * points.start[i], pushed = points.start[i] - rate * points.step[i];
-			force[i] = smaller(larger(bounds.low, pushed), bounds.high);
-			wanted[i] = pushed > bounds.high ? rate : force[i] > bounds.low ? std::abs(rate) : -rate;
+		for (; i < lane_count && bounded > 0; i++, bounded--, rows.next()) {
+			const ForceBounds<T> bounds(rows.joint(), rows.part(), points.arm[i], rests.length, rests.impulses);
+			answer(points, i, rates, bounds.low, bounds.high, force, wanted);
 		}
+		for (; i < lane_count && aside > 0; i++, aside--)
+			answer(points, i, rates, -infinite<T>, infinite<T>, force, wanted);
 	}
 
 private:
+	static void answer(const Points<T> &points, int32_t i, const Lanes<T> &rates, T low, T high, Lanes<T> &force, Lanes<T> &wanted)
+	{
+		const T rate = rates[i] + points.give[i] * points.start[i], pushed = points.start[i] - rate * points.step[i];
+		force[i] = smaller(larger(low, pushed), high);
+		wanted[i] = pushed > high ? rate : force[i] > low ? std::abs(rate) : -rate;
+	}
+
 	const Rests<T> &rests;
-	const int32_t s;
 	JointRows<T> rows;
-	int32_t left;
-	const bool anew;
+	int32_t bounded, aside;
 };
 
 }

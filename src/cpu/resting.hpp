@@ -33,12 +33,12 @@ struct Partner {
 /* Four points of a body's joints and contacts side by side, in order; where there are no more, points that push nothing. */
 template <typename T> struct Points {
 	Lanes<T> partner; /* see Partner */
-	Lanes<T> normal_x, normal_y, arm, other_arm, least, tolerance, step, force, start;
+	Lanes<T> normal_x, normal_y, arm, other_arm, least, tolerance, step, force, start, give;
 
 	void drop(int32_t i)
 	{
 		partner[i] = PARTNER_NONE;
-		for (Lanes<T> *of : {&normal_x, &normal_y, &arm, &other_arm, &least, &tolerance, &step, &force, &start})
+		for (Lanes<T> *of : {&normal_x, &normal_y, &arm, &other_arm, &least, &tolerance, &step, &force, &start, &give})
 			(*of)[i] = 0;
 	}
 };
@@ -105,10 +105,15 @@ template <typename T> struct Nearness {
 	T force(T push, T radius) const { return smaller(weight > 0 ? weight : push, T(CONTACT_NEAR) * radius); }
 };
 
+/* How many points a body's joints have. */
+struct JoinedCount {
+	int32_t all = 0, firm = 0, rows = 0; /* firm: the first ones, which push and pull as is needed; rows: those before the ones that hold aside */
+};
+
 /* A slot, and which of the contacts that were found are its body's. */
 struct RestingBody {
-	int32_t s, joined, firm,
-		points; /* joined: of the points, the first ones, those of joints; firm: of these, likewise, that push and pull as is needed */
+	int32_t s, points;
+	JoinedCount joined; /* of these, the first ones */
 	size_t first, end;
 };
 
@@ -127,7 +132,7 @@ public:
 		const Nearness<T> nearness;
 		first = found.size();
 		if (slot.is_static())
-			return {s, 0, 0, 0, first, first};
+			return {s, 0, {}, first, first};
 		if (is_dynamic && !(is_awake && clusters.stays_inside(s, Trajectory<T>(slot), T(1))))
 			walls(slot, Trajectory<T>(slot), nearness);
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
@@ -139,7 +144,7 @@ public:
 			else if (sleepers.sleeps(other))
 				sleepers.disturb(other);
 		});
-		RestingBody body{s, 0, 0, 0, first, found.size()};
+		RestingBody body{s, 0, {}, first, found.size()};
 		for (size_t k = first; k < found.size(); k++) {
 			body.points += found[k].written();
 			if (const Partner partner = found[k].partner; is_awake && partner.moves() && sleepers.sleeps(partner.slot()))
@@ -151,7 +156,7 @@ public:
 	/* Writes a body's points in order, behind those of joints, and how they slide, where anything rubs. */
 	void write(const RestingBody &body, Points<T> *to, Grips<T> *grips) const
 	{
-		int32_t written = body.joined;
+		int32_t written = body.joined.all;
 		for (size_t k = body.first; k < body.end; k++) {
 			const Resting<T> &rest = found[k];
 			const int32_t count = rest.written();

@@ -78,8 +78,8 @@ template <typename T> static void find(const Job<T> &job)
 			sleepers.islands[s] = s;
 			bodies.push_back(finder.find(s, sleepers));
 			if (joints.has_any()) {
-				const JoinedCount joined = count_joined(joints, clusters.slots, places, sleepers, s);
-				bodies.back().joined = joined.all, bodies.back().firm = joined.firm, bodies.back().points += joined.all;
+				bodies.back().joined = count_joined(joints, clusters.slots, places, sleepers, s, whole);
+				bodies.back().points += bodies.back().joined.all;
 			}
 		}
 		take_fours(bodies, touching, status);
@@ -87,7 +87,7 @@ template <typename T> static void find(const Job<T> &job)
 			Touching &own = touching[body.s];
 			own.turns = 1;
 			if (own.joined > 0)
-				write_joined(joints, clusters.slots, places, part, body.s, points + own.first, rubs.any ? grips + own.first : nullptr);
+				write_joined(joints, clusters.slots, places, whole, part, body.s, points + own.first, rubs.any ? grips + own.first : nullptr);
 			if (own.count > 0)
 				finder.write(body, points + own.first, grips + (rubs.any ? own.first : 0));
 			/* what rests on a kinematic body goes by that one's load */
@@ -194,7 +194,7 @@ static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T>
 	const T closer = rests.impulses || done == 0 ? T(1) : T(CONTACT_CLOSER);
 	Sums<T> next{rests.inverse_mass(s), rests.inverse_inertia(s)};
 	int32_t firm = rests.touching[s].firm;
-	Loose<T> loose(rests, joints, s, is_loose ? rests.touching[s].joined - firm : 0, anew);
+	Loose<T> loose(rests, joints, s, is_loose);
 	decltype(load < zero) wanted{};
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
@@ -213,7 +213,7 @@ static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T>
 		const Lanes<T> pushed = points.start - rate * points.step;
 		Lanes<T> force = least > pushed ? least : pushed, left = force > least ? magnitude(rate) : -rate;
 		if constexpr (is_loose)
-			loose.iterate(points, first, load[LOAD_SHARE], others[LOAD_SHARE], rate, force, left);
+			loose.iterate(points, first, rate, force, left);
 		wanted |= left > closer * points.tolerance;
 		points.start = force + beta * (force - points.force);
 		points.force = force;
