@@ -179,12 +179,13 @@ public:
 	void write(Part part, Points<T> &points, int32_t i) const
 	{
 		const Vec<T> n = held.way(part);
-		const T parts = point(points, i, n, held.arm_of(part, own, true, is_stiff), held.arm_of(part, other, false, is_stiff));
-		if (part == Part::spring)
-			points.give[i] = 1 / joints->of(side).answer(rests->length, rests->part).per_way;
-		if (part == Part::spring)
-			points.least[i] = spring(n, parts);
-		else if (part == Part::motor)
+		turn_to(points, i, n, held.arm_of(part, own, true, is_stiff), held.arm_of(part, other, false, is_stiff));
+		const T parts = parting(n, points.arm[i], points.other_arm[i]);
+		if (part == Part::spring) {
+			const Springing<T> answer = joints->of(side).answer(rests->length, rests->part);
+			points.least[i] = spring(answer, n, parts);
+			points.give[i] = 1 / answer.per_way;
+		} else if (part == Part::motor)
 			points.least[i] = at_last((joints->of(side).drive[DRIVE_SPEED] * rests->length) * held.arm, parts);
 		else
 			points.least[i] = least(part, parts);
@@ -195,18 +196,20 @@ public:
 	{
 		const Vec<T> n(-held.n[0].y(), held.n[0].x());
 		const T k = rests->part;
-		points.least[i] = -point(points, i, n, own.arm(n, true), other.arm(n, true));
+		turn_to(points, i, n, own.arm(n, true), other.arm(n, true));
+		points.least[i] = -parting(n, points.arm[i], points.other_arm[i]);
 		points.give[i] = 1 / (joints->of(side).aside(rests->length) * (T(0.5) * (k * k)));
 	}
 
 private:
-	/* A point along n: how fast it parts as all moves now. */
-	T point(Points<T> &points, int32_t i, const Vec<T> &n, T arm, T other_arm) const
+	static void turn_to(Points<T> &points, int32_t i, const Vec<T> &n, T arm, T other_arm)
 	{
 		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
 		points.arm[i] = arm, points.other_arm[i] = other_arm;
-		return along(n, s, arm) - along(n, partner.slot(), other_arm);
 	}
+
+	/* How fast a point parts as all moves now. */
+	T parting(const Vec<T> &n, T arm, T other_arm) const { return along(n, s, arm) - along(n, partner.slot(), other_arm); }
 
 	Held<T> own_at(bool by_velocity) const { return at(s, joints->anchor(side), by_velocity); }
 
@@ -250,9 +253,8 @@ private:
 	}
 
 	/* What a spring pulls with where all get as they would now, but for what it gives way by then: that comes with its force. */
-	T spring(const Vec<T> &n, T parts) const
+	T spring(const Springing<T> &answer, const Vec<T> &n, T parts) const
 	{
-		const Springing<T> answer = joints->of(side).answer(rests->length, rests->part);
 		const T rest = joints->of(side).parties[JOINT_LENGTH], k = rests->part;
 		if (is_stiff) {
 			const T pull = answer.stiffness * ((held.last_distance - k * parts) - rest);
