@@ -278,22 +278,25 @@ static void the_kinematic_leads(void **unused)
 	}
 }
 
+enum { MOST_IN_A_ROW = 40 };
+
 /* A ball that hits a dumbbell along its rod hits both: of three equal masses one comes back with a third of its speed, as theory says, and no energy is lost; nor from the side, which sets it
- * spinning, nor by a chain. The hit that is kept has all of the impulse. */
+ * spinning, nor by a chain, and of what a row of 40 gets hardly any. The hit that is kept has all of the impulse. */
 static void a_hit_goes_through_a_rod(void **unused)
 {
 	static const struct {
 		uint32_t count;
 		float y;
-	} cases[] = {{2, 0.0f}, {2, 0.4f}, {5, 0.3f}};
+		double lost; /* J, of 4.5 */
+	} cases[] = {{2, 0.0f, 1e-3}, {2, 0.4f, 1e-3}, {5, 0.3f, 1e-3}, {MOST_IN_A_ROW, 0.0f, 3e-3}};
 	(void)unused;
 	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
 		const uint32_t n = cases[i].count;
 		uint64_t first = 0;
 		SCENERY_EACH_DEVICE(device) {
 			carom_world_def def = joined_free(0.0f);
-			carom_body_def bodies[6];
-			carom_joint joints[5];
+			carom_body_def bodies[MOST_IN_A_ROW + 1];
+			carom_joint joints[MOST_IN_A_ROW];
 			def.keep_hits = true;
 			for (uint32_t k = 0; k <= n; k++) {
 				bodies[k] = k < n ? scenery_circle(1.5f * (float)k, 0.0f, 0.0f, 0.0f, 0.5f) : scenery_circle(-2.0f, cases[i].y, 3.0f, 0.0f, 0.5f);
@@ -315,7 +318,7 @@ static void a_hit_goes_through_a_rod(void **unused)
 			runs_near((double)hits->impulse.x, (double)ball.velocity.x - 3.0, 1e-4);
 			runs_near((double)hits->impulse.y, (double)ball.velocity.y, 1e-4);
 			free(hits);
-			runs_near(after.kinetic_energy, before.kinetic_energy, 1e-3);
+			runs_near(after.kinetic_energy, before.kinetic_energy, cases[i].lost);
 			runs_near(after.momentum_x, before.momentum_x, 1e-5);
 			runs_near(after.angular_momentum, before.angular_momentum, 1e-4);
 			if (n == 2 && cases[i].y == 0.0f)

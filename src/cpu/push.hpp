@@ -61,7 +61,8 @@ template <typename T> struct PushPoint {
 		const T all = gives(body, other, arm, other_arm);
 		if (!(all > 0))
 			return false;
-		const T wanted = impulse + (part - rate) / all, after = pulls ? wanted : larger(wanted, T(0)), more = after - impulse;
+		const T lacking = (part - rate) / all, after = pulls ? impulse + T(TUG_FARTHER) * lacking : larger(impulse + lacking, T(0)),
+				more = after - impulse;
 		if (!(std::abs(more) * all >= least))
 			return false;
 		impulse = after;
