@@ -336,6 +336,7 @@ float row_forces(RECORD_IN(contacts), int first, int point, int part)
 	return part == PART_PIN_X ? force + magnitude(POINT_IN(contacts, FOUR_WIDTH, first, point + 1)[4 * FOUR_FORCE]) : force;
 }
 
+/* A point acts along n, with those arms. */
 void point_aim(__global float *to, float2 n, float arm, float other_arm)
 {
 	to[4 * FOUR_NORMAL_X] = n.x;
@@ -355,7 +356,7 @@ void aside_aim(__global float *to, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(p
 	float arm = held_arm(aim.own, n, true), other_arm = held_arm(aim.other, n, true);
 	point_aim(to, n, arm, other_arm);
 	to[4 * FOUR_LEAST] = -(way_along(slots, s, n, arm, length) - way_along(slots, partner, n, other_arm, length));
-	to[4 * FOUR_GIVE] = 1.0f / (joint_aside(joints, side, length) * (0.5f * (k * k)));
+	to[4 * FOUR_GIVE] = 1.0f / larger(joint_aside(joints, side, length) * (0.5f * (k * k)), SPRING_LEAST);
 }
 
 /* What forces are to do, once it is known where all would get with those that there are. */

@@ -659,7 +659,7 @@
 #define JOINT_LEAST 1e-30f       /* N or N m, what is less is none: what fades would come where not all devices count */
 #define SPRING_STIFF \
 	2.0f /* what a spring does against a way, by how much its force parts the anchors: above, a step is too long to swing, and it acts as at the step's end */
-#define SPRING_LEAST 1e-30f /* kg, that a spring is taken to answer with, so that it can be divided by, */
+#define SPRING_LEAST 1e-30f /* kg, that a spring, or what holds aside, is taken to answer with, so that it can be divided by, */
 #define SPRING_MOST 1e20f   /* and its stiffness and damping, each, so that it can be multiplied by */
 
 /* ---- Rendering [3] */

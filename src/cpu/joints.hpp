@@ -198,10 +198,11 @@ public:
 		const T k = rests->part;
 		turn_to(points, i, n, own.arm(n, true), other.arm(n, true));
 		points.least[i] = -parting(n, points.arm[i], points.other_arm[i]);
-		points.give[i] = 1 / (joints->of(side).aside(rests->length) * (T(0.5) * (k * k)));
+		points.give[i] = 1 / larger(joints->of(side).aside(rests->length) * (T(0.5) * (k * k)), T(SPRING_LEAST));
 	}
 
 private:
+	/* A point acts along n, with those arms. */
 	static void turn_to(Points<T> &points, int32_t i, const Vec<T> &n, T arm, T other_arm)
 	{
 		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
