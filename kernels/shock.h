@@ -204,8 +204,8 @@ bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(
 	float give = gives_at(gives, arm) + gives_at(other_gives, other_arm), part = CHANNEL(grip, SHOCK_PART);
 	if (!(give > 0.0f))
 		return false;
-	float change = (part - rate) / give;
-	float impulse = CHANNEL(grip, SHOCK_FRICTION) == SHOCK_JOINT ? before + TUG_FARTHER * change : larger(before + change, 0.0f);
+	float lacking = (part - rate) / give;
+	float impulse = CHANNEL(grip, SHOCK_FRICTION) == SHOCK_JOINT ? before + TUG_FARTHER * lacking : larger(before + lacking, 0.0f);
 	float more = impulse - before;
 	if (!(magnitude(more) * give >= least))
 		return false;
