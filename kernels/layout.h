@@ -576,7 +576,7 @@
  * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies.
  *
  * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,
- * or for TUG_SWEEPS. Joints go TUG_FARTHER times as far as would bring each alone there: what a hit does then gets through a row of many in as many sweeps, not their square. Where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, it goes on once more, as if no anchor were to move against another. A body has TUG_POINTS. */
+ * or for TUG_SWEEPS. Joints go TUG_FARTHER times as far as would bring each alone there: what a hit does then gets through a row of many in as many sweeps, not their square. Where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, it goes on once more, as if no anchor were to move against another; and where all have more energy in the end by that much it acts on the two alone. A body has TUG_POINTS. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f

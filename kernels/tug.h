@@ -185,6 +185,51 @@ bool tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), L
 	return true;
 }
 
+/* Twice the kinetic energy of the body in slot s that moves so, 0 if it is held. */
+float way_energy(RECORD_IN(slots), int s, trajectory k)
+{
+	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), energy = 0.0f;
+	float x = CHANNEL(k.place, LINEAR_VX), y = CHANNEL(k.place, LINEAR_VY);
+	if (k.held > 0.0f)
+		return 0.0f;
+	if (straight > 0.0f)
+		energy = (x * x + y * y) / straight;
+	return turning > 0.0f ? energy + (k.velocity * k.velocity) / turning : energy;
+}
+
+/* Is something kinematic at one of a party's points? */
+bool party_is_driven(RECORD_IN(slots), RECORD_OUT(shocks), int id)
+{
+	for (int point = 0; point < TUG_POINTS && !point_is_none(shocks[SHOCK(id, point) + SHOCK_PUSH]); point++) {
+		int partner = (int)CHANNEL(shocks[SHOCK(id, point) + SHOCK_PUSH], SHOCK_PARTNER);
+		if (partner >= 0 && slot_is_kinematic(slots, partner))
+			return true;
+	}
+	return false;
+}
+
+/* Twice the energy that all have more than before the hit: sweeps that come to no end may give some. 0 where something kinematic drives them. */
+float tug_energy(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
+	const struck *hit, const shock *all)
+{
+	float gained = 0.0f;
+	for (int id = all->first; id >= 0; id = party_next(members, id)) {
+		int s = active[id];
+		if (party_is_driven(slots, shocks, id))
+			return 0.0f;
+		trajectory was = tug_way(slots, status, members, work, owners, shocks, s, true, hit, all);
+		gained += way_energy(slots, s, work_load(work, id)) - way_energy(slots, s, was);
+	}
+	return gained;
+}
+
+/* Does what joints gave, or all energy that there is more, come to too much beside what the hit does? */
+bool tug_is_much(RECORD_OUT(shocks), int one, float gained, float changed)
+{
+	return gained > TUG_GAIN * (CHANNEL(shocks[SHOCK(one, 0) + SHOCK_PUSH], SHOCK_IMPULSE) * changed);
+}
+
 /* From the two of a hit, of which the second may be none, -1; false if the cluster has to be given up. */
 bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
 	RECORD_IN(contacts), int one, int other, const struck *hit, shock *all, int *first)
@@ -195,10 +240,14 @@ bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), 
 	float changed = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all), least = TUG_WITHIN * changed;
 	if (!tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, false, hit, all, first))
 		return false;
-	if (!(tug_gain(slots, members, shocks, one, all) > TUG_GAIN * (CHANNEL(shocks[SHOCK(one, 0) + SHOCK_PUSH], SHOCK_IMPULSE) * changed)))
-		return true;
-	tug_begin_anew(slots, members, work, shocks, hit, all);
-	return tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, true, hit, all, first);
+	if (tug_is_much(shocks, one, tug_gain(slots, members, shocks, one, all), changed)) {
+		tug_begin_anew(slots, members, work, shocks, hit, all);
+		if (!tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, true, hit, all, first))
+			return false;
+	}
+	if (tug_is_much(shocks, one, tug_energy(slots, status, members, active, work, owners, shocks, hit, all), changed))
+		tug_begin_anew(slots, members, work, shocks, hit, all); /* and so it stays: the hit acts on the two alone */
+	return true;
 }
 
 /* Counts what it did, and to whom; the hit, which is the last one that was counted of a member, has another impulse now. */

@@ -28,7 +28,7 @@ static const struct reference {
 	{"events", "", 60, false, false, false, {0xae6d85b586319664, 0x3000e89a16e84ce6, 0x2ba53121913d8b51}},
 	{"contacts", "", 12, true, false, false, {0xd440000e9486bcfa, 0xf76c6e9eaefc385a, 0x46431893954bc23d}},
 	{"contacts", " of many", 24, true, true, false, {0xdef17b566634acb3, 0xea0634c37597d9f4, 0xfe3fb6b321603430}},
-	{"contacts", " and joints", 12, true, false, true, {0xb1092ed8b404a0bc, 0x75757d05fe4b2524, 0x37def9580e9f5321}},
+	{"contacts", " and joints", 12, true, false, true, {0x2c876bb3da0d5e85, 0xfa41beaf47cd0332, 0x1fc0dbd297d3f5ef}},
 	{"first_impact", "", 60, false, false, false, {0xe443f056f109fad9, 0x7628f5ddae755cc8, 0x5be3f6b36ea95729}},
 };
 

@@ -20,6 +20,13 @@ template <typename T> struct Pushed {
 	}
 
 	T speed(const Vec<T> &n, T arm) const { return inner(n, Vec<T>(vx, vy)) + w * arm; }
+	/* Twice its kinetic energy. */
+	T energy() const
+	{
+		const T straight = inverse_mass > 0 ? (vx * vx + vy * vy) / inverse_mass : T(0);
+		return inverse_inertia > 0 ? straight + (w * w) / inverse_inertia : straight;
+	}
+
 	T gives(T arm) const { return inverse_mass + inverse_inertia * (arm * arm); }
 
 	void take(const Vec<T> &impulse, T torque)

@@ -6,6 +6,8 @@
 #include "cpu/push.hpp"
 #include "cpu/resting.hpp"
 
+#include <algorithm>
+
 namespace carom::cpu {
 
 /* What a hit did, seen from the first of its two. */
@@ -50,6 +52,8 @@ public:
 		}
 		if (is_lost)
 			return false;
+		if (energy_gained() > T(TUG_GAIN) * (contact.impulse * changed))
+			begin_anew(); /* and so it stays: the hit acts on the two alone */
 		for (int32_t k = 0; k < count; k++)
 			if (!parties[k].is_held) {
 				Work<T> &to = work[parties[k].id];
@@ -213,6 +217,22 @@ private:
 		for (int32_t k = 0; k < count; k++)
 			for (int32_t point = 0; point < parties[k].points; point++)
 				all += points[parties[k].first + point].impulse * points[parties[k].first + point].part;
+		return all;
+	}
+
+	bool is_driven(const Point &p) const { return p.slot >= 0 && clusters.slots[p.slot].is_kinematic(); }
+
+	/* Twice the energy that all have more than before the hit: sweeps that come to no end may give some. 0 where something kinematic drives them. */
+	T energy_gained() const
+	{
+		T all = 0;
+		if (std::any_of(points, points + taken, [&](const Point &p) { return is_driven(p); }) || is_driven(contact))
+			return 0;
+		for (int32_t k = 0; k < count; k++) {
+			const int32_t s = clusters.active[parties[k].id];
+			const Trajectory<T> *way = s == first_slot ? before[0] : s == second_slot ? before[1] : nullptr;
+			all += parties[k].energy() - (way ? Pushed<T>(clusters.slots[s], *way) : parties[k].before).energy();
+		}
 		return all;
 	}
 
