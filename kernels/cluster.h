@@ -125,7 +125,7 @@ INLINE float slice_end(LIST_IN(status), int slice)
 /* Has the step no slice after this one? */
 bool is_last_slice(LIST_IN(status))
 {
-	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES] || !status[STATUS_ACTIVE];
+	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES] || !PEEK(status, STATUS_ACTIVE);
 }
 
 /* Does a pass of contacts go on in the next handing over? */

@@ -132,7 +132,7 @@ void cluster_count(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_I
 		if (!finished)
 			lost += go_back(slots, status, members, active, work, m);
 		else if (!is_last_slice(status) && slice_events(members, m) >= PILE_EVENTS)
-			members[MEMBER(members[MEMBER(m, MEMBER_OWNER)], MEMBER_PILE)] = 1; /* it stays together */
+			members[MEMBER(PEEK(members, MEMBER(m, MEMBER_OWNER)), MEMBER_PILE)] = 1; /* it stays together */
 	}
 	if (finished && hits > 0)
 		atomic_add(&status[STATUS_HITS], hits);
