@@ -122,10 +122,10 @@ INLINE float slice_end(LIST_IN(status), int slice)
 	return (float)(slice + 1) / (float)status[STATUS_SLICES];
 }
 
-/* Has the step no slice after this one? */
-bool is_last_slice(LIST_IN(status))
+/* Has the step no slice after this one, with so many active bodies? */
+bool is_last_slice(LIST_IN(status), int active)
 {
-	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES] || !PEEK(status, STATUS_ACTIVE);
+	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES] || !active;
 }
 
 /* Does a pass of contacts go on in the next handing over? */

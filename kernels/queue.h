@@ -131,7 +131,7 @@ void cluster_count(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_I
 		held += slice_holds(status, work, m) ? 1 : 0;
 		if (!finished)
 			lost += go_back(slots, status, members, active, work, m);
-		else if (!is_last_slice(status) && slice_events(members, m) >= PILE_EVENTS)
+		else if (!is_last_slice(status, PEEK(status, STATUS_ACTIVE)) && slice_events(members, m) >= PILE_EVENTS)
 			members[MEMBER(PEEK(members, MEMBER(m, MEMBER_OWNER)), MEMBER_PILE)] = 1; /* it stays together */
 	}
 	if (finished && hits > 0)

@@ -39,7 +39,7 @@ __kernel void events_seek(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_I
 __kernel void events_release(VERTICES_IN, TEX_IN(uniforms), TEX_IN(clock), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), RECORD_IN(reach),
 	LIST_OUT(need), LIST_IN(owners), LIST_OUT(parents), int4 domain)
 {
-	if (status[STATUS_ROUND] != domain.z - 1 || is_last_slice(status))
+	if (status[STATUS_ROUND] != domain.z - 1 || is_last_slice(status, status[STATUS_ACTIVE]))
 		return;
 	int count = min(status[STATUS_ACTIVE], status[STATUS_NUMBERS]);
 	float length = step_length(TEX(uniforms), TEX(clock)), until = slice_end(status, status[STATUS_SLICE] + 1);
