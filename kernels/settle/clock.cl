@@ -8,7 +8,8 @@ __kernel void events_settle(TEX_IN(uniforms), TEX_IN(clock), LIST_OUT(status), T
 	float4 counts = TEX_LOAD(clock, CLOCK_COUNTS, 0), ruled = TEX_LOAD(clock, CLOCK_RULED, 0);
 	float length = step_length(TEX(uniforms), TEX(clock));
 	bool begins = lists_are_good(status) && length > 0.0f, waits = begins && forces_are_wanted(status);
-	bool good = begins && !waits, left = good && status[STATUS_LEFT], again = status[STATUS_ROUND] > domain.z || !is_last_slice(status, status[STATUS_ACTIVE]);
+	bool good = begins && !waits, left = good && status[STATUS_LEFT],
+		 again = status[STATUS_ROUND] > domain.z || !is_last_slice(status, status[STATUS_ACTIVE]);
 	bool done = good && !left && !again;
 	status[STATUS_COMMIT] = done;
 	status[STATUS_UNDER_WAY] = good && !left && again;
