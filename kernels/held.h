@@ -222,7 +222,7 @@ void point_hold(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, 
 void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), LIST_OUT(touching), RECORD_OUT(contacts), RECORD_OUT(grips),
 	int s, int4 points, float length, float k, bool rub)
 {
-	int point = 0, body = slot_body(slots, s), first = first_four(touching, s);
+	int point = 0, first = first_four(touching, s);
 	touching[TOUCH(s, TOUCHING_JOINED)] = points.x;
 	touching[TOUCH(s, TOUCHING_FIRM)] = points.y;
 	touching[TOUCH(s, TOUCHING_ROWS)] = points.z;
@@ -240,8 +240,7 @@ void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(
 		float least = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / k : 0.0f;
 		point_hold(slots, places, joints, side, contacts, grips, first, point, own, other, part_way(&h, part), arms, least, rub);
 	}
-	for (int side = points.x > 0 ? first_aside(joints, joined, body, length) : -1; side >= 0;
-		 side = next_aside(joints, joined, side, length), point++) {
+	for (int side = first_aside_of(slots, touching, joints, joined, s, length); side >= 0; side = next_aside(joints, joined, side, length), point++) {
 		float2 none = (float2)(0.0f, 0.0f);
 		own = held_body(slots, s, joint_anchor(joints, side));
 		point_hold(slots, places, joints, side, contacts, grips, first, point, own, held_other(slots, places, joints, side), none, none, 0.0f, rub);

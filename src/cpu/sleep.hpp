@@ -8,7 +8,7 @@
 
 namespace carom::cpu {
 
-/* In Touching, how many points; a list; what layout.h says of each island, at its root, and of sleep; where the points are, and how many are of joints, and firm; how far forces turn the body. */
+/* In Touching, how many points; a list; what layout.h says of each island, at its root, and of sleep; where the points are, and how many are of joints, and of these firm, and of rows; how far forces turn the body. */
 struct Touching {
 	int32_t count, slot, wanted, restless, asleep, footing, first, room, made, carrier, joined, firm, rows;
 	float turns;
