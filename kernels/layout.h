@@ -20,7 +20,7 @@
 
 /* Geometry [2] */
 #define GEOMETRY_FIRST 0   /* index of the body's first texel in Vertices */
-#define GEOMETRY_COUNT 1   /* of vertices; 1 for a circle */
+#define GEOMETRY_COUNT 1   /* of vertices; 1 for a circle; of a polygon that is not convex those of its hull, and PIECES for each piece */
 #define GEOMETRY_MASS 2    /* kg; infinite for a static or kinematic body */
 #define GEOMETRY_INERTIA 3 /* kg m^2; infinite likewise */
 
@@ -30,6 +30,8 @@
 #define VERTICES_Y0 1
 #define VERTICES_X1 2
 #define VERTICES_Y1 3
+
+#define PIECES 128
 
 /* Forces: what acts on a body besides gravity, and its restitution */
 #define FORCES_X 0 /* N */
@@ -187,6 +189,12 @@
 #define OUTLINE_Y 1
 #define OUTLINE_NORMAL_X 2 /* outward, 1 long, of the side from here to the next vertex */
 #define OUTLINE_NORMAL_Y 3
+/* Of a polygon that is not convex these are its hull's; behind them, from the next even index on, a record for each piece follows, and then the vertices of one piece after the other, and
+ * one record behind each. */
+#define PIECE_COUNT 0 /* of vertices */
+#define PIECE_X 1     /* m: the middle of a circle that holds it, in the body's frame */
+#define PIECE_Y 2
+#define PIECE_RADIUS 3
 
 /* Reach: a record a slot, the box (AABB's channels) that the body does not leave while the lists of neighbours are good */
 
@@ -708,7 +716,7 @@
 #define DRAW_PARTS 0   /* texel */
 #define PARTS_VERTEX 0 /* the first in Stream and Placed */
 #define PARTS_COUNT 1  /* of vertices */
-#define PARTS_EDGE 2   /* the first in Edges: a polygon has all but one there, a circle LINE_REST of its radius line */
+#define PARTS_EDGE 2   /* the first in Edges: a polygon has all but one there at most, a circle LINE_REST of its radius line */
 #define PARTS_SHAPE 3  /* a polygon has one, a circle one or two */
 #define DRAW_INK 1     /* texel, the channels of SHAPE_INK */
 
@@ -742,6 +750,7 @@
 #define EDGE_SLOPE_Y 1
 #define EDGE_AT 2
 #define EDGE_BEND 3
+#define EDGE_NEXT (-1.0f) /* a bend: no edge, but behind it another piece of the shape begins */
 
 /* Frame: the part of the picture that is drawn at once; two texels in a row */
 #define FRAME_WIDTH 2
@@ -798,6 +807,9 @@
 #define CORNER_ALIKE 0.9f              /* of two unit vectors: they are no two ways out of a corner */
 #define CORNER_DEEP 2.0f               /* slops: so deep bodies touch along a way out of a corner, for what rests is sunk by one now and then */
 #define CORNER_NEAR 4.0f               /* times that: a contact so near a face's end is at a corner */
+#define PIECES_TOUCH 2.0f              /* slops: pieces this near touch, where bodies of which they are a part have hit each other */
+#define PIECES_ALIKE 0.9999f           /* the cosine of an angle: along normals that differ by less pieces are hit together */
+#define PAIR_RESTS 4                   /* normals along which two bodies press, that are told from each other */
 #define CORNER_PART 0.5f               /* of an approach: along another way it is slower than that */
 #define SINGULAR 2.384185791015625e-7f /* 2^-22: two contacts nearer to one another than this, by the determinant, count as one */
 

@@ -1,8 +1,9 @@
-/* From a body's definition to what the simulation needs: checks, centre of mass, mass and moment of inertia. */
+/* From a body's definition to what the simulation needs: checks, mass and moment of inertia. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "polygon.h"
 #include "status.h"
 #include "world.h"
 
@@ -24,69 +25,6 @@ carom_body_def carom_default_body_def(void)
 carom_body *carom_world_bodies(const carom_world *world)
 {
 	return world->bodies.items;
-}
-
-typedef struct point {
-	double x, y;
-} point;
-
-static double cross(point a, point b)
-{
-	return a.x * b.y - a.y * b.x;
-}
-
-static point minus(point a, point b)
-{
-	return (point){a.x - b.x, a.y - b.y};
-}
-
-/* Area and centre of mass, and the second moment about the origin per unit of density, by the triangles to the origin. */
-static double moments(const point *p, uint32_t n, point *centre, double *second)
-{
-	double area = 0.0;
-	point c = {0.0, 0.0};
-	*second = 0.0;
-	for (uint32_t i = 0; i < n; i++) {
-		point a = p[i], b = p[(i + 1) % n];
-		double twice = cross(a, b);
-		area += 0.5 * twice;
-		c.x += twice * (a.x + b.x) / 6.0;
-		c.y += twice * (a.y + b.y) / 6.0;
-		*second += twice * (a.x * a.x + a.x * b.x + b.x * b.x + a.y * a.y + a.y * b.y + b.y * b.y) / 12.0;
-	}
-	if (area != 0.0) {
-		c.x /= area;
-		c.y /= area;
-	}
-	*centre = c;
-	return area;
-}
-
-static void reverse(point *p, uint32_t n)
-{
-	for (uint32_t i = 0; i < n / 2; i++) {
-		point t = p[i];
-		p[i] = p[n - 1 - i];
-		p[n - 1 - i] = t;
-	}
-}
-
-#define THINNEST 1e-6 /* of a polygon's length, which its sides must exceed, and its area divided by its length */
-
-/* Convex, counter-clockwise and simple: every turn to the left, and once round in all. NULL, or what is wrong. */
-static const char *convex_flaw(const point *p, uint32_t n, double size)
-{
-	double half_turns = 0.0;
-	for (uint32_t i = 0; i < n; i++) {
-		point e = minus(p[(i + 1) % n], p[i]), f = minus(p[(i + 2) % n], p[(i + 1) % n]);
-		double edge = hypot(e.x, e.y);
-		if (edge <= THINNEST * size)
-			return "has two vertices at the same place, or no farther apart than a millionth of its length";
-		if (cross(e, f) < -1e-7 * size * edge)
-			return "is not convex, or crosses itself";
-		half_turns += atan2(cross(e, f), e.x * f.x + e.y * f.y);
-	}
-	return half_turns > 6.5 ? "crosses itself" : NULL;
 }
 
 static carom_status fail(carom_error *error, size_t index, const char *field, const char *found)
@@ -159,69 +97,6 @@ static carom_status check_shape(const carom_body_def *def, size_t index, carom_e
 	return CAROM_OK;
 }
 
-/* Sine and cosine of a part of a quarter turn, -0.5..0.5, by their series: the same bits with every C library. */
-static point quarter_turn(double part)
-{
-	double x = part * 1.57079632679489661923, s = x, c = 1.0, term = x; /* x^k / k! */
-	for (int k = 2; k < 22; k++) {
-		term *= x / k;
-		if (k % 2)
-			s += k % 4 == 3 ? -term : term;
-		else
-			c += k % 4 == 2 ? -term : term;
-	}
-	return (point){c, s};
-}
-
-static void regular_points(const carom_body_def *def, point *p)
-{
-	for (uint32_t i = 0; i < def->sides; i++) {
-		uint32_t quarters = (8 * i + def->sides) / (2 * def->sides); /* the nearest whole number to 4 i / sides */
-		point q = quarter_turn(((double)(4 * i) - (double)(quarters * def->sides)) / def->sides);
-		const point turned[4] = {{q.x, q.y}, {-q.y, q.x}, {-q.x, -q.y}, {q.y, -q.x}};
-		p[i] = (point){def->radius * turned[quarters % 4].x, def->radius * turned[quarters % 4].y};
-	}
-}
-
-/* Its length, from the first vertex to the farthest. */
-static double size_of(const point *p, uint32_t n)
-{
-	double size = 0.0;
-	for (uint32_t i = 0; i < n; i++)
-		size = fmax(size, hypot(p[i].x - p[0].x, p[i].y - p[0].y));
-	return size;
-}
-
-/* `once` says of which polygon it is. */
-static carom_status check_polygon(const point *p, uint32_t n, double area, size_t index, const char *once, carom_error *error)
-{
-	const double size = size_of(p, n);
-	const char *flaw = convex_flaw(p, n, size);
-	char found[256];
-	if (!flaw && !(area > THINNEST * size * size))
-		flaw = "has no area, or at most a millionth of its length squared";
-	if (!flaw)
-		return CAROM_OK;
-	snprintf(found, sizeof found, "the polygon %s%s; it must be convex, with %d to %d vertices in order", flaw, once, CAROM_MIN_VERTICES,
-		CAROM_MAX_VERTICES);
-	return fail(error, index, "vertices", found);
-}
-
-/* The polygon about its centre of mass, counter-clockwise; *centre is how far it was moved. */
-static carom_status place_polygon(const carom_body_def *def, size_t index, point *p, uint32_t n, point *centre, carom_error *error)
-{
-	double second, area = moments(p, n, centre, &second), size = size_of(p, n);
-	if (area < 0.0)
-		reverse(p, n);
-	TRY(check_polygon(p, n, fabs(area), index, "", error));
-	/* what rounding to floats left over when a centred polygon was written down is no offset: the more, the thinner it is */
-	if (def->shape == CAROM_REGULAR || hypot(centre->x, centre->y) < (1e-6 + 2e-7 * size * size / fabs(area)) * size)
-		*centre = (point){0.0, 0.0};
-	for (uint32_t i = 0; i < n; i++)
-		p[i] = minus(p[i], *centre);
-	return CAROM_OK;
-}
-
 static void set_mass(const carom_body_def *def, carom_body *body, double area, double second)
 {
 	double mass = def->mass > 0.0f ? (double)def->mass : (double)def->density * area;
@@ -234,36 +109,24 @@ static carom_status make_circle(const carom_body_def *def, carom_body *body)
 {
 	double r = (double)def->radius, area = 3.14159265358979323846 * r * r;
 	body->radius = body->bound = def->radius;
-	body->vertex_count = 1;
+	body->vertex_count = body->hull_count = 1;
+	body->drawn_count = 1;
+	body->is_convex = true;
 	set_mass(def, body, area, 0.5 * area * r * r);
 	return CAROM_OK;
 }
 
 static carom_status make_polygon(const carom_body_def *def, size_t index, carom_body *body, carom_vec2 *vertices, carom_error *error)
 {
-	point p[CAROM_MAX_VERTICES] = {{0.0, 0.0}}, centre, rounded[CAROM_MAX_VERTICES];
-	double second, area, bound = 0.0;
-	uint32_t n = def->shape == CAROM_REGULAR ? def->sides : def->vertex_count;
-	carom_status status;
-	for (uint32_t i = 0; def->shape == CAROM_POLYGON && i < n; i++)
-		p[i] = (point){def->vertices[i].x, def->vertices[i].y};
-	if (def->shape == CAROM_REGULAR)
-		regular_points(def, p);
-	status = place_polygon(def, index, p, n, &centre, error);
-	if (status)
-		return status;
-	for (uint32_t i = 0; i < n; i++) {
-		vertices[i] = (carom_vec2){(float)p[i].x, (float)p[i].y};
-		rounded[i] = (point){vertices[i].x, vertices[i].y};
-		bound = fmax(bound, hypot(rounded[i].x, rounded[i].y));
-	}
-	area = moments(rounded, n, &p[0], &second);
-	TRY(check_polygon(rounded, n, area, index, ", when its vertices are rounded to floats about its centre of mass", error));
+	carom_polygon polygon;
+	TRY(carom_polygon_make(def, index, &polygon, error));
+	memcpy(vertices, polygon.vertices, polygon.count * sizeof *vertices);
 	body->radius = def->shape == CAROM_REGULAR ? def->radius : 0.0f;
-	body->bound = nextafterf((float)bound, INFINITY);
-	body->vertex_count = (uint8_t)n;
-	body->recentred_by = (carom_vec2){(float)centre.x, (float)centre.y};
-	set_mass(def, body, area, second);
+	body->bound = nextafterf((float)polygon.bound, INFINITY);
+	body->vertex_count = (uint8_t)polygon.count;
+	body->is_convex = polygon.is_convex;
+	body->recentred_by = polygon.recentred_by;
+	set_mass(def, body, polygon.area, polygon.second);
 	return CAROM_OK;
 }
 

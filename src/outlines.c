@@ -1,9 +1,10 @@
-/* The vertices of polygons. Equal polygons share them: that is less memory, and near at hand when bodies meet. */
+/* The vertices of polygons, and of what they consist that are not convex. Equal polygons share them: that is less memory, and near at hand when bodies meet. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "layout.h"
+#include "pieces.h"
 #include "status.h"
 #include "world.h"
 
@@ -17,9 +18,36 @@ static uint32_t even(uint32_t count)
 	return count + count % 2;
 }
 
-bool carom_outlines_have_room(const carom_world *world, uint32_t count)
+/* Of one that is not convex, more than it has. */
+static uint32_t most_vertices(const carom_body *body)
 {
-	return used_vertices(world) + even(count) <= CAROM_MOST_VERTICES;
+	return body->is_convex ? even(body->vertex_count) : 2 * even(body->vertex_count) + 5u * body->vertex_count;
+}
+
+bool carom_outlines_have_room(const carom_world *world, const carom_body *body)
+{
+	return used_vertices(world) + most_vertices(body) <= CAROM_MOST_VERTICES;
+}
+
+uint32_t carom_outline_hull(const carom_body *body)
+{
+	return body->vertex_first + (body->is_convex ? 0 : even(body->vertex_count));
+}
+
+/* Of each piece there is something to be told first. */
+static uint32_t table_of(const carom_body *body)
+{
+	return carom_outline_hull(body) + even(body->hull_count);
+}
+
+uint32_t carom_outline_drawn(const carom_body *body)
+{
+	return body->is_convex ? body->vertex_first : table_of(body) + body->piece_count;
+}
+
+uint32_t carom_outline_size(const carom_body *body)
+{
+	return body->vertex_count == 1 ? 0 : even(carom_outline_drawn(body) + body->drawn_count - body->vertex_first);
 }
 
 /* Where one of the latest polygons with these vertices would be noted: FNV-1a. */
@@ -32,21 +60,61 @@ static carom_note *note_of(carom_world *world, const carom_vec2 *vertices, uint3
 	return &world->notes[(hash ^ hash >> 16) % CAROM_NOTES];
 }
 
+/* Of the pieces how many vertices each has, and then these, each with its first one again. */
+static void put_pieces(const carom_pieces *pieces, carom_vec2 *table)
+{
+	const carom_vec2 *from = pieces->vertices;
+	carom_vec2 *to = table + pieces->count;
+	for (uint32_t k = 0; k < pieces->count; from += pieces->sizes[k++]) {
+		table[k] = (carom_vec2){(float)pieces->sizes[k], 0.0f};
+		memcpy(to, from, pieces->sizes[k] * sizeof *to);
+		to[pieces->sizes[k]] = from[0];
+		to += pieces->sizes[k] + 1;
+	}
+}
+
+static bool add_anew(carom_world *world, carom_body *body, const carom_vec2 *vertices)
+{
+	carom_pieces pieces = {.hull_count = body->vertex_count};
+	body->vertex_first = (uint32_t)used_vertices(world);
+	body->piece_count = 0;
+	body->hull_count = body->vertex_count;
+	body->drawn_count = body->vertex_count;
+	if (!body->is_convex) {
+		carom_pieces_make(vertices, body->vertex_count, &pieces);
+		body->piece_count = (uint8_t)pieces.count;
+		body->hull_count = (uint8_t)pieces.hull_count;
+		body->drawn_count = 0;
+		for (uint32_t k = 0; k < pieces.count; k++)
+			body->drawn_count = (uint16_t)(body->drawn_count + pieces.sizes[k] + 1);
+	}
+	const uint32_t size = carom_outline_size(body);
+	carom_vec2 *to = carom_array_grow(&world->vertices, size * sizeof *to);
+	if (!to)
+		return false;
+	memset(to, 0, size * sizeof *to);
+	memcpy(to, vertices, body->vertex_count * sizeof *to);
+	if (!body->is_convex) {
+		memcpy(to + (carom_outline_hull(body) - body->vertex_first), pieces.hull, pieces.hull_count * sizeof *to);
+		put_pieces(&pieces, to + (table_of(body) - body->vertex_first));
+	}
+	return true;
+}
+
 bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices)
 {
 	carom_note *note = note_of(world, vertices, body->vertex_count);
-	const size_t size = body->vertex_count * sizeof *vertices;
-	carom_vec2 *corner = world->vertices.items;
-	body->vertex_first = note->first;
-	if (note->count == body->vertex_count && !memcmp(corner + note->first, vertices, size))
+	const carom_vec2 *noted = (const carom_vec2 *)world->vertices.items + note->first;
+	if (note->count == body->vertex_count && !memcmp(noted, vertices, body->vertex_count * sizeof *vertices)) {
+		body->vertex_first = note->first;
+		body->piece_count = note->piece_count;
+		body->hull_count = note->hull_count;
+		body->drawn_count = note->drawn_count;
 		return true;
-	body->vertex_first = (uint32_t)used_vertices(world);
-	corner = carom_array_grow(&world->vertices, even(body->vertex_count) * sizeof *corner);
-	if (!corner)
+	}
+	if (!add_anew(world, body, vertices))
 		return false;
-	corner[even(body->vertex_count) - 1] = (carom_vec2){0.0f, 0.0f};
-	memcpy(corner, vertices, size);
-	*note = (carom_note){body->vertex_first, body->vertex_count};
+	*note = (carom_note){body->vertex_first, body->drawn_count, body->vertex_count, body->hull_count, body->piece_count};
 	return true;
 }
 
@@ -60,10 +128,47 @@ static void fill_corner(float *corner, carom_vec2 from, carom_vec2 to)
 	corner[OUTLINE_NORMAL_Y] = -x / size;
 }
 
-carom_status carom_outlines_send(carom_world *world, carom_error *error)
+static void fill_corners(float (*corners)[4], const carom_vec2 *vertices, uint32_t count)
+{
+	for (uint32_t k = 0; k < count; k++)
+		fill_corner(corners[k], vertices[k], vertices[(k + 1) % count]);
+}
+
+/* What is told of a piece: the middle of its box, and how far it is from there, at most. */
+static void fill_piece(float *piece, const carom_vec2 *vertices, uint32_t count)
+{
+	carom_vec2 low = vertices[0], high = vertices[0];
+	double radius = 0;
+	for (uint32_t k = 1; k < count; k++) {
+		low = (carom_vec2){fminf(low.x, vertices[k].x), fminf(low.y, vertices[k].y)};
+		high = (carom_vec2){fmaxf(high.x, vertices[k].x), fmaxf(high.y, vertices[k].y)};
+	}
+	piece[PIECE_COUNT] = (float)count;
+	piece[PIECE_X] = 0.5f * (low.x + high.x);
+	piece[PIECE_Y] = 0.5f * (low.y + high.y);
+	for (uint32_t k = 0; k < count; k++)
+		radius = fmax(radius, hypot((double)vertices[k].x - (double)piece[PIECE_X], (double)vertices[k].y - (double)piece[PIECE_Y]));
+	piece[PIECE_RADIUS] = nextafterf((float)radius, INFINITY);
+}
+
+/* The hull, then the pieces' records, then the pieces. */
+static void fill_outline(const carom_world *world, const carom_body *body, float (*corners)[4])
 {
 	const carom_vec2 *vertices = world->vertices.items;
-	uint32_t items = 2 * world->polygon_capacity;
+	const uint32_t hull = carom_outline_hull(body), table = table_of(body);
+	uint32_t first = carom_outline_drawn(body);
+	fill_corners(corners + hull, vertices + hull, body->hull_count);
+	for (uint32_t k = 0; k < body->piece_count; k++) {
+		const uint32_t count = (uint32_t)vertices[table + k].x;
+		fill_piece(corners[table + k], vertices + first, count);
+		fill_corners(corners + first, vertices + first, count);
+		first += count + 1;
+	}
+}
+
+carom_status carom_outlines_send(carom_world *world, carom_error *error)
+{
+	const uint32_t items = 2 * world->polygon_capacity;
 	float(*corners)[4];
 	carom_status status;
 	if (!items)
@@ -73,12 +178,10 @@ carom_status carom_outlines_send(carom_world *world, carom_error *error)
 		return carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to upload the outlines of %zu bodies", world->body_count);
 	for (size_t i = 0; i < world->body_count; i++) {
 		const carom_body *body = &carom_world_bodies(world)[i];
-		const carom_vec2 *own = vertices + body->vertex_first;
-		const float *first = corners[body->vertex_first];
+		const float *first = corners[carom_outline_hull(body)];
 		if (body->vertex_count == 1 || first[OUTLINE_NORMAL_X] != 0.0f || first[OUTLINE_NORMAL_Y] != 0.0f)
 			continue; /* a circle, or one that shares what has been filled in */
-		for (uint32_t k = 0; k < body->vertex_count; k++)
-			fill_corner(corners[body->vertex_first + k], own[k], own[(k + 1) % body->vertex_count]);
+		fill_outline(world, body, corners);
 	}
 	world->events.outlines = world->vertices.used;
 	status = world->device->kind->upload(world->device, world->textures[ROLE_OUTLINES].front, carom_row_count(items), corners, error);

@@ -45,7 +45,7 @@ static void close_ranks(carom_world *world, const uint32_t *numbers)
 			continue;
 		if (numbers[i] == GONE) {
 			world->circle_count -= bodies[i].vertex_count == 1;
-			world->waste += name_size(world, &bodies[i]) + (bodies[i].vertex_count == 1 ? 0 : bodies[i].vertex_count * sizeof(carom_vec2));
+			world->waste += name_size(world, &bodies[i]) + carom_outline_size(&bodies[i]) * sizeof(carom_vec2);
 			continue;
 		}
 		bodies[to] = bodies[i];

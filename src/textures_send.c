@@ -33,8 +33,8 @@ static void fill_uniforms(const carom_world *world, void *data)
 
 void carom_geometry_fill(const carom_body *body, float texel[4])
 {
-	texel[GEOMETRY_FIRST] = (float)(body->vertex_first / 2);
-	texel[GEOMETRY_COUNT] = (float)body->vertex_count;
+	texel[GEOMETRY_FIRST] = (float)(carom_outline_hull(body) / 2);
+	texel[GEOMETRY_COUNT] = (float)(body->hull_count + PIECES * body->piece_count);
 	texel[GEOMETRY_MASS] = body->mass;
 	texel[GEOMETRY_INERTIA] = body->inertia;
 }

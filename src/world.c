@@ -150,10 +150,14 @@ static carom_status add_one(carom_world *world, const carom_body_def *def, size_
 	carom_status status = carom_body_make(def, &world->def, index, &body, vertices, error);
 	if (status)
 		return status;
+	if (!body.is_convex && world->step == &carom_step_first_impact)
+		return carom_fail(error, CAROM_INVALID_ARGUMENT,
+			"bodies[%zu].vertices: the polygon is not convex, and the step %s takes convex ones alone; take the step events or contacts", index,
+			world->step->name);
 	if (!def->is_kinematic && carom_outside_room(&world->def, def->position, def->velocity))
 		return carom_fail(error, CAROM_INVALID_ARGUMENT, "bodies[%zu].position: (%g, %g) is outside the room", index, (double)def->position.x,
 			(double)def->position.y);
-	if (body.vertex_count > 1 && !carom_outlines_have_room(world, body.vertex_count))
+	if (body.vertex_count > 1 && !carom_outlines_have_room(world, &body))
 		return carom_fail(error, CAROM_LIMIT, "bodies[%zu]: a world holds at most %u vertices of polygons", index, CAROM_MOST_VERTICES);
 	if (def->name && strlen(def->name) >= UINT32_MAX - world->names.used)
 		return carom_fail(error, CAROM_LIMIT, "bodies[%zu].name: a world holds names of at most 4 GiB", index);

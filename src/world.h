@@ -18,6 +18,10 @@ typedef struct carom_body {
 	uint8_t shape;                /* carom_shape */
 	uint8_t vertex_count;         /* 1 for a circle */
 	bool is_static, is_kinematic; /* one of them, or none */
+	bool is_convex;               /* else the next three are another polygon's: */
+	uint8_t piece_count;          /* 0 for one that is convex */
+	uint8_t hull_count;           /* vertices of the convex hull: vertex_count of one that is convex */
+	uint16_t drawn_count;         /* vertices that are drawn, likewise: those of pieces, each with its first one again behind them */
 	uint32_t vertex_first;        /* in world->vertices, an even number; a circle has none there */
 	float radius;                 /* as given; 0 for a polygon */
 	float bound;                  /* of the circle about the centre of mass */
@@ -60,9 +64,11 @@ typedef struct carom_pair {
 #define CAROM_MAX_LEVELS 16
 #define CAROM_NOTES 256 /* polygons that others are compared with */
 
-/* Where one of them has its vertices; count 0: it is none. */
+/* Where one of them has its vertices, and its pieces; count 0: it is none. */
 typedef struct carom_note {
-	uint32_t first, count;
+	uint32_t first;
+	uint16_t drawn_count;
+	uint8_t count, hull_count, piece_count;
 } carom_note;
 
 /* What the step events has on the device, and how it is driven: none of it changes a result. */
@@ -203,12 +209,17 @@ unsigned carom_traits_of(const carom_body *body);
 /* Once something rubs, or nothing does any more, the step needs other textures: of bodies from that index on that are new, or of all from 0. */
 void carom_look_for_traits(carom_world *world, size_t first);
 
-/* outlines.c. Has the world room for so many vertices more? */
+/* outlines.c. Has the world room for the vertices of one body more? */
 #define CAROM_MOST_VERTICES (6u << 22) /* with those of circles they take 2^24 texels at most, and so do the indices of these */
-bool carom_outlines_have_room(const carom_world *world, uint32_t count);
+bool carom_outlines_have_room(const carom_world *world, const carom_body *body);
+/* How many of world->vertices a body has. */
+uint32_t carom_outline_size(const carom_body *body);
+/* Where in world->vertices a polygon's hull begins, and what is drawn of it. */
+uint32_t carom_outline_hull(const carom_body *body);
+uint32_t carom_outline_drawn(const carom_body *body);
 /* Texels of Vertices that polygons take; those of circles, in their order, follow. */
 uint32_t carom_polygon_texels(const carom_world *world);
-/* Keeps a polygon's vertices and sets body->vertex_first; false if there is no memory. */
+/* Keeps a polygon's vertices and pieces, and sets what the body knows of them; false if there is no memory. */
 bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices);
 /* Fills in Outlines. */
 carom_status carom_outlines_send(carom_world *world, carom_error *error);
