@@ -715,8 +715,8 @@
 #define DRAWS_WIDTH 2
 #define DRAW_PARTS 0   /* texel */
 #define PARTS_VERTEX 0 /* the first in Stream and Placed */
-#define PARTS_COUNT 1  /* of vertices */
-#define PARTS_EDGE 2   /* the first in Edges: a polygon has all but one there at most, a circle LINE_REST of its radius line */
+#define PARTS_COUNT 1  /* of vertices; below 0: so many of a polygon that is not convex */
+#define PARTS_EDGE 2   /* the first in Edges: a polygon has all but one there at most, or SIDE_WIDTH a side, a circle LINE_REST of its radius line */
 #define PARTS_SHAPE 3  /* a polygon has one, a circle one or two */
 #define DRAW_INK 1     /* texel, the channels of SHAPE_INK */
 
@@ -739,8 +739,8 @@
 #define INK_OPACITY 3 /* 0..1 */
 #define SHAPE_EDGES 2 /* record */
 #define EDGES_REST 0  /* the second edge in Edges, and those after it */
-#define EDGES_COUNT 1 /* 0: the whole box */
-#define SHAPE_EDGE 3  /* record: the first edge */
+#define EDGES_COUNT 1 /* 0: the whole box; below 0: so many sides of an outline, all in Edges */
+#define SHAPE_EDGE 3  /* record: the first edge; of an outline what is added to the distance from it, as EDGE_AT */
 #define LINE_EDGES 4  /* of a line */
 #define LINE_REST 3   /* those of them that are in Edges */
 
@@ -750,7 +750,14 @@
 #define EDGE_SLOPE_Y 1
 #define EDGE_AT 2
 #define EDGE_BEND 3
-#define EDGE_NEXT (-1.0f) /* a bend: no edge, but behind it another piece of the shape begins */
+/* The outline of a polygon that is not convex: two records a side */
+#define SIDE_WIDTH 2
+#define SIDE_LINE 0 /* record: the half plane that it bounds, an edge */
+#define SIDE_ENDS 1 /* record: from the centre of the box's first pixel */
+#define ENDS_FROM_X 0
+#define ENDS_FROM_Y 1
+#define ENDS_TO_X 2
+#define ENDS_TO_Y 3
 
 /* Frame: the part of the picture that is drawn at once; two texels in a row */
 #define FRAME_WIDTH 2

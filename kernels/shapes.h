@@ -1,4 +1,4 @@
-/* Convex shapes in pixels, y down, clipped and measured from the first pixel that they may touch: there floats are exact
+/* Shapes in pixels, y down, clipped and measured from the first pixel that they may touch: there floats are exact
  * enough for any shape. */
 
 #define SHAPES_OUT RECORD_OUT(boxes), RECORD_OUT(shapes), RECORD_OUT(edges)
@@ -48,11 +48,21 @@ float growth(float breadth)
 	return clamped(0.5f * (1.0f - breadth), 0.0f, 0.5f);
 }
 
+float least_opacity(float length)
+{
+	return clamped(LEAST_OPACITY * length, LEAST_OPACITY, LINE_OPACITY);
+}
+
+float fill_of(float fill, float outline, float breadth, float length)
+{
+	bool is_line = breadth < 1.0f && least_opacity(length) >= LINE_OPACITY; /* two outlines and nothing between them */
+	return is_line ? outline : fill;
+}
+
 float4 ink_of(float fill, float outline, float width, float opacity, float breadth, float length)
 {
-	float least = clamped(LEAST_OPACITY * length, LEAST_OPACITY, LINE_OPACITY);
-	bool is_line = breadth < 1.0f && least >= LINE_OPACITY; /* two outlines and nothing between them */
-	return (float4)(is_line ? outline : fill, outline, clamped(0.125f * breadth, 0.0f, width),
+	float least = least_opacity(length);
+	return (float4)(fill_of(fill, outline, breadth, length), outline, clamped(0.125f * breadth, 0.0f, width),
 		clamped(opacity, 0.0f, 1.0f) * clamped(breadth, least, 1.0f));
 }
 

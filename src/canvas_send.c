@@ -57,6 +57,12 @@ carom_status carom_canvas_no_memory(const carom_world *world, carom_error *error
 
 /* ---- What is sent once: how vertices are to be found, and what is made of them [3] */
 
+/* A vertex of the polygon as Geometry counts: from the hull on, which lies behind it where it is another one. */
+static float ordinal_of(const carom_body *body, uint32_t vertex)
+{
+	return (float)vertex - (float)(carom_outline_hull(body) - body->vertex_first);
+}
+
 /* The vertex as the pipeline's option has it sent. */
 static void fill_stream(const carom_world *world, uint32_t index, uint32_t first_texel, uint32_t ordinal, float *texel)
 {
@@ -67,7 +73,7 @@ static void fill_stream(const carom_world *world, uint32_t index, uint32_t first
 	if (body->vertex_count > 1)
 		local = vertices[body->vertex_first + ordinal];
 	texel[STREAM_X] = by_body ? (float)index : by_texel ? (float)first_texel : local.x;
-	texel[STREAM_Y] = by_body || by_texel ? (float)ordinal : local.y;
+	texel[STREAM_Y] = by_body ? ordinal_of(body, ordinal) : by_texel ? (float)ordinal : local.y;
 	texel[STREAM_BODY] = (float)index;
 }
 
@@ -78,18 +84,22 @@ static void fill_draw(const carom_body *body, uint32_t index, const carom_canvas
 	if (fill == CAROM_COLOR_AUTO)
 		fill = body->is_static ? CAROM_COLOR_STATIC : carom_palette_color(index);
 	parts[PARTS_VERTEX] = (float)next->vertices;
-	parts[PARTS_COUNT] = (float)body->vertex_count;
+	parts[PARTS_COUNT] = body->is_convex ? (float)body->vertex_count : -(float)body->vertex_count;
 	parts[PARTS_EDGE] = (float)next->edges;
 	parts[PARTS_SHAPE] = (float)next->shapes;
 	ink[INK_FILL] = (float)fill;
 	ink[INK_OUTLINE] = (float)carom_darker_color(fill);
 }
 
-/* In Edges. */
+/* In Edges, but for those of radius lines. */
+static uint32_t sides_of(const carom_body *body)
+{
+	return body->is_convex ? body->vertex_count - 1u : SIDE_WIDTH * (uint32_t)body->vertex_count;
+}
+
 static uint32_t edges_of(const carom_canvas *canvas, const carom_body *body)
 {
-	const uint32_t of_line = canvas->has_lines ? LINE_REST : 0;
-	return body->vertex_count == 1 ? of_line : body->vertex_count - 1u;
+	return sides_of(body) + (body->vertex_count == 1 && canvas->has_lines ? LINE_REST : 0);
 }
 
 static uint32_t shapes_of(const carom_canvas *canvas, const carom_body *body)
@@ -107,7 +117,7 @@ static void count_bodies(carom_world *world)
 		const carom_body *body = &carom_world_bodies(world)[i];
 		const bool is_circle = body->vertex_count == 1;
 		canvas->all_vertices += body->vertex_count;
-		canvas->all_sides += body->vertex_count - 1;
+		canvas->all_sides += sides_of(body);
 		canvas->all_circles += is_circle;
 		canvas->largest_circle = is_circle && body->radius > canvas->largest_circle ? body->radius : canvas->largest_circle;
 	}

@@ -107,7 +107,7 @@ typedef struct carom_canvas {
 	uint32_t room[ROLE_COUNT];                     /* texels or ints that a texture of rendering holds */
 	uint32_t width, height;                        /* of Picture */
 	size_t body_count;                             /* of the world when these were counted: */
-	uint64_t all_vertices, all_sides, all_circles; /* of all bodies; the sides of polygons, but one of each */
+	uint64_t all_vertices, all_sides, all_circles; /* of all bodies; what Edges has of polygons */
 	float largest_circle;                          /* m, a radius */
 	bool has_lines;                                /* circles have a shape more for their radius line */
 	uint64_t first, end;                           /* of the bodies that Stream and Draws are of, in the order in which they are drawn */

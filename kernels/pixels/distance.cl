@@ -58,7 +58,7 @@ bool draw(lights *light, RECORD_IN(its), RECORD_IN(edges), float left, float top
 				patch->blue = in_box ? (float16)(fill.z) : patch->blue;
 				continue;
 			}
-			float16 far = beyond((float16)(-INFINITY), edge, x, y);
+			float16 far = count < 0 ? CHANNEL(edge, EDGE_AT) + beyond_outline(edges, rest, -count, x, y) : beyond((float16)(-INFINITY), edge, x, y);
 			for (int k = rest; k < rest + count - 1; k++)
 				far = beyond(far, edges[k], x, y);
 			float16 near = 0.5f - (in_box ? far : (float16)(1.0f));
@@ -68,7 +68,7 @@ bool draw(lights *light, RECORD_IN(its), RECORD_IN(edges), float left, float top
 			patch->blue = blended(patch->blue, outline.z, fill.z, cover, inside, CHANNEL(ink, INK_OPACITY));
 		}
 	}
-	return count > 0 || part.x > 0 || part.y > 0 || part.z < PIXEL_TILE || part.w < PIXEL_TILE;
+	return count != 0 || part.x > 0 || part.y > 0 || part.z < PIXEL_TILE || part.w < PIXEL_TILE;
 }
 
 /* A tile. */

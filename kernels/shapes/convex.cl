@@ -1,15 +1,5 @@
 /* What is drawn of each body, and the marks below them. */
 
-float2 offset_of(float4 placed)
-{
-	return (float2)(CHANNEL(placed, PLACED_X), CHANNEL(placed, PLACED_Y));
-}
-
-float2 center_of(float4 placed)
-{
-	return (float2)(CHANNEL(placed, PLACED_CENTER_X), CHANNEL(placed, PLACED_CENTER_Y));
-}
-
 void put_mark(TEX_IN(marks), TEX_IN(view), SHAPES_OUT, int i, int shape, int rest)
 {
 	float4 place = ROW_LOAD(marks, MARKS_WIDTH * i + MARK_PLACE), style = ROW_LOAD(marks, MARKS_WIDTH * i + MARK_STYLE);
@@ -52,23 +42,14 @@ void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape,
 
 void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count, int shape, int rest, float4 ink)
 {
-	float4 p = ROW_LOAD(placed, vertex), clip = TEX_LOAD(view, VIEW_CLIP, 0);
-	float2 c = center_of(p), first = offset_of(p), low = first, high = first, before = (float2)(0.0f, 0.0f);
-	float twice_area = 0.0f;
-	for (int k = 1; k < count; k++) {
-		float2 v = offset_of(ROW_LOAD(placed, vertex + k)), from_first = (float2)(v.x - first.x, v.y - first.y);
-		low = (float2)(smaller(low.x, v.x), smaller(low.y, v.y));
-		high = (float2)(larger(high.x, v.x), larger(high.y, v.y));
-		twice_area = twice_area + cross2(from_first, before);
-		before = from_first;
-	}
-	float size = norm((float2)(high.x - low.x, high.y - low.y)), line = CHANNEL(TEX_LOAD(view, VIEW_SCALE, 0), SCALE_LINE);
-	float breadth = (0.5f * twice_area) / larger(size, 1.0f), out = growth(breadth);
-	float4 box = touched_box((float2)(c.x + low.x, c.y + low.y), (float2)(c.x + high.x, c.y + high.y), out, clip);
-	float4 seen = ink_of(CHANNEL(ink, INK_FILL), CHANNEL(ink, INK_OUTLINE), line, 1.0f, breadth, size);
+	extent all = extent_of(TEX(placed), vertex, count);
+	float2 c = center_of(ROW_LOAD(placed, vertex)), first = offset_of(ROW_LOAD(placed, vertex)), from = first;
+	float line = CHANNEL(TEX_LOAD(view, VIEW_SCALE, 0), SCALE_LINE), breadth = mean_breadth(all), out = growth(breadth);
+	float4 box = box_of(all, c, out, TEX_LOAD(view, VIEW_CLIP, 0));
+	float4 seen = ink_of(CHANNEL(ink, INK_FILL), CHANNEL(ink, INK_OUTLINE), line, 1.0f, breadth, all.size);
 	if (!put_shape(SHAPES, shape, box, seen, rest, count))
 		return;
-	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y), from = first;
+	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y);
 	for (int k = 0; k < count; k++) {
 		float2 to = k + 1 < count ? offset_of(ROW_LOAD(placed, vertex + k + 1)) : first;
 		float2 side = (float2)(to.x - from.x, to.y - from.y);
@@ -97,6 +78,8 @@ __kernel void shapes(TEX_IN(draws), TEX_IN(marks), TEX_IN(placed), TEX_IN(view),
 	rest += LINE_REST * mark_count + (int)CHANNEL(parts, PARTS_EDGE);
 	if (count == 1)
 		put_circle(TEX(placed), TEX(view), SHAPES, vertex, shape, rest, ink, CHANNEL(start, FIRST_LINES) > 0.0f);
+	else if (count < 0)
+		put_outline(TEX(placed), TEX(view), SHAPES, vertex, -count, shape, rest, ink);
 	else
 		put_polygon(TEX(placed), TEX(view), SHAPES, vertex, count, shape, rest, ink);
 }

@@ -15,7 +15,7 @@ static const char *const headers[2][37] = {
 	{"layout", "texture", "numbers", "filter", "body", "convex", "apart", "search", "room", "reduce", "toi", "impulse", "forward", "slots", "reach",
 		"cluster", "around", "mend", "roster", "answer", "slice", "heap", "team", "join", "sleep", "rest", "shock", "tug", "queue", "seek", "joint",
 		"load", "held", "island", "kept", "still"},
-	{"layout", "texture", "numbers", "vertices", "shapes", "tiles", "light"},
+	{"layout", "texture", "numbers", "vertices", "shapes", "outline", "tiles", "light"},
 };
 
 static const carom_kernel_source *source_named(const char *slot, const char *name)

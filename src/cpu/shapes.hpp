@@ -134,6 +134,13 @@ public:
 		return true;
 	}
 
+	/* Side k of an outline: its line, and where it begins and ends. */
+	void side(int32_t rest, int32_t k, const Vec<T> &slope, T at, const Vec<T> &from, const Vec<T> &to) const
+	{
+		edges.put(rest + SIDE_WIDTH * k + SIDE_LINE, slope.x(), slope.y(), at, 0);
+		edges.put(rest + SIDE_WIDTH * k + SIDE_ENDS, from.x(), from.y(), to.x(), to.y());
+	}
+
 	/* Edge k of the shape. */
 	void edge(int32_t shape, int32_t rest, int32_t k, const Vec<T> &slope, T at, T bend) const
 	{

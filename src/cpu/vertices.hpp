@@ -54,10 +54,12 @@ template <typename T> struct Sent {
 	Vec<T> local;
 };
 
+/* (Ordinals may be below 0: halves are rounded down.) */
 template <typename T> Vec<T> local_vertex(const Accessed<T> &vertices, int32_t first, int32_t ordinal)
 {
-	const auto two = vertices.of(first + ordinal / 2);
-	return ordinal % 2 ? Vec<T>(two[VERTICES_X1], two[VERTICES_Y1]) : Vec<T>(two[VERTICES_X0], two[VERTICES_Y0]);
+	const int32_t is_second = ordinal & 1;
+	const auto two = vertices.of(first + (ordinal - is_second) / 2);
+	return is_second ? Vec<T>(two[VERTICES_X1], two[VERTICES_Y1]) : Vec<T>(two[VERTICES_X0], two[VERTICES_Y0]);
 }
 
 /* Vertices that are placed together, several side by side. */

@@ -103,18 +103,40 @@ private:
 			for (int32_t column = 0; column < columns; column += wide) {
 				Patch<T, wide, high> patch;
 				patch.begin(static_cast<T>(left + column) - seen.from_tile[BOX_X0], static_cast<T>(top + row) - seen.from_tile[BOX_Y0]);
-				measure(patch, seen.records, SHAPE_EDGE);
-				if (seen.count > 1) {
-					const Records<T> rest(&edges.of(static_cast<int32_t>(seen.of(SHAPE_EDGES, EDGES_REST)), 0));
-					for (int32_t k = 0; k < seen.count - 1; k++)
-						measure(patch, rest, k);
-				}
+				if (seen.count > 0)
+					measure_edges(patch, seen);
+				else
+					measure_outline(patch, seen);
 				patch.mask(seen.box[BOX_X1] - seen.box[BOX_X0], seen.box[BOX_Y1] - seen.box[BOX_Y0]);
 				patch.share(covers + taken, 0);
 				patch.share(insides + taken, seen.of(SHAPE_INK, INK_WIDTH));
 				taken += wide * high;
 			}
 		}
+	}
+
+	Records<T> rest_of(const Seen<T> &seen) const { return Records<T>(&edges.of(static_cast<int32_t>(seen.of(SHAPE_EDGES, EDGES_REST)), 0)); }
+
+	template <typename Patch> void measure_edges(Patch &patch, const Seen<T> &seen) const
+	{
+		measure(patch, seen.records, SHAPE_EDGE);
+		if (seen.count > 1) {
+			const Records<T> rest = rest_of(seen);
+			for (int32_t k = 0; k < seen.count - 1; k++)
+				measure(patch, rest, k);
+		}
+	}
+
+	template <typename Patch> void measure_outline(Patch &patch, const Seen<T> &seen) const
+	{
+		const Records<T> rest = rest_of(seen);
+		patch.beyond_outline(seen.of(SHAPE_EDGE, EDGE_AT), [&](const auto &visit) {
+			for (int32_t k = 0; k < -seen.count; k++) {
+				const int32_t line = SIDE_WIDTH * k + SIDE_LINE, ends = SIDE_WIDTH * k + SIDE_ENDS;
+				visit(Side<T>{rest.of(line, EDGE_SLOPE_X), rest.of(line, EDGE_SLOPE_Y), rest.of(line, EDGE_AT), rest.of(ends, ENDS_FROM_X),
+					rest.of(ends, ENDS_FROM_Y), rest.of(ends, ENDS_TO_X), rest.of(ends, ENDS_TO_Y)});
+			}
+		});
 	}
 
 	template <typename Patch> static void measure(Patch &patch, const Records<T> &edges, int32_t k)

@@ -185,6 +185,36 @@ template <typename T> static void draw_polygon(const Scene<T> &scene, int32_t ve
 	}
 }
 
+/* The sides of a polygon, one after the other: calls `visit(k, from, to)` with their ends about its centre. */
+template <typename T, typename Visit> static void visit_sides(const Scene<T> &scene, int32_t vertex, int32_t count, Visit visit)
+{
+	for (int32_t k = 0; k < count; k++)
+		visit(k, scene.offset(vertex + k), scene.offset(k == count - 1 ? vertex : vertex + k + 1));
+}
+
+/* A polygon that is not convex. */
+template <typename T> static void draw_outline(const Scene<T> &scene, int32_t vertex, int32_t count, int32_t shape, int32_t rest, const Ink<T> &ink)
+{
+	const Extent<T> all = measure(scene, vertex, count);
+	const Vec<T> c = scene.center(vertex);
+	T around = 0;
+	visit_sides(scene, vertex, count, [&](int32_t, const Vec<T> &from, const Vec<T> &to) { around += norm(to - from); });
+	const T size = norm(all.high() - all.low()), breadth = all.area / larger(T(0.5) * around, T(1)), out = growth(breadth);
+	const PixelBox<T> box = touched<T>(c + all.low(), c + all.high(), out, scene.clip);
+	Ink<T> its = seen(ink, breadth, size);
+	its.fill = fill_of(ink.fill, ink.outline, all.area / larger(size, T(1)), size); /* a long one that is wound up is no line */
+	if (!scene.to.shape(shape, box, its, rest, -count))
+		return;
+	const Vec<T> d = box.first_pixel() - c;
+	scene.to.edge(shape, rest, 0, {0, 0}, -out, 0);
+	visit_sides(scene, vertex, count, [&](int32_t k, const Vec<T> &from, const Vec<T> &to) {
+		const Vec<T> way = to - from;
+		const T length = norm(way);
+		const Vec<T> n = length > 0 ? Vec<T>(-way.y() / length, way.x() / length) : Vec<T>(0, 1); /* lost in rounding, it goes along x */
+		scene.to.side(rest, k, n, inner(n, d - from), from - d, to - d);
+	});
+}
+
 /* Bodies of one row, from k on. */
 template <typename T> static void draw_bodies(const Scene<T> &scene, int32_t k, int32_t count, int32_t shape, int32_t rest)
 {
@@ -198,6 +228,8 @@ template <typename T> static void draw_bodies(const Scene<T> &scene, int32_t k, 
 			const Drawn<T> &body = bodies[i];
 			if (body.count == 1)
 				circles.write(i, scene, shape + body.shape, rest + body.rest);
+			else if (body.count < 0)
+				draw_outline(scene, body.vertex, -body.count, shape + body.shape, rest + body.rest, {body.fill, body.outline, scene.line, 1});
 			else
 				draw_polygon(scene, body.vertex, body.count, shape + body.shape, rest + body.rest, {body.fill, body.outline, scene.line, 1});
 		}
