@@ -108,7 +108,8 @@ int16 crosses_side(float4 ends, float16 s, float16 x, float16 y)
 	float low = smaller(CHANNEL(ends, ENDS_FROM_X), CHANNEL(ends, ENDS_TO_X)), high = larger(CHANNEL(ends, ENDS_FROM_X), CHANNEL(ends, ENDS_TO_X));
 	int16 beside = (CHANNEL(ends, ENDS_FROM_Y) <= y) ^ (CHANNEL(ends, ENDS_TO_Y) <= y), outside = s > 0.0f;
 	int16 before = CHANNEL(ends, ENDS_FROM_Y) < CHANNEL(ends, ENDS_TO_Y) ? outside : ~outside;
-	return beside & (x < low | (x < high & before));
+	int16 before_both = x < low, before_one = x < high;
+	return beside & (before_both | (before_one & before));
 }
 
 /* How far they are from the outline of so many sides, below 0 inside. */

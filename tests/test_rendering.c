@@ -10,6 +10,8 @@
 #include "layout.h"
 #include "rendering.h"
 
+#include "concave.h"
+
 /* ---- Each stage against the CPU's two instances */
 
 typedef struct trial {
@@ -114,6 +116,14 @@ static void compare_pictures(trial *t, carom_render_def def)
 	free(found.pixels);
 }
 
+/* Polygons that are not convex lie over the rest. */
+static void fill_all(carom_world *world)
+{
+	carom_error error;
+	fill(world);
+	scenery_check(concave_add(world, CONCAVE_SHAPES, 1.9f, &error), &error);
+}
+
 /* False where the device is not there. */
 static bool try_device(const scenery_device *device, const char *option, trial *t)
 {
@@ -128,9 +138,9 @@ static bool try_device(const scenery_device *device, const char *option, trial *
 		return false;
 	t->reference = scenery_world(&def, &scenery_devices[0]);
 	t->oracle = judge_oracle(&def);
-	fill(t->reference);
-	fill(t->oracle);
-	fill(t->device);
+	fill_all(t->reference);
+	fill_all(t->oracle);
+	fill_all(t->device);
 	compare_pictures(t, with_inset(203, 150));
 	first = picture_of(t->device, with_inset(203, 150));
 	compare_pictures(t, render);
