@@ -106,9 +106,8 @@ float16 past_ends(float4 line, float4 ends, float16 x, float16 y)
 int16 crosses_side(float4 ends, float16 s, float16 x, float16 y)
 {
 	float low = smaller(CHANNEL(ends, ENDS_FROM_X), CHANNEL(ends, ENDS_TO_X)), high = larger(CHANNEL(ends, ENDS_FROM_X), CHANNEL(ends, ENDS_TO_X));
-	int16 beside = (CHANNEL(ends, ENDS_FROM_Y) <= y) ^ (CHANNEL(ends, ENDS_TO_Y) <= y), outside = s > 0.0f;
-	int16 before = CHANNEL(ends, ENDS_FROM_Y) < CHANNEL(ends, ENDS_TO_Y) ? outside : ~outside;
-	int16 before_both = x < low, before_one = x < high;
+	int16 beside = (CHANNEL(ends, ENDS_FROM_Y) <= y) ^ (CHANNEL(ends, ENDS_TO_Y) <= y), before_both = x < low, before_one = x < high;
+	int16 before = (CHANNEL(ends, ENDS_FROM_Y) < CHANNEL(ends, ENDS_TO_Y) ? s : -s) > 0.0f;
 	return beside & (before_both | (before_one & before));
 }
 

@@ -111,22 +111,16 @@ template <typename T, int32_t columns, int32_t rows> struct Patch {
 			far[i] = larger(far[i], (2 * s[i]) / (1 + std::sqrt(square[i])));
 	}
 
-	/* How far they are from an outline: how near its nearest side is, and whether a ray along x leaves it once more than it enters it. */
+	/* How far they are from an outline: how near its nearest side is (squares: roots can wait), and whether a ray along x leaves it once more than it enters it. */
 	template <typename Visit> void beyond_outline(T shift, const Visit &visit_sides)
 	{
-		T least[count];
-		bool inside[count];
-		for (int32_t i = 0; i < count; i++)
-			least[i] = infinite<T>, inside[i] = false;
-		visit_sides([&](const Side<T> &side) {
-			near_side(side, least);
-			pass_side(side, inside);
-		});
+		T least[count], sign[count];
+		std::fill(least, least + count, infinite<T>);
+		std::fill(sign, sign + count, T(1));
+		visit_sides([&](const Side<T> &side) { beside(side, least, sign); });
 #pragma omp simd
-		for (int32_t i = 0; i < count; i++) {
-			const T d = std::sqrt(least[i]);
-			far[i] = inside[i] ? shift - d : shift + d;
-		}
+		for (int32_t i = 0; i < count; i++)
+			far[i] = shift + sign[i] * std::sqrt(least[i]);
 	}
 
 	/* What is outside the box is far. */
@@ -149,32 +143,18 @@ template <typename T, int32_t columns, int32_t rows> struct Patch {
 	}
 
 private:
-	T from_line(const Side<T> &side, int32_t i) const
-	{
-		return (side.at + side.slope_y * y[i]) + side.slope_x * x[i];
-	}
-
-	/* Squares: roots can wait. */
-	void near_side(const Side<T> &side, T *least) const
+	/* (Where a side is far, rounding may not tell on which side of its line a pixel is; then its ends do.) */
+	void beside(const Side<T> &side, T *least, T *sign) const
 	{
 		const T begin = side.slope_y * side.from_x - side.slope_x * side.from_y, end = side.slope_y * side.to_x - side.slope_x * side.to_y;
+		const T left = smaller(side.from_x, side.to_x), right = larger(side.from_x, side.to_x), sense = side.from_y < side.to_y ? 1 : -1;
 #pragma omp simd
 		for (int32_t i = 0; i < count; i++) {
-			const T s = from_line(side, i), way = -side.slope_x * y[i] + side.slope_y * x[i];
+			const T s = (side.at + side.slope_y * y[i]) + side.slope_x * x[i], way = -side.slope_x * y[i] + side.slope_y * x[i];
 			const T over = larger(larger(begin - way, way - end), T(0));
+			const bool is_level = (side.from_y <= y[i]) != (side.to_y <= y[i]);
 			least[i] = smaller(least[i], s * s + over * over);
-		}
-	}
-
-	/* (Where a side is far, rounding may not tell on which side of its line a pixel is; then its ends do.) */
-	void pass_side(const Side<T> &side, bool *inside) const
-	{
-		const T left = smaller(side.from_x, side.to_x), right = larger(side.from_x, side.to_x);
-		const bool descends = side.from_y < side.to_y;
-#pragma omp simd
-		for (int32_t i = 0; i < count; i++) {
-			const bool is_level = (side.from_y <= y[i]) != (side.to_y <= y[i]), is_before = (from_line(side, i) > 0) == descends;
-			inside[i] ^= is_level & ((x[i] < left) | ((x[i] < right) & is_before));
+			sign[i] = (is_level & ((x[i] < left) | ((x[i] < right) & (sense * s > 0)))) ? -sign[i] : sign[i];
 		}
 	}
 };
