@@ -6,7 +6,7 @@
 #include "layout.h"
 #include "rendering.h"
 
-#include "concave.h"
+#include "silhouettes.h"
 
 #define GROUND 0xFCFCFAu
 #define FILL 0x3399CCu
@@ -88,10 +88,10 @@ static picture picture_at(carom_world *world)
 static void pixels_are_inside_or_outside(void **state)
 {
 	(void)state;
-	for (uint32_t shape = 0; shape < CONCAVE_SHAPES; shape++) {
+	for (uint32_t shape = 0; shape < SILHOUETTES; shape++) {
 		for (int turn = 0; turn < 4; turn++) {
 			carom_vec2 v[CAROM_MAX_VERTICES];
-			carom_body_def body = concave_body(shape, v, 0.013f * (float)turn, -0.1f * (float)turn, 0.77f * (float)turn);
+			carom_body_def body = silhouette_body(shape, v, 0.013f * (float)turn, -0.1f * (float)turn, 0.77f * (float)turn);
 			body.color = FILL;
 			carom_world *world = world_on("cpu", carom_default_world_def(), &body, 1);
 			const outline of = outline_of(world);
@@ -110,7 +110,7 @@ static void a_filled_one_is_found(void **state)
 	(void)state;
 	static const carom_vec2 box[4] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 	carom_vec2 v[CAROM_MAX_VERTICES];
-	carom_body_def bodies[2] = {concave_body(1, v, 0, 0, 0), carom_default_body_def()};
+	carom_body_def bodies[2] = {silhouette_body(1, v, 0, 0, 0), carom_default_body_def()};
 	carom_world *world = world_on("cpu", carom_default_world_def(), bodies, 1);
 	const outline of = outline_of(world);
 	carom_world_destroy(world);
@@ -178,7 +178,7 @@ static void tiny_ones_show_wherever_they_are(void **state)
 static void add_all(carom_world *world, uint32_t count)
 {
 	carom_error error;
-	scenery_check(concave_add(world, count, 1.9f, &error), &error);
+	scenery_check(silhouette_add(world, count, 1.9f, &error), &error);
 }
 
 /* A picture with an inset, and one of what is near, where sides begin and end outside. */

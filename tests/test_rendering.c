@@ -10,7 +10,7 @@
 #include "layout.h"
 #include "rendering.h"
 
-#include "concave.h"
+#include "silhouettes.h"
 
 /* ---- Each stage against the CPU's two instances */
 
@@ -121,7 +121,7 @@ static void fill_all(carom_world *world)
 {
 	carom_error error;
 	fill(world);
-	scenery_check(concave_add(world, CONCAVE_SHAPES, 1.9f, &error), &error);
+	scenery_check(silhouette_add(world, SILHOUETTES, 1.9f, &error), &error);
 }
 
 /* False where the device is not there. */
