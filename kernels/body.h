@@ -2,7 +2,8 @@
  * the way made in a step. */
 
 typedef struct body {
-	int index, first, count; /* first texel and number of vertices */
+	int index, first, count; /* first texel and number of vertices; of what is not convex those of its hull */
+	int pieces;              /* of what is not convex; else 0 */
 	float2 x, v, a;          /* position at the start of the step, velocity, acceleration */
 	float r, w, b;           /* angle, angular velocity, angular acceleration */
 	float radius;
@@ -23,6 +24,7 @@ body body_load(STATE_IN, int index, float length)
 	k.index = index;
 	k.first = (int)CHANNEL(g, GEOMETRY_FIRST);
 	k.count = (int)CHANNEL(g, GEOMETRY_COUNT);
+	k.pieces = 0; /* the step first_impact has none */
 	k.radius = CHANNEL(r, ROTATIONAL_RADIUS);
 	k.restitution = CHANNEL(f, FORCES_RESTITUTION);
 	k.inverse_mass = 1.0f / CHANNEL(g, GEOMETRY_MASS);
@@ -141,6 +143,11 @@ float2 normal_load(VERTICES_IN, int first, int j, float2 to)
 	float4 corner = vertices[first + j];
 	return (float2)(CHANNEL(corner, OUTLINE_NORMAL_X), CHANNEL(corner, OUTLINE_NORMAL_Y));
 }
+
+float4 piece_record(VERTICES_IN, int index)
+{
+	return vertices[index];
+}
 #else
 #define VERTICES_IN TEX_IN(vertices)
 #define VERTICES TEX(vertices)
@@ -156,6 +163,11 @@ float2 normal_load(VERTICES_IN, int first, int j, float2 to)
 	float2 from = vertex_load(VERTICES, first, j), e = (float2)(to.x - from.x, to.y - from.y);
 	float size = norm(e);
 	return (float2)(e.y / size, -e.x / size);
+}
+
+float4 piece_record(VERTICES_IN, int index) /* nobody asks */
+{
+	return ROW_LOAD(vertices, index);
 }
 #endif
 

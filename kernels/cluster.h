@@ -14,7 +14,7 @@ float pair_time(VERTICES_IN, RECORD_IN(slots), float4 rules, int s, trajectory k
 	body a = body_of(slots, s, k, length), b = body_of(slots, other, o, length);
 	bool in_order = slot_body(slots, s) > slot_body(slots, other);
 	float end = smaller((until - t0) + 1e-6f, rest); /* not before, however that is rounded */
-	float4 found = in_order ? pair_first(VERTICES, a, b, end, rules) : pair_first(VERTICES, b, a, end, rules);
+	float4 found = in_order ? bodies_first(VERTICES, a, b, end, rules) : bodies_first(VERTICES, b, a, end, rules);
 	float hit = CHANNEL(found, HITTIMES_HIT);
 	*pause = !(CHANNEL(found, HITTIMES_DONE) > 0.0f);
 	return hit <= rest ? smaller(t0 + hit, 1.0f) : NO_HIT;

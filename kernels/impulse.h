@@ -139,8 +139,10 @@ SELDOM float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules
 {
 	pose p = pose_at(a, b, t);
 	float slop = pair_slop(a, b), still = pair_stillness(a, b);
-	axis k = hit_axis(VERTICES, a, b, p, slop, still, rules.part);
-	contact c = contact_at(VERTICES, a, b, p, k, slop);
+	bool pieces = has_pieces(a, b);
+	encounter m = pieces ? pieces_encounter(VERTICES, a, b, p, slop, still, rules.part) : encounter_of(VERTICES, a, b, p, slop, still, rules.part);
+	axis k = m.k;
+	contact c = m.at.c;
 	threshold h = threshold_of(k.gap, slop, still, rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
 	float push = larger(norm(a.a), norm(b.a)), restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, push, still),

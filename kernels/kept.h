@@ -13,22 +13,24 @@ int warm_count(RECORD_IN(slots), LIST_IN(warm_spans), int s)
 /* What a point's forces were, in N, and the records of its contact; contacts are asked for in order. */
 typedef struct last_forces {
 	int partner, k;
+	bool found;
 	float4 forces, held;
 	float force, friction;
 } last_forces;
 
-/* Of a slot's next point, with that partner: zeros if the last step had no such contact. */
-void last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_spans), int s, int partner, bool rub, last_forces *last)
+/* Of a slot's next point, with that partner, which may be the `second` one of a contact: zeros if the last step had no such contact. */
+void last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_spans), int s, int partner, bool second, bool rub, last_forces *last)
 {
-	bool second = partner == last->partner;
 	if (!second) {
 		int key = partner_key(slots, partner), count = warm_count(slots, warm_spans, s);
 		int start = warm_spans[WARM_SPAN(slot_body(slots, s), WARM_SPAN_START)];
+		last->k += partner == last->partner && last->found; /* one more of the same two */
 		while (last->k < count && (int)CHANNEL(warm[WARM(start, last->k, rub)], WARM_PARTNER) < key)
 			last->k++;
 		int at = WARM(start, last->k, rub);
 		bool found = last->k < count && (int)CHANNEL(warm[at], WARM_PARTNER) == key;
 		last->partner = partner;
+		last->found = found;
 		last->forces = found ? warm[at] : (float4)(0.0f);
 		last->held = found && rub ? warm[at + 1] : (float4)(0.0f);
 	}
@@ -48,12 +50,9 @@ float force_begun(RECORD_IN(slots), int s, int partner, float force, float lengt
 /* Sees to it that there is room for the forces of as many contacts as a slot has now; what is kept goes along. */
 void warm_take(RECORD_IN(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub)
 {
-	int contacts_now = 0, before = PARTNER_NONE;
-	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
-		int other = (int)POINT_IN(contacts, FOUR_WIDTH, first, point)[4 * FOUR_PARTNER];
-		contacts_now += other != before;
-		before = other;
-	}
+	int contacts_now = 0, from = first_contact(touching, s), first = first_four(touching, s);
+	for (int point = from; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++)
+		contacts_now += !is_second(contacts, first, point, from);
 	__global int *span = warm_spans + WARM_SPAN(slot_body(slots, s), 0);
 	if (contacts_now <= span[WARM_SPAN_ROOM])
 		return;
@@ -73,10 +72,11 @@ void rests_warm(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_
 	float length)
 {
 	last_forces last = {.partner = PARTNER_NONE};
-	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	int from = first_contact(touching, s), first = first_four(touching, s);
+	for (int point = from; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
+		last_forces_of(slots, warm, warm_spans, s, other, is_second(contacts, first, point, from), rub, &last);
 		at[4 * FOUR_LEAST] = EASE * at[4 * FOUR_LEAST] - (0.5f / CONTACT_PART) * at[4 * FOUR_TOLERANCE];
 		float friction = rub ? grip[4 * GRIP_FRICTION] : 0.0f, part = friction > 0.0f ? 1.0f : WARM_PART;
 		float force = part * force_begun(slots, s, other, last.force, length);
@@ -101,10 +101,11 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 {
 	last_forces last = {.partner = PARTNER_NONE};
 	bool same = true;
-	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	int from = first_contact(touching, s), first = first_four(touching, s);
+	for (int point = from; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		last_forces_of(slots, warm, warm_spans, s, other, rub, &last);
+		last_forces_of(slots, warm, warm_spans, s, other, is_second(contacts, first, point, from), rub, &last);
 		bool lasts = force_begun(slots, s, other, last.force, length) > 0.0f, rubs = rub && grip[4 * GRIP_FRICTION] > 0.0f;
 		bool rests = bears && was_moving_at(pushes, s, ground) && partner_was_at_rest(pushes, other, ground);
 		float follow = rubs ? (rests ? 0.0f : GRIP_WARM_FOLLOW) : WARM_FOLLOW;
@@ -120,18 +121,18 @@ bool forces_mean(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(pushes),
 	RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub, float2 ground, float length)
 {
-	int body = slot_body(slots, s), start = warm_spans[WARM_SPAN(body, WARM_SPAN_START)], count = 0, before = PARTNER_NONE;
+	int body = slot_body(slots, s), start = warm_spans[WARM_SPAN(body, WARM_SPAN_START)], count = 0;
+	int from = first_contact(touching, s), first = first_four(touching, s);
 	if (!forces_mean(slots, contacts, grips, touching, pushes, warm, warm_spans, s, rub, island_bears(status, touching, islands, s), ground, length))
 		island_disturb(touching, islands, s);
-	for (int point = first_contact(touching, s), first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
+	for (int point = from; point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *grip = POINT_IN(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
-		int second = other == before, to = WARM(start, count - second, rub);
+		int second = is_second(contacts, first, point, from), to = WARM(start, count - second, rub);
 		float force = at[4 * FOUR_FORCE], held = rub ? grip[4 * GRIP_FORCE] : 0.0f;
 		warm[to] = second ? (float4)(warm[to].x, warm[to].y, force, 0.0f) : (float4)((float)partner_key(slots, other), force, 0.0f, 0.0f);
 		if (rub)
 			warm[to + 1] = second ? (float4)(warm[to + 1].x, held, 0.0f, 0.0f) : (float4)(held, 0.0f, 0.0f, 0.0f);
-		before = other;
 		count += !second;
 	}
 	warm_spans[WARM_SPAN(body, WARM_SPAN_COUNT)] = count;

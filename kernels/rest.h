@@ -16,7 +16,8 @@ typedef struct rest_point {
 
 /* A contact, and what its points are judged by: how much the stronger push makes in a step, and how near it may come. */
 typedef struct rest {
-	int key, partner, count;
+	int order; /* of a body's contacts: the partner's key, and which one it is of the two */
+	int partner, count;
 	float2 n;
 	float force, cushion, friction;
 	float rolling, rolling_arm; /* the coefficient of rolling friction, which circles may have, and its force's arm about both centres */
@@ -29,9 +30,9 @@ int rest_lanes(const rest *r)
 	return r->count == 1 && r->rolling > 0.0f ? 2 : r->count;
 }
 
-/* The contacts of one slot, while they are found: the first ones, by their keys, after one. */
+/* The contacts of one slot, while they are found: the first ones, in their order, after one. */
 typedef struct rests {
-	int after;  /* a key */
+	int after;  /* as in rest */
 	int count;  /* of those here */
 	int points; /* of all, or more, if they are counted */
 	bool left;  /* there may be more than there is room for */
@@ -53,10 +54,16 @@ float rest_force(float push, float radius)
 	return smaller(push, CONTACT_NEAR * radius);
 }
 
-rest rest_begin(int key, int partner, float2 n, float force, float slop, float friction)
+/* Contact `part` with the partner of that key. */
+int order_of(int key, int part)
+{
+	return PAIR_RESTS * key + part;
+}
+
+rest rest_begin(int order, int partner, float2 n, float force, float slop, float friction)
 {
 	rest r;
-	r.key = key;
+	r.order = order;
 	r.partner = partner;
 	r.count = 0;
 	r.n = n;
@@ -108,29 +115,29 @@ void rests_begin(rests *all, int after, bool counts)
 	all->left = false;
 }
 
-/* Is it known of a contact with that key that it is none of these? */
+/* Is it known of contacts with that key that they are none of these? */
 bool rests_are_others(rests *all, int key)
 {
-	bool beyond = all->count == CONTACTS_AT_ONCE && key > all->of[CONTACTS_AT_ONCE - 1].key;
+	bool beyond = all->count == CONTACTS_AT_ONCE && order_of(key, 0) > all->of[CONTACTS_AT_ONCE - 1].order;
 	all->left = all->left || beyond;
-	return key <= all->after || (beyond && !all->counts);
+	return order_of(key, PAIR_RESTS - 1) <= all->after || (beyond && !all->counts);
 }
 
-/* Where its key says, but once: a neighbour may be noted twice. */
+/* Where its order says, but once: a neighbour may be noted twice. */
 void rests_insert(rests *all, rest r)
 {
-	if (r.count == 0 || r.key <= all->after)
+	if (r.count == 0 || r.order <= all->after)
 		return;
 	for (int k = 0; k < all->count; k++)
-		if (all->of[k].key == r.key)
+		if (all->of[k].order == r.order)
 			return;
 	bool full = all->count == CONTACTS_AT_ONCE;
 	all->points += rest_lanes(&r);
 	all->left = all->left || full;
-	if (full && r.key > all->of[CONTACTS_AT_ONCE - 1].key)
+	if (full && r.order > all->of[CONTACTS_AT_ONCE - 1].order)
 		return;
 	int k = full ? CONTACTS_AT_ONCE - 1 : all->count++;
-	for (; k > 0 && all->of[k - 1].key > r.key; k--)
+	for (; k > 0 && all->of[k - 1].order > r.order; k--)
 		all->of[k] = all->of[k - 1];
 	all->of[k] = r;
 }
@@ -142,6 +149,30 @@ float near_force(body own, body partner, nearness near)
 	float force = rest_force(push, smaller(own.radius, partner.radius));
 	float2 d = (float2)(partner.x.x - own.x.x, partner.x.y - own.x.y);
 	return norm(d) - (own.radius + partner.radius) > force ? 0.0f : force;
+}
+
+/* The contact `part` of the body in slot s with another. */
+rest rest_of(TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, body own, int other, body partner, nearness near, float force, float slop,
+	float rub, const grounding *at, int part)
+{
+	int key = slot_body(slots, other);
+	bool is_row = slot_body(slots, s) > key;
+	contact c = at->c;
+	bool is_incident = is_row == c.swapped;
+	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
+	float2 back = (float2)(-n.x, -n.y);
+	rest r = rest_begin(order_of(key, part), slot_is_static(slots, other) ? PARTNER_STATIC(key) : other, n, force, slop, rub);
+	for (int j = 0; j < c.count; j++) {
+		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
+		float2 lever = is_incident ? c.inc[i] : c.ref[i], other_lever = is_incident ? c.ref[i] : c.inc[i];
+		rest_add(&r, near.fast, c.rate[i], at->gap[i], lever, other_lever, touch_lever(own, lever, back), touch_lever(partner, other_lever, n));
+	}
+	if (own.count == 1 || partner.count == 1) {
+		float radius = partner.count > 1 ? own.radius : own.count > 1 ? partner.radius : smaller(own.radius, partner.radius);
+		r.rolling = rolling_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key);
+		r.rolling_arm = is_row ? radius : -radius;
+	}
+	return r;
 }
 
 /* Of the body in slot s on another, as they are now. */
@@ -158,32 +189,11 @@ void rest_on_body(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 	bool is_row = slot_body(slots, s) > key;
 	body a = is_row ? own : partner, b = is_row ? partner : own;
 	pose p = pose_at(a, b, 0.0f);
-	axis k = best_axis(VERTICES, a, b, p);
 	float slop = pair_slop(a, b);
-	if (k.gap > force || k.gap < -(SUNK_MOST * slop))
-		return;
-	contact c = contact_at(VERTICES, a, b, p, k, force - k.gap);
-	axis way = corner_way(VERTICES, a, b, p, k, c, slop);
-	if (!axes_are_same(way, k)) {
-		k = way;
-		c = contact_at(VERTICES, a, b, p, k, force - k.gap);
-	}
-	bool is_incident = is_row == c.swapped;
-	float2 n = is_incident ? c.n : (float2)(-c.n.x, -c.n.y);
-	float2 back = (float2)(-n.x, -n.y);
-	rest r = rest_begin(key, slot_is_static(slots, other) ? PARTNER_STATIC(key) : other, n, force, slop, rub);
-	for (int j = 0; j < c.count; j++) {
-		int i = c.swapped ? c.count - 1 - j : j; /* whichever is the reference, in the same order */
-		float gap = c.count > 1 ? inner(c.n, c.ref[i]) - k.offset : k.gap;
-		float2 lever = is_incident ? c.inc[i] : c.ref[i], other_lever = is_incident ? c.ref[i] : c.inc[i];
-		rest_add(&r, near.fast, c.rate[i], gap, lever, other_lever, touch_lever(own, lever, back), touch_lever(partner, other_lever, n));
-	}
-	if (own.count == 1 || partner.count == 1) {
-		float radius = partner.count > 1 ? own.radius : own.count > 1 ? partner.radius : smaller(own.radius, partner.radius);
-		r.rolling = rolling_of(TEX(uniforms), TEX(friction), slot_body(slots, s), key);
-		r.rolling_arm = is_row ? radius : -radius;
-	}
-	rests_insert(all, r);
+	grounding at[PAIR_RESTS];
+	int count = has_pieces(a, b) ? pieces_find(VERTICES, a, b, p, force, slop, at) : grounding_find(VERTICES, a, b, p, force, slop, at) ? 1 : 0;
+	for (int part = 0; part < count; part++)
+		rests_insert(all, rest_of(TEX(uniforms), TEX(friction), slots, s, own, other, partner, near, force, slop, rub, &at[part], part));
 }
 
 void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, float rolling, nearness near, rests *all)
@@ -191,7 +201,7 @@ void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, fl
 	float offset, force = rest_force(near.weight > 0.0f ? near.weight : norm(k.a), k.radius);
 	float2 n = wall_normal(room, wall, &offset), none = (float2)(0.0f, 0.0f);
 	float height = inner(n, k.x) - offset, speed = inner(n, k.v);
-	rest r = rest_begin(-1 - wall, PARTNER_WALL(wall), n, force, wall_slop(k), friction);
+	rest r = rest_begin(order_of(-1 - wall, 0), PARTNER_WALL(wall), n, force, wall_slop(k), friction);
 	if (k.count == 1) {
 		r.rolling = rolling;
 		r.rolling_arm = k.radius;
@@ -214,6 +224,14 @@ void rest_on_wall(VERTICES_IN, float4 room, body k, int wall, float friction, fl
 		}
 	}
 	rests_insert(all, r);
+}
+
+/* Is a point, from that one on, of the same contact as the one before it? */
+bool is_second(RECORD_IN(contacts), int first, int point, int from)
+{
+	__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, point), *before = POINT_IN(contacts, FOUR_WIDTH, first, max(point - 1, 0));
+	return point > from && at[4 * FOUR_PARTNER] == before[4 * FOUR_PARTNER] && at[4 * FOUR_NORMAL_X] == before[4 * FOUR_NORMAL_X]
+		&& at[4 * FOUR_NORMAL_Y] == before[4 * FOUR_NORMAL_Y];
 }
 
 /* A point that pushes nothing. */
@@ -328,7 +346,7 @@ int rests_find(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots)
 		if (all.counts && !fours_take(status, touching, s, joined + all.points))
 			return 0;
 		count = rests_write(&all, contacts, grips, touching[TOUCH(s, TOUCHING_FIRST)], count, anything_rubs(TEX(uniforms)));
-		after = all.count > 0 ? all.of[all.count - 1].key : after;
+		after = all.count > 0 ? all.of[all.count - 1].order : after;
 	} while (all.left);
 	return count;
 }

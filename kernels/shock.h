@@ -277,7 +277,9 @@ int party_hit(RECORD_IN(slots), LIST_OUT(status), LIST_OUT(members), LIST_IN(act
 {
 	__global float4 *at = shocks + SHOCK(id, point), *next = at + SHOCK_WIDTH;
 	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
-	bool two = point + 1 < SHOCK_POINTS && CHANNEL(next[SHOCK_PUSH], SHOCK_PARTNER) == CHANNEL(push, SHOCK_PARTNER);
+	float4 next_normal = point + 1 < SHOCK_POINTS ? next[SHOCK_NORMAL] : normal;
+	bool two = point + 1 < SHOCK_POINTS && CHANNEL(next[SHOCK_PUSH], SHOCK_PARTNER) == CHANNEL(push, SHOCK_PARTNER)
+		&& CHANNEL(next_normal, SHOCK_X) == CHANNEL(normal, SHOCK_X) && CHANNEL(next_normal, SHOCK_Y) == CHANNEL(normal, SHOCK_Y);
 	float total = CHANNEL(push, SHOCK_IMPULSE), rub = CHANNEL(push, SHOCK_RUB), arm = CHANNEL(normal, SHOCK_ARM),
 		  grip_arm = CHANNEL(grip, SHOCK_GRIP_ARM);
 	if (two) {

@@ -80,8 +80,10 @@ body body_of(RECORD_IN(slots), int s, trajectory k, float length)
 	float4 constants = SLOT_LOAD(slots, s, SLOT_TURN), mass = SLOT_LOAD(slots, s, SLOT_MASS), push = SLOT_LOAD(slots, s, SLOT_PUSH);
 	body b;
 	b.index = s;
+	int count = (int)CHANNEL(mass, MASS_COUNT);
 	b.first = (int)CHANNEL(mass, MASS_FIRST);
-	b.count = (int)CHANNEL(mass, MASS_COUNT);
+	b.count = count % PIECES;
+	b.pieces = count / PIECES;
 	b.radius = CHANNEL(constants, TURN_RADIUS);
 	b.restitution = CHANNEL(constants, TURN_RESTITUTION);
 	b.inverse_mass = CHANNEL(mass, MASS_INVERSE);

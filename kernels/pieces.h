@@ -1,0 +1,250 @@
+/* Bodies that are not convex, by their convex pieces: CONTRACT.md, "Polygons that are not convex". */
+
+/* A body is asked for one piece after the other. */
+typedef struct piece {
+	body self;     /* like the whole, with the vertices of the piece */
+	int next;      /* where those of the next one begin */
+	float2 middle; /* of a circle about the piece, from the whole's centre, */
+	float far;     /* how far that is, */
+	float radius;  /* and of the circle */
+} piece;
+
+bool has_pieces(body a, body b)
+{
+	return a.pieces > 0 || b.pieces > 0;
+}
+
+int piece_count(body whole)
+{
+	return max(whole.pieces, 1);
+}
+
+/* Where the records of pieces are. */
+int piece_table(body whole)
+{
+	return whole.first + whole.count + whole.count % 2;
+}
+
+/* Where the first one's vertices begin. */
+int first_piece(body whole)
+{
+	return piece_table(whole) + whole.pieces;
+}
+
+/* Piece i, whose vertices begin at `first`, of a body that is so turned; of what is convex, itself. */
+piece piece_load(VERTICES_IN, body whole, float2 rotation, int i, int first)
+{
+	piece p = {whole, first, (float2)(0.0f, 0.0f), 0.0f, whole.radius};
+	if (whole.pieces == 0)
+		return p;
+	float4 record = piece_record(VERTICES, piece_table(whole) + i);
+	float2 middle = (float2)(CHANNEL(record, PIECE_X), CHANNEL(record, PIECE_Y));
+	p.self.first = first;
+	p.self.count = (int)CHANNEL(record, PIECE_COUNT);
+	p.self.pieces = 0;
+	p.next = first + p.self.count + 1;
+	p.middle = turn(rotation, middle);
+	p.far = norm(middle);
+	p.radius = CHANNEL(record, PIECE_RADIUS);
+	return p;
+}
+
+/* Do two pieces surely not come within reach until t? */
+bool pieces_are_far(const piece *a, const piece *b, float t, float reach)
+{
+	float2 d = (float2)((b->self.x.x - a->self.x.x) + (b->middle.x - a->middle.x), (b->self.x.y - a->self.x.y) + (b->middle.y - a->middle.y));
+	float2 v = (float2)(b->self.v.x - a->self.v.x, b->self.v.y - a->self.v.y), push = (float2)(b->self.a.x - a->self.a.x, b->self.a.y - a->self.a.y);
+	float turned = (magnitude(a->self.w) + 0.5f * magnitude(a->self.b)) * a->far;
+	float other_turned = (magnitude(b->self.w) + 0.5f * magnitude(b->self.b)) * b->far;
+	float way = (((span(v) + 0.5f * span(push)) + turned) + other_turned) * t;
+	return norm(d) - (a->radius + b->radius) > way + reach;
+}
+
+/* The first hit of two bodies of which one at least has pieces. */
+SELDOM float4 pieces_first(VERTICES_IN, body a, body b, float until, float4 rules)
+{
+	float2 ra = body_rotation(a, 0.0f), rb = body_rotation(b, 0.0f);
+	float reach = APART_SLOPS * pair_slop(a, b), end = smaller(until, 1.0f);
+	float4 best = hit_none();
+	piece p, q;
+	for (int i = 0, first = first_piece(a); i < piece_count(a); i++, first = p.next) {
+		p = piece_load(VERTICES, a, ra, i, first);
+		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = q.next) {
+			q = piece_load(VERTICES, b, rb, j, other_first);
+			if (pieces_are_far(&p, &q, end, reach))
+				continue;
+			float4 hit = pair_first(VERTICES, p.self, q.self, end, rules);
+			if (CHANNEL(hit, HITTIMES_HIT) < CHANNEL(best, HITTIMES_HIT))
+				best = hit;
+			end = smaller(end, CHANNEL(best, HITTIMES_HIT));
+		}
+	}
+	return best;
+}
+
+/* The first hit of any two bodies. */
+float4 bodies_first(VERTICES_IN, body a, body b, float until, float4 rules)
+{
+	return has_pieces(a, b) ? pieces_first(VERTICES, a, b, until, rules) : pair_first(VERTICES, a, b, until, rules);
+}
+
+/* The two points of a contact, or its one, with how far each is from touching. */
+typedef struct grounding {
+	contact c;
+	float gap[2];
+} grounding;
+
+void grounding_set(grounding *to, int i, pose p, float2 ref, float2 inc, float gap)
+{
+	to->c.ref[i] = ref;
+	to->c.inc[i] = inc;
+	to->c.rate[i] = parting_rate(to->c.swapped ? pose_swapped(p) : p, to->c.n, ref, inc);
+	to->gap[i] = gap;
+}
+
+/* Of the other contact's normal, as seen from the same reference: the sign. */
+float same_sense(const grounding *to, const grounding *other)
+{
+	return to->c.swapped == other->c.swapped ? 1.0f : -1.0f;
+}
+
+/* Do two bodies press along one normal at both? */
+bool are_alike(const grounding *to, const grounding *other)
+{
+	return same_sense(to, other) * inner(other->c.n, to->c.n) > PIECES_ALIKE;
+}
+
+/* What is alike becomes one contact, of the outermost points. */
+void grounding_merge(grounding *to, const grounding *other, pose p, float near)
+{
+	bool same = same_sense(to, other) > 0.0f;
+	float2 way = (float2)(-to->c.n.y, to->c.n.x);
+	for (int i = 0; i < other->c.count; i++) {
+		float2 ref = same ? other->c.ref[i] : other->c.inc[i], inc = same ? other->c.inc[i] : other->c.ref[i];
+		float at = inner(way, ref);
+		bool before = at<inner(way, to->c.ref[0]) - near, behind = at> inner(way, to->c.ref[to->c.count - 1]) + near;
+		if (before && to->c.count == 1) {
+			to->c.ref[1] = to->c.ref[0], to->c.inc[1] = to->c.inc[0];
+			to->c.rate[1] = to->c.rate[0], to->gap[1] = to->gap[0];
+		}
+		if (before || behind) {
+			to->c.count = 2;
+			grounding_set(to, before ? 0 : 1, p, ref, inc, other->gap[i]);
+		}
+	}
+}
+
+/* How near points are to each other that count as one. */
+float merge_near(float slop)
+{
+	return (CORNER_NEAR * CORNER_DEEP) * slop;
+}
+
+/* Two convex bodies as they hit each other: along an axis, at a contact. */
+typedef struct encounter {
+	axis k;
+	grounding at; /* without gaps */
+} encounter;
+
+encounter encounter_of(VERTICES_IN, body a, body b, pose p, float slop, float still, float part)
+{
+	encounter m;
+	m.k = hit_axis(VERTICES, a, b, p, slop, still, part);
+	m.at.c = contact_at(VERTICES, a, b, p, m.k, slop);
+	m.at.gap[0] = m.at.gap[1] = 0.0f;
+	return m;
+}
+
+/* Is the hit rather along this one: of what touches the fastest approach, else what is nearest? */
+bool meets_rather(const encounter *m, const encounter *than, float slop)
+{
+	bool touches = m->k.gap <= PIECES_TOUCH * slop, than_touches = than->k.gap <= PIECES_TOUCH * slop;
+	if (touches != than_touches)
+		return touches;
+	return touches ? rate_of(m->at.c) < rate_of(than->at.c) : m->k.gap < than->k.gap;
+}
+
+/* Goes through the pairs of pieces that touch or nearly do: finds the one along which the hit is, or, `merges`, the points that all have along that normal. False if there is no pair. */
+bool encounters_pass(VERTICES_IN, body a, body b, pose p, float slop, float still, float part, bool merges, encounter *best)
+{
+	bool any = merges;
+	piece of_a, of_b;
+	for (int i = 0, first = first_piece(a); i < piece_count(a); i++, first = of_a.next) {
+		of_a = piece_load(VERTICES, a, p.ra, i, first);
+		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = of_b.next) {
+			of_b = piece_load(VERTICES, b, p.rb, j, other_first);
+			if (pieces_are_far(&of_a, &of_b, 0.0f, APART_SLOPS * slop))
+				continue;
+			encounter m = encounter_of(VERTICES, of_a.self, of_b.self, p, slop, still, part);
+			if (merges && m.k.gap <= PIECES_TOUCH * slop && are_alike(&best->at, &m.at))
+				grounding_merge(&best->at, &m.at, p, merge_near(slop));
+			if (!merges && (!any || meets_rather(&m, best, slop))) {
+				*best = m;
+				any = true;
+			}
+		}
+	}
+	return any;
+}
+
+/* Of bodies of which one at least has pieces. */
+SELDOM encounter pieces_encounter(VERTICES_IN, body a, body b, pose p, float slop, float still, float part)
+{
+	encounter best;
+	if (!encounters_pass(VERTICES, a, b, p, slop, still, part, false, &best))
+		return encounter_of(VERTICES, a, b, p, slop, still, part); /* of the hulls: it can't be, but for rounding */
+	if (a.count > 1 && b.count > 1)
+		encounters_pass(VERTICES, a, b, p, slop, still, part, true, &best);
+	return best;
+}
+
+/* Where two convex bodies press on each other, or would if they were a little nearer; false if they are too far from that. */
+bool grounding_find(VERTICES_IN, body a, body b, pose p, float force, float slop, grounding *at)
+{
+	axis k = best_axis(VERTICES, a, b, p);
+	if (k.gap > force || k.gap < -(SUNK_MOST * slop))
+		return false;
+	at->c = contact_at(VERTICES, a, b, p, k, force - k.gap);
+	axis way = corner_way(VERTICES, a, b, p, k, at->c, slop);
+	if (!axes_are_same(way, k)) {
+		k = way;
+		at->c = contact_at(VERTICES, a, b, p, k, force - k.gap);
+	}
+	for (int i = 0; i < 2; i++)
+		at->gap[i] = at->c.count > 1 ? inner(at->c.n, at->c.ref[i]) - k.offset : k.gap;
+	return true;
+}
+
+/* One more, or a part of one of so many; how many there are then. A circle touches at one point. */
+int grounding_add(grounding *all, int count, const grounding *at, pose p, bool is_circle, float slop)
+{
+	for (int k = 0; k < count; k++) {
+		if (!are_alike(&all[k], at))
+			continue;
+		if (!is_circle)
+			grounding_merge(&all[k], at, p, merge_near(slop));
+		else if (at->gap[0] < all[k].gap[0])
+			all[k] = *at;
+		return count;
+	}
+	if (count < PAIR_RESTS)
+		all[count++] = *at;
+	return count;
+}
+
+/* Of bodies of which one at least has pieces; how many normals there are along which they press on each other. */
+SELDOM int pieces_find(VERTICES_IN, body a, body b, pose p, float force, float slop, grounding *all)
+{
+	int count = 0;
+	piece of_a, of_b;
+	for (int i = 0, first = first_piece(a); i < piece_count(a); i++, first = of_a.next) {
+		of_a = piece_load(VERTICES, a, p.ra, i, first);
+		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = of_b.next) {
+			grounding at;
+			of_b = piece_load(VERTICES, b, p.rb, j, other_first);
+			if (!pieces_are_far(&of_a, &of_b, 0.0f, force) && grounding_find(VERTICES, of_a.self, of_b.self, p, force, slop, &at))
+				count = grounding_add(all, count, &at, p, a.count == 1 || b.count == 1, slop);
+		}
+	}
+	return count;
+}
