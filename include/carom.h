@@ -349,15 +349,19 @@ typedef struct carom_contact {
 	int32_t other;     /**< the index of a body before it, or a carom_wall */
 	float normal[2];   /**< N, >= 0: what parts the two, at each point, as `other` sees it the left one first; 0 for a second that there is not */
 	float friction[2]; /**< N: what acts on `body` along the surfaces, to the left as `other` sees it; of a circle that rolls see above */
+	uint32_t part; /**< 0, but of two bodies of which one is not convex, and that press on each other along several normals: which of these contacts
+	                        it is, below CAROM_MAX_PARTS */
 } carom_contact;
+
+#define CAROM_MAX_PARTS 4 /**< contacts of two bodies */
 
 /** How many contacts the last step ended with; 0 for steps other than contacts. Waits for the device. */
 CAROM_API carom_status carom_world_contact_count(carom_world *world, size_t *count, carom_error *error);
-/** Reads `count` of them from number `first` on: in the order of `body`, and of one body in that of `other`. */
+/** Reads `count` of them from number `first` on: in the order of `body`, of one body in that of `other`, and of the same two in that of `part`. */
 CAROM_API carom_status carom_world_get_contacts(carom_world *world, size_t first, size_t count, carom_contact *contacts, carom_error *error);
 /** Replaces them, all or none. The next step of contacts finds who rests on whom by itself, and its forces sooner when it begins with these: with the
  * states they are what another world needs to go on with the same bits. Other steps take no notice, and forget them. Bodies that are added later change none of them. CAROM_INVALID_ARGUMENT names the contact
- * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a number that is not finite; or the body: a pair that is there twice. */
+ * (as `contacts[k]`) and the field: there is no such body or wall, neither of the two moves, a number that is not finite; or the body: a pair that is there twice with the same part. */
 CAROM_API carom_status carom_world_set_contacts(carom_world *world, size_t count, const carom_contact *contacts, carom_error *error);
 
 /** How a joint holds two bodies together. */

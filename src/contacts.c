@@ -7,6 +7,8 @@
 #include "status.h"
 #include "step/events.h"
 
+_Static_assert(CAROM_MAX_PARTS == PAIR_RESTS, "of two bodies the device keeps as many contacts as the interface tells of");
+
 static bool is_dynamic(const carom_world *world, int32_t body)
 {
 	return body >= 0 && carom_is_dynamic(&carom_world_bodies(world)[body]);
@@ -17,13 +19,15 @@ static size_t contact_count(const carom_world *world)
 	return world->contacts.used / sizeof(carom_contact);
 }
 
-/* By the bodies, walls first. */
+/* By the bodies, walls first, and the parts. */
 static int compare(const void *left, const void *right)
 {
 	const carom_contact *a = left, *b = right;
 	if (a->body != b->body)
 		return a->body < b->body ? -1 : 1;
-	return a->other < b->other ? -1 : a->other > b->other;
+	if (a->other != b->other)
+		return a->other < b->other ? -1 : 1;
+	return a->part < b->part ? -1 : a->part > b->part;
 }
 
 /* ---- The device's copy ---- */
@@ -153,13 +157,17 @@ carom_status carom_contacts_send(carom_world *world, carom_error *error)
 	return status;
 }
 
-/* Two bodies that move both have the contact: the one of the larger index tells of it. */
+/* Two bodies that move both have the contact: the one of the larger index tells of it. Of the same two they are in order. */
 static bool take_body(carom_world *world, const warm *w, uint32_t body)
 {
+	int32_t before = INT32_MIN;
+	uint32_t part = 0;
 	for (int32_t k = 0; k < span_of(w, body)[WARM_SPAN_COUNT]; k++) {
 		const float *record = warm_at(w, body, k);
 		const int32_t other = (int32_t)record[WARM_PARTNER];
 		carom_contact *contact;
+		part = other == before ? part + 1 : 0;
+		before = other;
 		if (other > (int32_t)body && is_dynamic(world, other))
 			continue;
 		contact = carom_array_grow(&world->contacts, sizeof *contact);
@@ -167,6 +175,7 @@ static bool take_body(carom_world *world, const warm *w, uint32_t body)
 			return false;
 		*contact = other < (int32_t)body ? (carom_contact){.body = body, .other = other}
 										 : (carom_contact){.body = (uint32_t)other, .other = (int32_t)body};
+		contact->part = part;
 		memcpy(contact->normal, record + WARM_FORCES, sizeof contact->normal);
 		if (world->traits & TRAIT_RUBS)
 			memcpy(contact->friction, record + 4 + WARM_FRICTION, sizeof contact->friction);
@@ -276,6 +285,9 @@ static carom_status check_parties(const carom_world *world, size_t k, const caro
 static carom_status check_contact(const carom_world *world, size_t k, const carom_contact *contact, carom_error *error)
 {
 	TRY(check_parties(world, k, contact, error));
+	if (contact->part >= (contact->other < 0 ? 1 : CAROM_MAX_PARTS))
+		return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu].part: found %u, must be %s", k, contact->part,
+			contact->other < 0 ? "0 with a wall" : "from 0 to 3");
 	for (int point = 0; point < 2; point++) {
 		if (!(contact->normal[point] >= 0.0f) || !isfinite(contact->normal[point]))
 			return carom_fail(error, CAROM_INVALID_ARGUMENT, "contacts[%zu].normal: found %g, must be finite and at least 0 (N)", k,
@@ -286,7 +298,7 @@ static carom_status check_contact(const carom_world *world, size_t k, const caro
 	return CAROM_OK;
 }
 
-/* Of contacts in order: each pair once. */
+/* Of contacts in order: each part of a pair once. */
 static carom_status check_together(size_t count, const carom_contact *contacts, carom_error *error)
 {
 	for (size_t k = 1; k < count; k++)

@@ -8,6 +8,8 @@
 static const struct scene_range no_less_than_0 = {0, FLT_MAX, false, "a number from 0 to 3.4e38"};
 static const struct scene_range index_of_body = {0, UINT32_MAX, false, "the index of a body before this one"};
 
+static const struct scene_range number_of_part = {0, CAROM_MAX_PARTS - 1, false, "a whole number from 0 to 3"};
+
 #define WALLS "\"left\", \"bottom\", \"right\" or \"top\""
 
 struct contact {
@@ -32,6 +34,7 @@ static const struct scene_field fields[] = {
 	{"wall", scene_read_string, scene_quick_string, offsetof(struct contact, wall), NULL, false},
 	{"normal", scene_read_pair, scene_quick_pair, offsetof(struct contact, contact.normal), &no_less_than_0, true},
 	{"friction", scene_read_pair, scene_quick_pair, offsetof(struct contact, contact.friction), &scene_any, false},
+	{"part", scene_read_whole, scene_quick_whole, offsetof(struct contact, contact.part), &number_of_part, false},
 	SCENE_LAST_FIELD,
 };
 

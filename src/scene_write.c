@@ -51,6 +51,8 @@ static void put_contacts(FILE *stream, const carom_contact *contacts, size_t cou
 			fprintf(stream, "\"body\": %d, \"normal\": ", (int)contact->other);
 		scene_put_pair(stream, normal);
 		scene_put_pair_key(stream, "friction", friction, none);
+		if (contact->part > 0)
+			fprintf(stream, ", \"part\": %u", (unsigned)contact->part);
 		putc('}', stream);
 	}
 	if (count > 0)
