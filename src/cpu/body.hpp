@@ -10,7 +10,7 @@ template <typename T> struct Body {
 	Vec<T> x, v, a; /* in a step that is 1 long */
 	T r, w, b;      /* angle, angular velocity and acceleration */
 	T radius, inverse_mass, inverse_inertia;
-	int32_t first, count; /* vertices */
+	int32_t first, count, pieces; /* vertices, of a polygon that is not convex those of its hull; and its pieces: none of what is convex */
 
 	bool is_circle() const { return count == 1; }
 	bool is_dynamic() const { return inverse_mass > 0; } /* what is static, kinematic or held is not */
@@ -92,6 +92,7 @@ public:
 		body.radius = rotational.of(i, ROTATIONAL_RADIUS);
 		body.first = static_cast<int32_t>(geometry.of(i, GEOMETRY_FIRST));
 		body.count = static_cast<int32_t>(geometry.of(i, GEOMETRY_COUNT));
+		body.pieces = 0; /* this step is for convex bodies alone */
 		body.inverse_mass = 1 / geometry.of(i, GEOMETRY_MASS);
 		body.inverse_inertia = 1 / geometry.of(i, GEOMETRY_INERTIA);
 		accelerate(body, i);

@@ -42,11 +42,15 @@ template <typename T> struct Threshold {
 	}
 };
 
-/* The pose is the reference's. */
+/* How fast a point parts; the pose is the reference's. */
+template <typename T> T rate_at(const Vec<T> &n, const Pose<T> &pose, const Vec<T> &ref, const Vec<T> &inc)
+{
+	return (inner(n, pose.v) + pose.wa * cross(n, ref)) - pose.wb * cross(n, inc);
+}
+
 template <typename T> void add_point(Contact<T> &contact, const Pose<T> &pose, const Vec<T> &ref, const Vec<T> &inc)
 {
-	const Vec<T> &n = contact.n;
-	contact.add(ref, inc, (inner(n, pose.v) + pose.wa * cross(n, ref)) - pose.wb * cross(n, inc));
+	contact.add(ref, inc, rate_at<T>(contact.n, pose, ref, inc));
 }
 
 template <typename T> struct Segment {

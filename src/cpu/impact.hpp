@@ -41,12 +41,14 @@ public:
 		bodies.fill(b, slots[column], column_way);
 		const Pose<T> at = pose(a, b, T(0));
 		const T slop = pair_slop(a, b), stillness = pair_stillness(a, b);
-		const Axis<T> axis = hit_axis(a, b, at, slop, stillness, found_loose);
-		const Body<T> &ref = axis.from_b ? b : a, &inc = axis.from_b ? a : b;
-		Collision<T> collision{contact_at(a, b, at, axis, slop), {axis.gap, slop, stillness, found_loose}, 1, ref.inverse_mass, inc.inverse_mass,
-			ref.inverse_inertia, inc.inverse_inertia};
+		const Touch<T> touch = have_pieces(a, b) ? hit_touch_of_pieces(a, b, at, slop, stillness, found_loose)
+												 : hit_touch(a, b, at, slop, stillness, found_loose);
+		const bool from_b = touch.contact.from_b;
+		const Body<T> &ref = from_b ? b : a, &inc = from_b ? a : b;
+		Collision<T> collision{touch.contact, {touch.gap, slop, stillness, found_loose}, 1, ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
+			inc.inverse_inertia};
 		const Vec<T> between = inc.a - ref.a;
-		collision.slide = pair_slide<T>(a, b, at, axis.from_b, rubs.between(slots[row].body(), slots[column].body()));
+		collision.slide = pair_slide<T>(a, b, at, from_b, rubs.between(slots[row].body(), slots[column].body()));
 		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
 			inner(collision.contact.n, between), larger(larger(norm(a.a), norm(b.a)), bodies.weight()), stillness, past);
 		collision.centre = inc.x;

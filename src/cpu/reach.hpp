@@ -151,7 +151,7 @@ template <typename T> struct ReachRules {
 template <typename T> Box<T> static_box(const Slot<T> &slot, const Corner<T> *corners)
 {
 	const T x = slot.place[LINEAR_X], y = slot.place[LINEAR_Y], pad = (std::abs(x) + std::abs(y) + slot.radius()) * T(4 * SLOP);
-	const int32_t count = static_cast<int32_t>(slot.mass[MASS_COUNT]), first = static_cast<int32_t>(slot.mass[MASS_FIRST]);
+	const int32_t count = slot.vertices(), first = static_cast<int32_t>(slot.mass[MASS_FIRST]);
 	const T grow = count == 1 ? pad + slot.radius() : pad;
 	Box<T> box{x, y, x, y};
 	const Vec<T> rotation = rotation_of(slot.turn[TURN_ANGLE]);

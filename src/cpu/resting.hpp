@@ -232,18 +232,18 @@ private:
 			rest.at[rest.points++] = {arm, other_arm, larger(gap, T(0)) - T(0.5) * rules.cushion(), slip};
 	}
 
-	/* By the partner's index. */
-	void insert(const Resting<T> &rest)
+	/* By the partner's index, all those with it in order. */
+	void insert(const Resting<T> *rests, int32_t count)
 	{
-		if (rest.points == 0)
+		if (count == 0)
 			return;
 		auto place = found.end();
 		const auto begin = place - static_cast<ptrdiff_t>(found.size() - first);
-		while (place != begin && (place - 1)->key > rest.key)
+		while (place != begin && (place - 1)->key > rests->key)
 			--place;
-		if (place != begin && (place - 1)->key == rest.key)
+		if (place != begin && (place - 1)->key == rests->key)
 			return; /* two that became neighbours at the same time may have noted each other twice */
-		found.insert(place, rest);
+		found.insert(place, rests, rests + count);
 	}
 
 	static Resting<T> begin(int32_t key, Partner partner, const Vec<T> &n, const Rules &rules, T friction)
@@ -266,32 +266,41 @@ private:
 		if (!(rules.force > 0) || norm(d) - (a.radius + b.radius) > rules.force)
 			return;
 		const Pose<T> at = pose(a, b, T(0));
-		const Axis<T> best = best_axis(a, b, at);
-		if (best.gap > rules.force || best.gap < -(T(SUNK_MOST) * rules.slop))
-			return;
-		const Contact<T> at_best = contact_at(a, b, at, best, rules.force - best.gap);
-		const Axis<T> axis = corner_way(a, b, at, best, at_best, rules.slop);
-		const Contact<T> c = axis.is_same(best) ? at_best : contact_at(a, b, at, axis, rules.force - axis.gap);
+		Touches<T> touches;
+		if (have_pieces(a, b))
+			touches.find_of_pieces(a, b, at, rules.force, rules.slop);
+		else
+			touches.count = touches.find(a, b, at, rules.force, rules.slop, touches.of[0]);
+		Resting<T> rests[PAIR_RESTS];
+		int32_t count = 0;
+		for (int32_t k = 0; k < touches.count; k++) {
+			Resting<T> &rest = rests[count];
+			rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), {0, 0}, rules,
+				friction);
+			rest.rolling = a.is_circle() || b.is_circle() ? rubs.rolling_between(slot.body(), other_slot.body()) : T(0);
+			add_touch(rest, touches.of[k], a, b, is_row, rules);
+			count += rest.points > 0;
+		}
+		insert(rests, count);
+	}
+
+	/* The points of a contact of A and B, as it is seen from the row body or the other. */
+	static void add_touch(Resting<T> &rest, const Touch<T> &touch, const Convex<T> &a, const Convex<T> &b, bool is_row, const Rules &rules)
+	{
+		const Contact<T> &c = touch.contact;
+		const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
 		const bool is_incident = is_row == c.from_b;
-		const Vec<T> n = is_incident ? c.n : Vec<T>(-c.n);
-		Resting<T> rest = begin(other_slot.body(), other_slot.is_static() ? Partner::that_stays(other_slot.body()) : Partner(other), n, rules,
-			friction);
-		const auto slip = [&](const Vec<T> &lever, const Vec<T> &other_lever) {
-			const Convex<T> &body = is_row ? a : b, &partner = is_row ? b : a;
-			return Slip<T>(n, touched_at<T>(body, lever, -n), touched_at<T>(partner, other_lever, n));
-		};
+		const Vec<T> n = rest.n = is_incident ? c.n : Vec<T>(-c.n);
 		for (int32_t i = 0; i < c.count; i++) {
 			const int32_t k = c.from_b ? c.count - 1 - i : i; /* whichever is the reference, in the same order */
 			const Vec<T> &own = is_incident ? c.inc[k] : c.ref[k], &others = is_incident ? c.ref[k] : c.inc[k];
-			add(rest, rules, c.rate[k], c.count > 1 ? inner(c.n, c.ref[k]) - axis.offset : axis.gap, cross(own, n), cross(others, n),
-				slip(own, others));
+			add(rest, rules, c.rate[k], touch.gaps[k], cross(own, n), cross(others, n),
+				Slip<T>(n, touched_at<T>(body, own, -n), touched_at<T>(partner, others, n)));
 		}
 		if (a.is_circle() || b.is_circle()) {
 			const T radius = !a.is_circle() ? b.radius : !b.is_circle() ? a.radius : smaller(a.radius, b.radius);
-			rest.rolling = rubs.rolling_between(slot.body(), other_slot.body());
 			rest.rolling_arm = is_row ? radius : -radius;
 		}
-		insert(rest);
 	}
 
 	void walls(const Slot<T> &slot, const Trajectory<T> &way, const Nearness<T> &nearness)
@@ -328,7 +337,7 @@ private:
 					add(rest, rules, speed - body.w * cross(wall.n, lever), gap, cross(lever, wall.n), 0, slip(lever));
 			}
 		}
-		insert(rest);
+		insert(&rest, rest.points > 0);
 	}
 
 	const Clusters<T> &clusters;

@@ -76,18 +76,20 @@ template <typename T> struct Rests {
 		}
 	}
 
-	/* Calls `visit(points, grips, i, partner, which of the contact's points it is)` for each point of contacts alone, but for those that are none. */
+	/* Calls `visit(points, grips, i, partner, which of the contact's points it is)` for each point of contacts alone, but for those that are none. Two bodies may have contacts along several
+	 * normals. */
 	template <typename Visit> void each_point(int32_t s, const Visit &visit) const
 	{
 		Partner before;
+		T x = 0, y = 0;
 		int32_t point = 0, joined = touching[s].joined;
 		each(s, [&](Points<T> &four, Grips<T> &rubbing) {
 			for (int32_t i = 0; i < lane_count; i++) {
 				const Partner partner(four.partner[i]);
 				if (joined-- > 0 || partner.is_none())
 					continue;
-				point = partner.code == before.code ? point + 1 : 0;
-				before = partner;
+				point = partner.code == before.code && four.normal_x[i] == x && four.normal_y[i] == y ? point + 1 : 0;
+				before = partner, x = four.normal_x[i], y = four.normal_y[i];
 				visit(four, rubbing, i, partner, point);
 			}
 		});

@@ -67,7 +67,7 @@ public:
 			const Point *p = points + parties[k].first, *const last = p + parties[k].points;
 			while (p < last) {
 				const Point &first = *p++;
-				const bool has_second = p < last && p->partner.code == first.partner.code;
+				const bool has_second = p < last && p->partner.code == first.partner.code && p->n == first.n;
 				const Point &second = has_second ? *p++ : first;
 				const T total = has_second ? first.impulse + second.impulse : first.impulse, rub = has_second ? first.rub + second.rub : first.rub;
 				if (!(total > 0))

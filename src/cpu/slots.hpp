@@ -5,7 +5,7 @@
 #include "cpu/apart.hpp"
 #include "cpu/filters.hpp"
 #include "cpu/impulse.hpp"
-#include "cpu/toi.hpp"
+#include "cpu/pieces.hpp"
 
 #include <limits>
 
@@ -16,6 +16,9 @@ template <typename T> struct Slot {
 	T place[4], turn[4], mass[4], push[4];
 
 	bool is_circle() const { return !(mass[MASS_COUNT] > 1); }
+	/* Of a polygon that is not convex those of its hull. */
+	int32_t vertices() const { return static_cast<int32_t>(mass[MASS_COUNT]) % PIECES; }
+	int32_t pieces() const { return static_cast<int32_t>(mass[MASS_COUNT]) / PIECES; }
 	/* Not static, nor kinematic: those have infinite mass, and no hit changes them. */
 	bool is_dynamic() const { return mass[MASS_INVERSE] > 0; }
 	/* A kinematic body: it goes on as it does, whatever it hits. */
@@ -226,7 +229,8 @@ template <typename T> struct Mover {
 		Body<T> body;
 		body.radius = slot.radius();
 		body.first = static_cast<int32_t>(slot.mass[MASS_FIRST]);
-		body.count = static_cast<int32_t>(slot.mass[MASS_COUNT]);
+		body.count = slot.vertices();
+		body.pieces = slot.pieces();
 		body.x = {way.place[LINEAR_X], way.place[LINEAR_Y]};
 		body.r = way.angle;
 		const bool stands = way.held > 0, pushed = !stands && slot.is_dynamic();
@@ -313,7 +317,8 @@ public:
 	{
 		if (!a.is_dynamic() && !b.is_dynamic())
 			return {NO_HIT, false};
-		const HitTime<T> found = functions.pair_time(Pair<T>(a, b, inside, within), rules);
+		const Pair<T> pair(a, b, inside, within);
+		const HitTime<T> found = have_pieces(a, b) ? first_hit_of_pieces(pair, functions.pair_time, rules) : functions.pair_time(pair, rules);
 		return {found.hit <= 1 - t0 ? smaller(t0 + found.hit, T(1)) : T(NO_HIT), !(found.done > 0)};
 	}
 

@@ -48,7 +48,7 @@ public:
 		return true;
 	}
 
-	/* Of the contact with that partner; zeros if there was none. It is looked for from contact k on, for it is asked for all in order. */
+	/* Of the next contact with that partner; zeros if there was none. It is looked for from contact k on, for it is asked for all in order. */
 	WarmForces<T> of(int32_t body, int32_t partner, int32_t &k) const
 	{
 		WarmForces<T> forces;
@@ -58,7 +58,7 @@ public:
 			k++;
 		if (k == span.count || key() != partner)
 			return forces;
-		const T *record = at(span.start + k);
+		const T *record = at(span.start + k++);
 		for (int32_t i = 0; i < 2; i++) {
 			forces.normal[i] = record[WARM_FORCES + i];
 			forces.friction[i] = rubs ? record[4 + WARM_FRICTION + i] : T(0);
