@@ -3,6 +3,7 @@
 #include "crowd.h"
 #include "angle.h"
 #include "status.h"
+#include "world.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,17 +12,38 @@
 
 /* ---- Bodies in their places ----------------------------------------------------------------------------------- */
 
-static void place_corners(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners)
+/* Where a body is, and how it is turned. */
+typedef struct frame {
+	double x, y, sine, cosine;
+} frame;
+
+static frame frame_of(const carom_body_state *state)
 {
-	double sine, cosine;
-	carom_sincos((double)state->angle, &sine, &cosine);
-	for (uint32_t k = 0; k < body->vertex_count; k++) {
-		double x = (double)body->vertices[k].x, y = (double)body->vertices[k].y;
-		corners[k].x = at->x + (cosine * x - sine * y);
-		corners[k].y = at->y + (sine * x + cosine * y);
+	frame f = {(double)state->position.x, (double)state->position.y, 0, 1};
+	carom_sincos((double)state->angle, &f.sine, &f.cosine);
+	return f;
+}
+
+static void place_box(carom_placed *at)
+{
+	const carom_corner *corners = at->corners;
+	at->min_x = at->max_x = corners[0].x, at->min_y = at->max_y = corners[0].y;
+	for (uint32_t k = 1; k < at->corner_count; k++) {
+		at->min_x = carom_least(at->min_x, corners[k].x), at->min_y = carom_least(at->min_y, corners[k].y);
+		at->max_x = carom_most(at->max_x, corners[k].x), at->max_y = carom_most(at->max_y, corners[k].y);
 	}
-	for (uint32_t k = 0; k < body->vertex_count; k++) {
-		const carom_corner *next = &corners[k + 1 < body->vertex_count ? k + 1 : 0];
+}
+
+static void place_corners(carom_placed *at, const frame *f, const carom_vec2 *vertices, uint32_t count, carom_parts *parts)
+{
+	carom_corner *corners = parts->corners;
+	for (uint32_t k = 0; k < count; k++) {
+		double x = (double)vertices[k].x, y = (double)vertices[k].y;
+		corners[k].x = f->x + (f->cosine * x - f->sine * y);
+		corners[k].y = f->y + (f->sine * x + f->cosine * y);
+	}
+	for (uint32_t k = 0; k < count; k++) {
+		const carom_corner *next = &corners[k + 1 < count ? k + 1 : 0];
 		double along_x = next->x - corners[k].x, along_y = next->y - corners[k].y;
 		double length = sqrt(along_x * along_x + along_y * along_y);
 		corners[k].normal_x = length > 0 ? along_y / length : 0;
@@ -30,33 +52,37 @@ static void place_corners(carom_placed *at, const carom_body_info *body, const c
 		corners[k].at = length > 0 ? corners[k].normal_x * corners[k].x + corners[k].normal_y * corners[k].y : HUGE_VAL;
 	}
 	at->corners = corners;
-	at->corner_count = body->vertex_count;
+	at->corner_count = count;
+	parts->corners += count;
+	place_box(at);
 }
 
-static void place_box(carom_placed *at)
+static void place_pieces(carom_placed *at, const frame *f, const carom_pieces *pieces, carom_parts *parts)
 {
-	const carom_corner *corners = at->corners;
-	if (!corners) {
-		at->min_x = at->x - at->radius, at->min_y = at->y - at->radius, at->max_x = at->x + at->radius, at->max_y = at->y + at->radius;
-		return;
+	const carom_vec2 *vertices = pieces->vertices;
+	carom_placed *to = parts->pieces;
+	for (uint32_t k = 0; k < pieces->count; vertices += pieces->sizes[k++]) {
+		to[k] = (carom_placed){0};
+		place_corners(&to[k], f, vertices, pieces->sizes[k], parts);
 	}
-	at->min_x = at->max_x = corners[0].x, at->min_y = at->max_y = corners[0].y;
-	for (uint32_t k = 1; k < at->corner_count; k++) {
-		at->min_x = carom_least(at->min_x, corners[k].x), at->min_y = carom_least(at->min_y, corners[k].y);
-		at->max_x = carom_most(at->max_x, corners[k].x), at->max_y = carom_most(at->max_y, corners[k].y);
-	}
+	at->pieces = to;
+	at->piece_count = pieces->count;
+	parts->pieces += pieces->count;
 }
 
-uint32_t carom_place_body(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners)
+void carom_place_body(carom_placed *at, const carom_body_info *body, const carom_pieces *pieces, const carom_body_state *state, carom_parts *parts)
 {
 	*at = (carom_placed){.x = (double)state->position.x, .y = (double)state->position.y, .radius = (double)body->radius};
 	at->categories = body->categories;
 	at->mask = body->mask;
 	at->is_dynamic = isfinite(body->mass);
-	if (body->vertices)
-		place_corners(at, body, state, corners);
-	place_box(at);
-	return at->corner_count;
+	at->min_x = at->x - at->radius, at->min_y = at->y - at->radius, at->max_x = at->x + at->radius, at->max_y = at->y + at->radius;
+	if (!body->vertices)
+		return;
+	const frame f = frame_of(state);
+	place_corners(at, &f, body->vertices, body->vertex_count, parts);
+	if (pieces)
+		place_pieces(at, &f, pieces, parts);
 }
 
 /* ---- Grids ---------------------------------------------------------------------------------------------------- */
@@ -172,46 +198,48 @@ static void build_grids(carom_crowd *c, uint32_t mask, uint32_t *scratch)
 
 /* ---- All of it ------------------------------------------------------------------------------------------------ */
 
-static carom_status count_corners(const carom_world *world, size_t count, size_t *corners, carom_error *error)
+static bool make_parts(const carom_world *world, carom_parts *parts)
 {
-	for (uint32_t k = 0; k < count; k++) {
-		carom_body_info body;
-		carom_status status = carom_world_get_body(world, k, &body, error);
-		if (status != CAROM_OK)
-			return status;
-		*corners += body.vertex_count;
+	const carom_body *bodies = carom_world_bodies(world);
+	size_t corners = 0, pieces = 0;
+	for (size_t k = 0; k < world->body_count; k++) {
+		corners += bodies[k].vertex_count + (bodies[k].is_convex ? 0u : carom_outline_piece_vertices(&bodies[k]));
+		pieces += bodies[k].piece_count;
 	}
-	return CAROM_OK;
+	parts->corners = calloc(corners + 1, sizeof *parts->corners);
+	parts->pieces = calloc(pieces + 1, sizeof *parts->pieces);
+	return parts->corners && parts->pieces;
 }
 
 static carom_status place_all(carom_world *world, carom_crowd *c, carom_body_state *states, carom_error *error)
 {
-	carom_corner *corners = c->corners;
-	carom_status status = carom_world_get_states(world, 0, c->count, states, error);
-	for (uint32_t k = 0; k < c->count && status == CAROM_OK; k++) {
-		carom_body_info body;
-		status = carom_world_get_body(world, k, &body, error);
-		if (status == CAROM_OK)
-			corners += carom_place_body(&c->bodies[k], &body, &states[k], corners);
+	carom_parts parts = c->parts;
+	TRY(carom_world_get_states(world, 0, c->count, states, error));
+	for (uint32_t k = 0; k < c->count; k++) {
+		const carom_body *body = &carom_world_bodies(world)[k];
+		carom_body_info info;
+		carom_pieces pieces;
+		TRY(carom_world_get_body(world, k, &info, error));
+		if (!body->is_convex)
+			carom_outline_pieces(world, body, &pieces);
+		carom_place_body(&c->bodies[k], &info, body->is_convex ? NULL : &pieces, &states[k], &parts);
 	}
-	return status;
+	return CAROM_OK;
 }
 
 carom_status carom_crowd_make(carom_world *world, uint32_t mask, const char *why, carom_crowd *crowd, carom_error *error)
 {
 	*crowd = (carom_crowd){.count = carom_world_body_count(world)};
 	const size_t count = crowd->count;
-	size_t corners = 0;
-	carom_status status = count_corners(world, count, &corners, error);
-	if (status != CAROM_OK || count == 0)
-		return status;
+	carom_status status;
+	if (count == 0)
+		return CAROM_OK;
 	carom_body_state *states = malloc(count * sizeof *states);
 	uint32_t *scratch = malloc(2 * count * sizeof *scratch);
 	crowd->bodies = calloc(count, sizeof *crowd->bodies);
-	crowd->corners = calloc(corners + 1, sizeof *crowd->corners);
 	crowd->members = malloc(count * sizeof *crowd->members);
 	crowd->starts = malloc((CELLS_PER_BODY * count + CAROM_GRIDS) * sizeof *crowd->starts);
-	if (states && scratch && crowd->bodies && crowd->corners && crowd->members && crowd->starts)
+	if (make_parts(world, &crowd->parts) && states && scratch && crowd->bodies && crowd->members && crowd->starts)
 		status = place_all(world, crowd, states, error);
 	else
 		status = carom_fail(error, CAROM_OUT_OF_MEMORY, "no memory to %s %zu bodies", why, count);
@@ -225,7 +253,8 @@ carom_status carom_crowd_make(carom_world *world, uint32_t mask, const char *why
 void carom_crowd_free(carom_crowd *crowd)
 {
 	free(crowd->bodies);
-	free(crowd->corners);
+	free(crowd->parts.corners);
+	free(crowd->parts.pieces);
 	free(crowd->members);
 	free(crowd->starts);
 	*crowd = (carom_crowd){0};

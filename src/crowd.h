@@ -7,6 +7,7 @@
 #define CAROM_CROWD_H
 
 #include "carom.h"
+#include "pieces.h"
 
 #define CAROM_GRIDS 24               /* sizes told apart; the smallest bodies, from 2^-23 of the largest on, share one grid */
 #define CAROM_GRID_ROUNDING 1.000001 /* radii are floats, and may be a little smaller than what they enclose */
@@ -20,10 +21,19 @@ typedef struct carom_placed {
 	double x, y, radius;               /* of the circle that encloses the body */
 	double min_x, min_y, max_x, max_y; /* its box */
 	const carom_corner *corners;       /* NULL for a circle */
-	uint32_t corner_count, level;      /* its grid; CAROM_GRIDS: it is nowhere, for a number of it is not finite, or it is not asked for */
+	const struct carom_placed
+		*pieces; /* of a polygon that is not convex: convex ones, of which corners and box alone are known, that together are it; else NULL */
+	uint32_t corner_count, level; /* its grid; CAROM_GRIDS: it is nowhere, for a number of it is not finite, or it is not asked for */
 	uint32_t categories, mask;
+	uint32_t piece_count;
 	bool is_dynamic;
 } carom_placed;
+
+/* Where corners and pieces go. */
+typedef struct carom_parts {
+	carom_corner *corners;
+	carom_placed *pieces;
+} carom_parts;
 
 /* The bodies of one size by cell: those of cell k are members[starts[k]] to members[starts[k + 1] - 1]. */
 typedef struct carom_grid {
@@ -35,7 +45,7 @@ typedef struct carom_grid {
 typedef struct carom_crowd {
 	size_t count;
 	carom_placed *bodies;
-	carom_corner *corners;
+	carom_parts parts;             /* memory of the bodies' */
 	carom_grid grids[CAROM_GRIDS]; /* from the largest bodies to the smallest */
 	uint32_t *members, *starts;    /* memory of the grids */
 } carom_crowd;
@@ -57,8 +67,8 @@ static inline bool carom_meet(const carom_placed *a, const carom_placed *b)
 	return (a->categories & b->mask) && (b->categories & a->mask);
 }
 
-/* Puts a body where its state says, in no grid. Returns how many of `corners` it took, which `at` keeps. */
-uint32_t carom_place_body(carom_placed *at, const carom_body_info *body, const carom_body_state *state, carom_corner *corners);
+/* Puts a body where its state says, in no grid; `pieces` are those of a polygon that is not convex, else NULL. What it takes of `parts`, which `at` keeps, is left out of them. */
+void carom_place_body(carom_placed *at, const carom_body_info *body, const carom_pieces *pieces, const carom_body_state *state, carom_parts *parts);
 
 /* Of the world as it is now, in grids those bodies that are of a category in `mask`, and all for CAROM_MASK; to be given to carom_crowd_free, whether this
  * succeeds or not. `why` is for the error: "measure". */

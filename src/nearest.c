@@ -1,11 +1,14 @@
 /* Which body is nearest to a point: boxes about it grow until what lies outside of them is farther.
  * SPDX-License-Identifier: MIT */
 #include "nearest.h"
+#include "crossing.h"
 
 #include <math.h>
 
 static bool is_inside(const carom_placed *polygon, double x, double y)
 {
+	if (polygon->pieces)
+		return carom_holds(polygon, x, y);
 	for (uint32_t k = 0; k < polygon->corner_count; k++) {
 		const carom_corner *face = &polygon->corners[k];
 		if (face->normal_x * x + face->normal_y * y - face->at > 0)

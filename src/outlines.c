@@ -73,6 +73,26 @@ static void put_pieces(const carom_pieces *pieces, carom_vec2 *table)
 	}
 }
 
+uint32_t carom_outline_piece_vertices(const carom_body *body)
+{
+	return (uint32_t)body->drawn_count - body->piece_count;
+}
+
+void carom_outline_pieces(const carom_world *world, const carom_body *body, carom_pieces *pieces)
+{
+	const carom_vec2 *vertices = world->vertices.items, *table = vertices + table_of(body), *from = table + body->piece_count;
+	carom_vec2 *to = pieces->vertices;
+	pieces->count = body->piece_count;
+	pieces->hull_count = body->hull_count;
+	memcpy(pieces->hull, vertices + carom_outline_hull(body), body->hull_count * sizeof *to);
+	for (uint32_t k = 0; k < pieces->count; k++) {
+		pieces->sizes[k] = (uint8_t)table[k].x;
+		memcpy(to, from, pieces->sizes[k] * sizeof *to);
+		to += pieces->sizes[k];
+		from += pieces->sizes[k] + 1;
+	}
+}
+
 static bool add_anew(carom_world *world, carom_body *body, const carom_vec2 *vertices)
 {
 	carom_pieces pieces = {.hull_count = body->vertex_count};

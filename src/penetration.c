@@ -1,6 +1,7 @@
 /* The deepest overlap, looked for in grids: a body meets those of its own grid and of the coarser ones.
  * SPDX-License-Identifier: MIT */
 #include "penetration.h"
+#include "crossing.h"
 #include "world.h"
 
 #include <math.h>
@@ -25,21 +26,27 @@ static double distance_to_edge(double x, double y, const carom_corner *from, con
 	return sqrt(away_x * away_x + away_y * away_y);
 }
 
+/* The distance from a circle's centre to the nearest side of a polygon that does not hold it. */
+static double distance_to_polygon(const carom_placed *polygon, const carom_placed *circle)
+{
+	double nearest = HUGE_VAL;
+	for (uint32_t k = 0; k < polygon->corner_count; k++) {
+		const carom_corner *to = &polygon->corners[k + 1 < polygon->corner_count ? k + 1 : 0];
+		nearest = carom_least(nearest, distance_to_edge(circle->x, circle->y, &polygon->corners[k], to));
+	}
+	return nearest;
+}
+
 static double separation_from_circle(const carom_placed *polygon, const carom_placed *circle, double enough)
 {
-	double face = -HUGE_VAL, nearest = HUGE_VAL;
-	uint32_t count = polygon->corner_count;
-	for (uint32_t k = 0; k < count && face - circle->radius < enough; k++) {
+	double face = -HUGE_VAL;
+	for (uint32_t k = 0; k < polygon->corner_count && face - circle->radius < enough; k++) {
 		const carom_corner *edge = &polygon->corners[k];
 		face = carom_most(face, edge->normal_x * circle->x + edge->normal_y * circle->y - edge->at);
 	}
 	if (face <= 0 || face - circle->radius >= enough)
 		return face - circle->radius;
-	for (uint32_t k = 0; k < count; k++) {
-		const carom_corner *to = &polygon->corners[k + 1 < count ? k + 1 : 0];
-		nearest = carom_least(nearest, distance_to_edge(circle->x, circle->y, &polygon->corners[k], to));
-	}
-	return nearest - circle->radius;
+	return distance_to_polygon(polygon, circle) - circle->radius;
 }
 
 /* The separation by the faces of `a` alone. */
@@ -58,7 +65,7 @@ static double separation_by_faces(const carom_placed *a, const carom_placed *b, 
 	return separation;
 }
 
-double carom_separation(const carom_placed *a, const carom_placed *b, double enough)
+static double separation_of_convex(const carom_placed *a, const carom_placed *b, double enough)
 {
 	if (!a->corners && !b->corners)
 		return separation_of_circles(a, b);
@@ -76,6 +83,52 @@ static double overlap_of_boxes(const carom_placed *a, const carom_placed *b)
 	double x = carom_least(a->max_x - b->min_x, b->max_x - a->min_x);
 	double y = carom_least(a->max_y - b->min_y, b->max_y - a->min_y);
 	return carom_least(x, y);
+}
+
+/* Of polygons that are not convex: the pieces that are the deepest in each other count. What lies between two pieces, by rounding, is seen by the sides. */
+
+static double separation_of_pieces_from_circle(const carom_placed *polygon, const carom_placed *circle)
+{
+	double least = -circle->radius;
+	if (!carom_holds(polygon, circle->x, circle->y))
+		return distance_to_polygon(polygon, circle) - circle->radius;
+	for (uint32_t k = 0; k < polygon->piece_count; k++)
+		least = carom_least(separation_from_circle(&polygon->pieces[k], circle, least), least);
+	return least;
+}
+
+/* From one that is convex. */
+static double separation_of_pieces(const carom_placed *a, const carom_placed *b, double enough)
+{
+	double least = enough;
+	for (uint32_t k = 0; k < a->piece_count; k++)
+		if (-overlap_of_boxes(&a->pieces[k], b) < least)
+			least = carom_least(separation_of_convex(&a->pieces[k], b, least), least);
+	return least;
+}
+
+static double separation_of_polygons(const carom_placed *a, const carom_placed *b, double enough)
+{
+	double least = enough;
+	if (!a->pieces)
+		return separation_of_polygons(b, a, enough);
+	if (!b->pieces)
+		least = separation_of_pieces(a, b, enough);
+	for (uint32_t k = 0; k < b->piece_count; k++)
+		if (-overlap_of_boxes(a, &b->pieces[k]) < least)
+			least = separation_of_pieces(a, &b->pieces[k], least);
+	return least > 0 && (carom_holds(a, b->corners->x, b->corners->y) || carom_holds(b, a->corners->x, a->corners->y)) ? 0 : least;
+}
+
+double carom_separation(const carom_placed *a, const carom_placed *b, double enough)
+{
+	if (!a->pieces && !b->pieces)
+		return separation_of_convex(a, b, enough);
+	if (!a->corners)
+		return separation_of_pieces_from_circle(b, a);
+	if (!b->corners)
+		return separation_of_pieces_from_circle(a, b);
+	return separation_of_polygons(a, b, enough);
 }
 
 /* Of a crowd, so far. */

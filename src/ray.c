@@ -1,6 +1,7 @@
 /* When what moves meets what stands: functions that give the part of the way give HUGE_VAL for never.
  * SPDX-License-Identifier: MIT */
 #include "ray.h"
+#include "crossing.h"
 #include "penetration.h"
 
 #include <float.h>
@@ -69,6 +70,14 @@ static void enter_polygon(const carom_way *way, const carom_placed *polygon, car
 	keep_entry(&p, meeting);
 }
 
+/* Of one that is not convex a side itself is met. */
+static void enter_outline(const carom_way *way, const carom_placed *polygon, carom_meeting *meeting)
+{
+	const carom_crossing at = carom_cross(polygon, way->x, way->y, way->along_x, way->along_y);
+	if (!at.is_in && !at.is_on && at.part < meeting->part)
+		*meeting = (carom_meeting){at.part, polygon->corners[at.side].normal_x, polygon->corners[at.side].normal_y};
+}
+
 /* How far it reaches along a direction. */
 static double least_along(const carom_placed *polygon, double normal_x, double normal_y)
 {
@@ -89,6 +98,38 @@ static void join_polygon(const carom_way *way, const carom_placed *polygon, caro
 		pass_line(&p, least_along(polygon, face->normal_x, face->normal_y) - face->at, face->normal_x * way->along_x + face->normal_y * way->along_y,
 			-face->normal_x, -face->normal_y);
 	keep_entry(&p, meeting);
+}
+
+/* A corner, or where a side begins, of what moves and of what stands, where they meet. */
+typedef struct touch {
+	carom_meeting at;
+	uint32_t own, met;
+} touch;
+
+/* Of two of which one at least is not convex: a corner of one meets a side of the other. */
+static touch touch_of(const carom_way *way, const carom_placed *polygon)
+{
+	const carom_placed *own = way->body;
+	touch first = {{HUGE_VAL, 0, 0}, 0, 0};
+	for (uint32_t k = 0; k < own->corner_count; k++) {
+		const carom_crossing at = carom_cross(polygon, own->corners[k].x, own->corners[k].y, way->along_x, way->along_y);
+		const carom_corner *side = &polygon->corners[at.side];
+		if (at.part < first.at.part)
+			first = (touch){{at.part, side->normal_x, side->normal_y}, k, at.side};
+	}
+	for (uint32_t k = 0; k < polygon->corner_count; k++) {
+		const carom_crossing at = carom_cross(own, polygon->corners[k].x, polygon->corners[k].y, -way->along_x, -way->along_y);
+		const carom_corner *side = &own->corners[at.side];
+		if (at.part < first.at.part)
+			first = (touch){{at.part, -side->normal_x, -side->normal_y}, at.side, k};
+	}
+	return first;
+}
+
+static void join_outline(const carom_way *way, const carom_placed *polygon, carom_meeting *meeting)
+{
+	if (carom_separation(way->body, polygon, DBL_MIN) > 0)
+		*meeting = touch_of(way, polygon).at;
 }
 
 /* A disc meets the polygon where its centre meets what is that far from it: faces moved outwards, and circles about the corners. */
@@ -135,13 +176,13 @@ bool carom_ray_meets_body(const carom_way *way, const carom_placed *body, carom_
 	if (passes(way, body))
 		return false;
 	if (is_polygon(way))
-		(body->corners ? join_polygon : join_circle)(way, body, &found);
+		(!body->corners ? join_circle : way->body->pieces || body->pieces ? join_outline : join_polygon)(way, body, &found);
 	else if (!body->corners)
 		meet_circle(way, body->x, body->y, body->radius + way->radius, &found);
 	else if (way->radius > 0)
 		touch_polygon(way, body, &found);
 	else
-		enter_polygon(way, body, &found);
+		(body->pieces ? enter_outline : enter_polygon)(way, body, &found);
 	if (!(found.part <= 1))
 		return false;
 	*meeting = found;
@@ -160,35 +201,62 @@ bool carom_ray_meets_wall(const carom_way *way, double normal_x, double normal_y
 
 #define FLUSH 1e-6 /* of a polygon's radius: corners whose heights differ by no more are a face that lies flush */
 
-/* What of a polygon is lowest along a direction: how low, and from where to where across it, to the left. */
+/* What of a polygon touches along a direction: how high that is, and from where to where across it, to the left. */
 typedef struct foot {
 	double height, from, to;
 } foot;
 
-static foot foot_of(const carom_placed *polygon, double normal_x, double normal_y)
+static uint32_t lowest_corner(const carom_placed *polygon, double normal_x, double normal_y)
 {
-	foot f = {least_along(polygon, normal_x, normal_y), HUGE_VAL, -HUGE_VAL};
-	for (uint32_t k = 0; k < polygon->corner_count; k++) {
-		const carom_corner *corner = &polygon->corners[k];
-		const double across = normal_x * corner->y - normal_y * corner->x;
-		if (normal_x * corner->x + normal_y * corner->y > f.height + FLUSH * polygon->radius)
-			continue;
-		f.from = carom_least(across, f.from);
-		f.to = carom_most(across, f.to);
-	}
+	const double least = least_along(polygon, normal_x, normal_y);
+	uint32_t k = 0;
+	while (k + 1 < polygon->corner_count && normal_x * polygon->corners[k].x + normal_y * polygon->corners[k].y > least)
+		k++;
+	return k;
+}
+
+/* Makes it broader by a corner, if that lies flush with it. */
+static bool widen(foot *f, const carom_placed *polygon, uint32_t k, double normal_x, double normal_y)
+{
+	const carom_corner *corner = &polygon->corners[k % polygon->corner_count];
+	const double across = normal_x * corner->y - normal_y * corner->x;
+	if (!(fabs(normal_x * corner->x + normal_y * corner->y - f->height) <= FLUSH * polygon->radius))
+		return false;
+	f->from = carom_least(across, f->from);
+	f->to = carom_most(across, f->to);
+	return true;
+}
+
+/* A corner, and those beside it, one after the other. */
+static foot foot_of(const carom_placed *polygon, uint32_t k, double normal_x, double normal_y)
+{
+	const carom_corner *corner = &polygon->corners[k];
+	const uint32_t count = polygon->corner_count;
+	foot f = {normal_x * corner->x + normal_y * corner->y, HUGE_VAL, -HUGE_VAL};
+	uint32_t ahead = 0, behind = 0;
+	while (ahead < count && widen(&f, polygon, k + ahead, normal_x, normal_y))
+		ahead++;
+	while (behind < count && widen(&f, polygon, k + count - behind, normal_x, normal_y))
+		behind++;
 	return f;
 }
 
 /* What is met, seen from what moves; a wall is as broad as need be. */
-static foot foot_of_other(const carom_placed *other, double normal_x, double normal_y)
+static foot foot_of_other(const carom_placed *other, uint32_t k, double normal_x, double normal_y)
 {
 	if (!other)
 		return (foot){0, -HUGE_VAL, HUGE_VAL};
-	const double across = normal_x * other->y - normal_y * other->x;
-	if (!other->corners)
-		return (foot){0, across, across};
-	const foot f = foot_of(other, -normal_x, -normal_y);
+	const foot f = foot_of(other, k, -normal_x, -normal_y);
 	return (foot){f.height, -f.to, -f.from};
+}
+
+/* Where polygons touch. Of one that is convex it is what is lowest, and so of all that meet a wall. */
+static touch where_polygons_touch(const carom_way *way, const carom_placed *other, const carom_meeting *meeting)
+{
+	if (other && (way->body->pieces || other->pieces))
+		return touch_of(way, other);
+	return (touch){*meeting, lowest_corner(way->body, meeting->normal_x, meeting->normal_y),
+		other ? lowest_corner(other, -meeting->normal_x, -meeting->normal_y) : 0};
 }
 
 /* Of polygons that lie flush in the middle of what they share. */
@@ -201,7 +269,13 @@ void carom_ray_touches(const carom_way *way, const carom_placed *other, const ca
 		*y = way->y + shift_y - way->radius * normal_y;
 		return;
 	}
-	const foot own = foot_of(way->body, normal_x, normal_y), met = foot_of_other(other, normal_x, normal_y);
+	if (other && !other->corners) {
+		*x = other->x + other->radius * normal_x;
+		*y = other->y + other->radius * normal_y;
+		return;
+	}
+	const touch where = where_polygons_touch(way, other, meeting);
+	const foot own = foot_of(way->body, where.own, normal_x, normal_y), met = foot_of_other(other, where.met, normal_x, normal_y);
 	const double height = own.height + normal_x * shift_x + normal_y * shift_y, aside = normal_x * shift_y - normal_y * shift_x;
 	const double across = 0.5 * (carom_most(own.from + aside, met.from) + carom_least(own.to + aside, met.to));
 	*x = height * normal_x - across * normal_y;

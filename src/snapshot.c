@@ -49,7 +49,8 @@ void carom_snapshot_destroy(carom_snapshot *snapshot)
 /* A body that is asked for, and is not in it. */
 typedef struct visitor {
 	carom_placed at;
-	carom_corner corners[CAROM_MAX_VERTICES];
+	carom_corner corners[CAROM_MAX_VERTICES + CAROM_MOST_PIECE_VERTICES];
+	carom_placed pieces[CAROM_MOST_PIECES];
 } visitor;
 
 static carom_status place_visitor(const carom_body_def *def, size_t index, visitor *v, carom_error *error)
@@ -57,15 +58,19 @@ static carom_status place_visitor(const carom_body_def *def, size_t index, visit
 	const carom_world_def world = carom_default_world_def();
 	const carom_body_state state = {.position = def->position, .angle = carom_wrapped(def->angle)};
 	carom_vec2 vertices[CAROM_MAX_VERTICES];
+	carom_parts parts = {v->corners, v->pieces};
+	carom_pieces pieces;
 	carom_body body;
 	TRY(carom_body_make(def, &world, index, &body, vertices, error));
+	if (!body.is_convex)
+		carom_pieces_make(vertices, body.vertex_count, &pieces);
 	const carom_body_info info = {.radius = body.bound,
 		.vertex_count = body.vertex_count,
 		.vertices = body.vertex_count > 1 ? vertices : NULL,
 		.mass = body.mass,
 		.categories = body.categories,
 		.mask = body.mask};
-	carom_place_body(&v->at, &info, &state, v->corners);
+	carom_place_body(&v->at, &info, body.is_convex ? NULL : &pieces, &state, &parts);
 	return CAROM_OK;
 }
 

@@ -5,6 +5,7 @@
 #include "carom.h"
 #include "definition.h"
 #include "device.h"
+#include "pieces.h"
 #include "step/step.h"
 
 /* What a step is another one for, if a body has it. */
@@ -217,6 +218,9 @@ uint32_t carom_outline_size(const carom_body *body);
 /* Where in world->vertices a polygon's hull begins, and what is drawn of it. */
 uint32_t carom_outline_hull(const carom_body *body);
 uint32_t carom_outline_drawn(const carom_body *body);
+/* What put it together, of a polygon that is not convex, and how many vertices the pieces have in all. */
+void carom_outline_pieces(const carom_world *world, const carom_body *body, carom_pieces *pieces);
+uint32_t carom_outline_piece_vertices(const carom_body *body);
 /* Texels of Vertices that polygons take; those of circles, in their order, follow. */
 uint32_t carom_polygon_texels(const carom_world *world);
 /* Keeps a polygon's vertices and pieces, and sets what the body knows of them; false if there is no memory. */
