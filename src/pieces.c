@@ -187,8 +187,8 @@ static bool is_between(point corner, point way, point far, point p)
 static point grown(const cutting *all, point corner, point way, point far, point next)
 {
 	const point beyond = minus(next, far), cut = minus(far, corner);
-	double most = cross(cut, beyond) / cross(way, beyond);
-	most = most > 0.0 ? most : HUGE_VAL;
+	const double sense = cross(way, cut) > 0.0 ? 1.0 : -1.0, turn = sense * cross(cut, beyond), nearer = sense * cross(way, beyond);
+	double most = nearer > 0.0 ? fmax(turn, 0.0) / nearer : HUGE_VAL; /* there may be no turn at all */
 	if (cross(way, cut) == 0.0)
 		return corner;
 	for (uint32_t i = 0; i < all->count; i++) {
