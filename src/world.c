@@ -7,7 +7,8 @@
 #include "layout.h"
 #include "status.h"
 
-#define MAX_BODIES (1u << 22) /* body indices and counts are exact as floats, and to spare */
+#define MAX_BODIES (1u << 22)               /* body indices and counts are exact as floats, and to spare */
+#define MOST_KEPT (7u * CAROM_MAX_VERTICES) /* vertices of a polygon that is not convex, with those of its hull and its pieces */
 
 void *carom_array_grow(carom_array *array, size_t size)
 {
@@ -352,7 +353,7 @@ uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_
 {
 	carom_pipeline pipeline;
 	const carom_step *step;
-	if (!def || body_count > MAX_BODIES || vertex_count > CAROM_MAX_VERTICES * body_count)
+	if (!def || body_count > MAX_BODIES || vertex_count > MOST_KEPT * body_count)
 		return 0;
 	if (carom_check_world_def(def, NULL) || carom_pipeline_resolve(&def->pipeline, &pipeline, NULL))
 		return 0;

@@ -177,7 +177,7 @@ static carom_body_def polygon(const carom_vec2 *vertices, uint32_t count)
 static void polygons_that_are_none(void **unused)
 {
 	(void)unused;
-	static const carom_vec2 concave[] = {{0, 0}, {2, 0}, {1, 0.5f}, {0, 2}}, bow_tie[] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+	static const carom_vec2 touching[] = {{0, 0}, {2, 0}, {2, 2}, {1, 0}, {0, 2}}, bow_tie[] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
 	static const carom_vec2 flat[] = {{0, 0}, {1, 0}, {2, 0}}, there_and_back[] = {{0, 0}, {2, 0}, {3, 0}, {1, 0}};
 	static const carom_vec2 twice[] = {{0, 0}, {1, 0}, {1, 0}, {0, 1}}, ends_where_it_began[] = {{0, 0}, {1, 0}, {0, 1}, {0, 0}};
 	static const carom_vec2 spike[] = {{0, 0}, {1, 0}, {2, 0}, {1, 0}, {1, 1}, {0, 1}}, point[] = {{1, 1}, {1, 1}, {1, 1}};
@@ -185,16 +185,16 @@ static void polygons_that_are_none(void **unused)
 	carom_vec2 pentagram[5];
 	for (int i = 0; i < 5; i++)
 		pentagram[i] = (carom_vec2){(float)cos(i * 0.8 * 3.14159265), (float)sin(i * 0.8 * 3.14159265)};
-	assert_refused(polygon(concave, 4), "bodies[1].vertices: the polygon is not convex");
-	assert_refused(polygon(bow_tie, 4), "bodies[1].vertices: the polygon is not convex, or crosses itself");
-	assert_refused(polygon(pentagram, 5), "bodies[1].vertices: the polygon crosses itself");
-	assert_refused(polygon(double_round, 8), "bodies[1].vertices: the polygon crosses itself");
+	assert_refused(polygon(touching, 5), "bodies[1].vertices: the polygon crosses or touches itself; it must have 3 to 64 vertices in order");
+	assert_refused(polygon(bow_tie, 4), "bodies[1].vertices: the polygon crosses or touches itself");
+	assert_refused(polygon(pentagram, 5), "bodies[1].vertices: the polygon crosses or touches itself");
+	assert_refused(polygon(double_round, 8), "bodies[1].vertices: the polygon crosses or touches itself");
 	assert_refused(polygon(flat, 3), "bodies[1].vertices: the polygon has no area");
 	assert_refused(polygon(there_and_back, 4), "bodies[1].vertices: the polygon ");
 	assert_refused(polygon(twice, 4), "bodies[1].vertices: the polygon has two vertices at the same place");
 	assert_refused(polygon(ends_where_it_began, 4), "bodies[1].vertices: the polygon has two vertices at the same place");
 	assert_refused(polygon(point, 3), "bodies[1].vertices: the polygon has two vertices at the same place");
-	assert_refused(polygon(spike, 6), "bodies[1].vertices: the polygon is not convex");
+	assert_refused(polygon(spike, 6), "bodies[1].vertices: the polygon crosses or touches itself");
 }
 
 static carom_body_info info_of(carom_body_def def)

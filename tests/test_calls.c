@@ -110,7 +110,7 @@ static void wrong_calls_exit_with_2(void **state)
 		{"$C run no/such/scene.json", "no/such/scene.json: can't be read: No such file"},
 		{"$C run tests", "tests: can't be read: Is a directory"},
 		{"$C run tests/bad/radius_negative.json", "bodies[1].circle.radius: found -1; allowed: a number above 0"},
-		{"$C run tests/bad/polygon_concave.json", "bodies[1].polygon.vertices"},
+		{"$C run tests/bad/polygon_touching_itself.json", "bodies[1].polygon.vertices: the polygon crosses or touches itself"},
 		{"$C run /dev/zero", "/dev/zero:1:1: not valid JSON: found a NUL byte"},
 		{"mkfifo $D/pipe && { echo '{' >$D/pipe & $C run $D/pipe; }; code=$?; rm $D/pipe; exit $code", "/pipe:2:0: not valid JSON"},
 		{"printf '{\"a\": 1}\\0' | $C run -", "/dev/stdin:1:9: not valid JSON: found a NUL byte"},

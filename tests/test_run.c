@@ -308,6 +308,7 @@ static void memory_is_known_beforehand(void **unused)
 	const carom_world_def def = carom_default_world_def();
 	assert_true(carom_world_memory(&def, 1 << 20, 3 << 20) < (uint64_t)1 << 30); /* a KiB each for a million triangles */
 	assert_true(carom_world_memory(&def, 4194304, 64 * 4194304) > 0);
+	assert_true(carom_world_memory(&def, 1, 7 * CAROM_MAX_VERTICES) > 0 && carom_world_memory(&def, 1, 7 * CAROM_MAX_VERTICES + 1) == 0);
 	assert_true(carom_world_memory(&def, 4194305, 4194305) == 0);
 	assert_true(carom_world_memory(&def, SIZE_MAX, SIZE_MAX) == 0);
 	assert_true(carom_world_memory(&def, 1, SIZE_MAX) == 0);
