@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "outline.h"
 #include "scenery.h"
 
 typedef struct point {
@@ -60,8 +61,18 @@ static double nearest_edge(const placed *p, const placed *q)
 	return least;
 }
 
+static double distance_of_outlines(const exact_body *a, const exact_body *b, double t)
+{
+	exact_body moved[2] = {*a, *b};
+	touch_move(&moved[0], t);
+	touch_move(&moved[1], t);
+	return outline_distance(&moved[0], &moved[1]);
+}
+
 double exact_distance(const exact_body *a, const exact_body *b, double t)
 {
+	if (a->is_concave || b->is_concave)
+		return distance_of_outlines(a, b, t);
 	const placed p = place(a, t), q = place(b, t);
 	const double face = fmax(best_face(&p, &q), best_face(&q, &p));
 	const bool apart = face > 0.0 || (a->count == 1 && b->count == 1);
@@ -140,6 +151,10 @@ static void set_corners(exact_body *k, const carom_vec2 *vertices)
 		k->normals[i][0] = y / size;
 		k->normals[i][1] = -x / size;
 		k->bound = fmax(k->bound, hypot((double)from.x, (double)from.y));
+	}
+	for (uint32_t i = 0; i < k->count; i++) {
+		const double *to = k->normals[i + 1 < k->count ? i + 1 : 0], turn = k->normals[i][0] * to[1] - k->normals[i][1] * to[0];
+		k->is_concave = k->is_concave || turn < -1e-6;
 	}
 }
 

@@ -1,4 +1,4 @@
-/* The first contact of two convex bodies in a step, by brute force and in double precision: what the toi slot is judged by.
+/* The first contact of two bodies in a step, by brute force and in double precision: what the toi slot is judged by.
  * Nothing here is shared with the library but the bodies' numbers.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_TESTS_EXACT_H
@@ -11,6 +11,7 @@ typedef struct exact_body {
 	uint32_t count;                        /* corners; 1 for a circle */
 	double corners[CAROM_MAX_VERTICES][2]; /* about the centre of mass; a circle's is (0, 0) */
 	double normals[CAROM_MAX_VERTICES][2]; /* outward, of the faces from each corner to the next */
+	bool is_concave;                       /* a polygon that is not convex: its distances are those of outlines (outline.h) */
 	double radius;                         /* of a circle, 0 for a polygon */
 	double bound;                          /* of the circle about the centre of mass that holds the body */
 	double x, y, vx, vy, ax, ay, angle, w, b;

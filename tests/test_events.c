@@ -2,10 +2,10 @@
  * same however the way is cut, for every number of threads and on every device. */
 #include <math.h>
 
-#include "forecast.h"
+#include "foretold.h"
 #include "runs.h"
 
-enum { MOST_BODIES = 200, SQUEEZED = 500 /* hits in a step: what is squeezed has as many, which nobody can foretell */ };
+enum { MOST_BODIES = 200 };
 
 typedef struct scene {
 	const char *name;
@@ -82,103 +82,20 @@ static carom_world_def make(const scene *s, uint64_t seed, carom_body_def *bodie
 	return def;
 }
 
-/* How much of a run was looked at. */
-typedef struct tally {
-	uint64_t steps, hits, held, unsure;
-	double needed; /* of what was allowed */
-} tally;
-
-static void check_step(tally *sum, const forecast *f, carom_world *world, const scene *s, const scenery_device *device)
+static foretold_scene foretold_of(const scene *s, const carom_world_def *def, const carom_body_def *bodies)
 {
-	const carom_report report = runs_step(world, 1);
-	char what[128];
-	snprintf(what, sizeof what, "%s on %s, step %llu", s->name, device->name, (unsigned long long)sum->steps + sum->unsure);
-	sum->needed = fmax(sum->needed, forecast_check(f, world, what));
-	if (!f->sure) {
-		sum->unsure++;
-		return;
-	}
-	if (f->counts && (report.hits != f->middle->hit_count || report.ruled != f->middle->ruled || report.held != f->middle->held)) {
-		forecast_print(f);
-		fail_msg("%s: %llu hits, %llu ruled and %llu held, foretold were %zu, %zu and %zu", what, (unsigned long long)report.hits,
-			(unsigned long long)report.ruled, (unsigned long long)report.held, f->middle->hit_count, f->middle->ruled, f->middle->held);
-	}
-	sum->steps++;
-	sum->hits += report.hits;
-	sum->held += report.held;
-}
-
-static void report(const tally *sum, const scene *s, const scenery_device *device)
-{
-	print_message("%s on %s%s: %llu steps, %llu hits, %llu held; %llu steps not foretold; %.2g of what is allowed\n", s->name, device->name,
-		device->storage == CAROM_STORAGE_IMAGE ? " images" : "", (unsigned long long)sum->steps, (unsigned long long)sum->hits,
-		(unsigned long long)sum->held, (unsigned long long)sum->unsure, sum->needed);
-}
-
-/* From one start, until chaos has made the forecast worthless. */
-static void run_as_foretold(const scene *s, const carom_world_def *def, const carom_body_def *bodies, carom_world **worlds)
-{
-	forecast f = forecast_of(runs_queue(def, bodies, s->count));
-	f.counts = s->restitution > 0.0f;
-	tally sums[3] = {{0}};
-	for (uint64_t i = 0; f.sure && i < runs_affordable(100); i++) {
-		forecast_step(&f, (double)def->time_step);
-		SCENERY_EACH_DEVICE(device) {
-			const size_t d = (size_t)(device - scenery_devices);
-			if (worlds[d])
-				check_step(&sums[d], &f, worlds[d], s, device);
-		}
-	}
-	SCENERY_EACH_DEVICE(device) {
-		const size_t d = (size_t)(device - scenery_devices);
-		if (!worlds[d])
-			continue;
-		report(&sums[d], s, device);
-		runs_enough(sums[d].hits > 30);
-		carom_world_destroy(worlds[d]);
-	}
-	forecast_destroy(&f);
+	return (foretold_scene){s->name, def, bodies, s->count, s->restitution > 0.0f};
 }
 
 static void runs_as_foretold(void **unused)
 {
 	(void)unused;
-	assert_true(scenery_device_count <= 3);
 	for (const scene *s = scenes; s < scenes + SCENES; s++) {
 		carom_body_def bodies[MOST_BODIES];
 		const carom_world_def def = make(s, (uint64_t)(s - scenes) + 1, bodies);
-		carom_world *worlds[3] = {NULL};
-		SCENERY_EACH_DEVICE(device)
-			worlds[device - scenery_devices] = runs_world(&def, device, bodies, s->count);
-		run_as_foretold(s, &def, bodies, worlds);
+		const foretold_scene foretold = foretold_of(s, &def, bodies);
+		runs_enough(foretold_run(&foretold, runs_affordable(100)) > 30);
 	}
-}
-
-/* Each step by itself, from where the library is: so thousands of hits can be foretold. All devices are where the first one is. */
-static void follow(const scene *s, const carom_world_def *def, const carom_body_def *bodies, carom_world *world, carom_world *other,
-	const scenery_device *device)
-{
-	forecast f = forecast_of(runs_queue(def, bodies, s->count));
-	f.counts = s->restitution > 0.0f;
-	tally sum = {0};
-	bool squeezes = false;
-	for (uint64_t i = 0; i < runs_affordable(40); i++) {
-		if (squeezes) {
-			runs_step(world, 1);
-		} else {
-			forecast_follow(&f, world);
-			forecast_step(&f, (double)def->time_step);
-			check_step(&sum, &f, world, s, device);
-			squeezes = !f.sure && f.middle->hit_count >= SQUEEZED;
-		}
-		if (other)
-			runs_step(other, 1);
-		if (other && runs_hash(other) != runs_hash(world))
-			fail_msg("%s, step %llu: the bits differ from device to device", s->name, (unsigned long long)i);
-	}
-	report(&sum, s, device);
-	runs_enough(sum.hits > 20);
-	forecast_destroy(&f);
 }
 
 static void each_step_is_as_foretold(void **unused)
@@ -187,12 +104,8 @@ static void each_step_is_as_foretold(void **unused)
 	for (const scene *s = scenes; s < scenes + SCENES; s++) {
 		carom_body_def bodies[MOST_BODIES];
 		const carom_world_def def = make(s, (uint64_t)(s - scenes) + 100, bodies);
-		carom_world *first = runs_world(&def, &scenery_devices[0], bodies, s->count);
-		carom_world *second = runs_world(&def, &scenery_devices[scenery_device_count - 1], bodies, s->count);
-		if (first || second)
-			follow(s, &def, bodies, first ? first : second, first ? second : NULL, &scenery_devices[first ? 0 : scenery_device_count - 1]);
-		carom_world_destroy(first);
-		carom_world_destroy(second);
+		const foretold_scene foretold = foretold_of(s, &def, bodies);
+		runs_enough(foretold_follow(&foretold, runs_affordable(40)) > 20);
 	}
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "layout.h"
+#include "outline.h"
 
 typedef double corners[CAROM_MAX_VERTICES][2];
 
@@ -179,7 +180,9 @@ static touch touch_polygons(const exact_body *a, const exact_body *b)
 touch touch_pair(const exact_body *a, const exact_body *b)
 {
 	touch t;
-	if (a->count > 1 && b->count > 1) {
+	if (a->is_concave || b->is_concave) {
+		t = outline_touch(a, b, slop_of(a, b));
+	} else if (a->count > 1 && b->count > 1) {
 		t = touch_polygons(a, b);
 	} else if (a->count == 1 && b->count == 1) {
 		t = touch_circles(a, b);

@@ -1,4 +1,4 @@
-/* When, where and how fast two convex bodies touch, or a body and a wall of the room: in double precision, and by other means than the library's.
+/* When, where and how fast two bodies touch, or a body and a wall of the room: in double precision, and by other means than the library's.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_TESTS_TOUCH_H
 #define CAROM_TESTS_TOUCH_H
