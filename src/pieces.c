@@ -240,6 +240,15 @@ static uint32_t find_hull(const point *outline, uint32_t count, carom_vec2 *hull
 	return kept;
 }
 
+#define STRAIGHT 1e-6 /* the sine of a turn that rounding makes */
+
+/* A vertex within a side would be taken for an end of it. */
+static bool is_corner(const cutting *all, uint32_t k)
+{
+	const point a = at(all, before(all, k)), b = at(all, k), c = at(all, after(all, k));
+	return turn_at(a, b, c) > STRAIGHT * sqrt(dot(minus(b, a), minus(b, a)) * dot(minus(c, b), minus(c, b)));
+}
+
 static void take(const cutting *all, carom_pieces *pieces)
 {
 	bool is_done[CAROM_MOST_PIECE_VERTICES] = {false};
@@ -251,8 +260,10 @@ static void take(const cutting *all, carom_pieces *pieces)
 			continue;
 		pieces->sizes[pieces->count] = 0;
 		do {
-			*to++ = rounded_point(at(all, k));
-			pieces->sizes[pieces->count]++;
+			if (is_corner(all, k)) {
+				*to++ = rounded_point(at(all, k));
+				pieces->sizes[pieces->count]++;
+			}
 			is_done[k] = true;
 			k = after(all, k);
 		} while (k != first);
