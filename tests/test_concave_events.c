@@ -14,16 +14,19 @@ typedef struct scene {
 	bool has_room, mixed_restitution;
 	float gravity, restitution, friction, time_step;
 	float driven; /* m/s, rad/s: up to which most of what else is static is kinematic; 0: none */
+	bool level;   /* none is turned at first, so that sides meet sides */
 } scene;
 
 static const scene scenes[] = {
-	{"16 outlines", 16, 1.15f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, 0.0f},
-	{"40 outlines", 40, 1.1f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, 0.0f},
-	{"outlines without a room", 30, 1.1f, 2.0f, false, false, 0.0f, 0.9f, 0.0f, 0.02f, 0.0f},
-	{"outlines that fall", 30, 1.15f, 3.0f, true, true, -10.0f, 0.5f, 0.0f, 1.0f / 60.0f, 0.0f},
-	{"outlines that rub", 36, 1.1f, 3.0f, true, false, 0.0f, 1.0f, 0.5f, 0.02f, 0.0f},
-	{"outlines that fall and rub, driven", 40, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, 4.0f},
-	{"long steps of outlines", 25, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.0f, 0.1f, 0.0f},
+	{"16 outlines", 16, 1.15f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.05f, 0.0f, false},
+	{"40 outlines", 40, 1.1f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, 0.0f, false},
+	{"outlines without a room", 30, 1.1f, 2.0f, false, false, 0.0f, 0.9f, 0.0f, 0.02f, 0.0f, false},
+	{"outlines that fall", 30, 1.15f, 3.0f, true, true, -10.0f, 0.5f, 0.0f, 1.0f / 60.0f, 0.0f, false},
+	{"outlines that rub", 36, 1.1f, 3.0f, true, false, 0.0f, 1.0f, 0.5f, 0.02f, 0.0f, false},
+	{"outlines that fall and rub, driven", 40, 1.15f, 4.0f, true, true, -3.0f, 0.9f, 0.7f, 1.0f / 60.0f, 4.0f, false},
+	{"long steps of outlines", 25, 1.2f, 4.0f, true, false, -1.0f, 1.0f, 0.0f, 0.1f, 0.0f, false},
+	{"level outlines", 36, 1.05f, 3.0f, true, false, 0.0f, 1.0f, 0.0f, 0.02f, 0.0f, true},
+	{"level outlines that fall and rub", 25, 1.05f, 3.0f, true, true, -3.0f, 0.5f, 0.4f, 0.02f, 0.0f, true},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -36,6 +39,8 @@ static carom_world_def make(const scene *s, uint64_t seed, carom_body_def *bodie
 	if (s->driven > 0.0f)
 		scenery_drive(&random, s->count, s->driven, bodies);
 	for (size_t i = 0; i < s->count; i++) {
+		if (s->level)
+			bodies[i].angle = bodies[i].angular_velocity = 0.0f;
 		if (s->mixed_restitution)
 			bodies[i].restitution = scenery_uniform(&random, 0.5f, 1.0f);
 		if (s->friction > 0.0f)
@@ -58,9 +63,9 @@ static void runs_as_foretold(void **unused)
 	(void)unused;
 	for (const scene *s = scenes; s < scenes + SCENES; s++) {
 		carom_body_def bodies[MOST_BODIES];
-		const carom_world_def def = make(s, (uint64_t)(s - scenes) + 1, bodies);
+		const carom_world_def def = make(s, (uint64_t)(s - scenes) + 21, bodies);
 		const foretold_scene foretold = {s->name, &def, bodies, s->count, true};
-		runs_enough(foretold_run(&foretold, runs_affordable(100)) > 20);
+		runs_enough(foretold_run(&foretold, runs_affordable(100)) > 15);
 	}
 }
 
@@ -71,7 +76,7 @@ static void each_step_is_as_foretold(void **unused)
 		carom_body_def bodies[MOST_BODIES];
 		const carom_world_def def = make(s, (uint64_t)(s - scenes) + 100, bodies);
 		const foretold_scene foretold = {s->name, &def, bodies, s->count, true};
-		runs_enough(foretold_follow(&foretold, runs_affordable(40)) > 20);
+		runs_enough(foretold_follow(&foretold, runs_affordable(s->gravity < -5.0f ? 20 : 60)) > 20);
 	}
 }
 
