@@ -189,8 +189,7 @@
 #define OUTLINE_Y 1
 #define OUTLINE_NORMAL_X 2 /* outward, 1 long, of the side from here to the next vertex */
 #define OUTLINE_NORMAL_Y 3
-/* Of a polygon that is not convex these are its hull's; behind them, from the next even index on, a record for each piece follows, and then the vertices of one piece after the other, and
- * one record behind each. */
+/* Of a polygon that is not convex these are its hull's; behind them, from the next even index on, a record for each piece follows, and then the vertices of one piece after the other. */
 #define PIECE_COUNT 0 /* of vertices */
 #define PIECE_X 1     /* m: the middle of a circle that holds it, in the body's frame */
 #define PIECE_Y 2

@@ -42,7 +42,7 @@ piece piece_load(VERTICES_IN, body whole, float2 rotation, int i, int first)
 	p.self.first = first;
 	p.self.count = (int)CHANNEL(record, PIECE_COUNT);
 	p.self.pieces = 0;
-	p.next = first + p.self.count + 1;
+	p.next = first + p.self.count;
 	p.middle = turn(rotation, middle);
 	p.far = norm(middle);
 	p.radius = CHANNEL(record, PIECE_RADIUS);

@@ -110,7 +110,6 @@ static carom_status make_circle(const carom_body_def *def, carom_body *body)
 	double r = (double)def->radius, area = 3.14159265358979323846 * r * r;
 	body->radius = body->bound = def->radius;
 	body->vertex_count = body->hull_count = 1;
-	body->drawn_count = 1;
 	body->is_convex = true;
 	set_mass(def, body, area, 0.5 * area * r * r);
 	return CAROM_OK;

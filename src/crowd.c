@@ -203,7 +203,7 @@ static bool make_parts(const carom_world *world, carom_parts *parts)
 	const carom_body *bodies = carom_world_bodies(world);
 	size_t corners = 0, pieces = 0;
 	for (size_t k = 0; k < world->body_count; k++) {
-		corners += bodies[k].vertex_count + (bodies[k].is_convex ? 0u : carom_outline_piece_vertices(&bodies[k]));
+		corners += (uint32_t)bodies[k].vertex_count + bodies[k].piece_vertices;
 		pieces += bodies[k].piece_count;
 	}
 	parts->corners = calloc(corners + 1, sizeof *parts->corners);

@@ -18,10 +18,10 @@ static uint32_t even(uint32_t count)
 	return count + count % 2;
 }
 
-/* Of one that is not convex, more than it has. */
+/* More than it has. */
 static uint32_t most_vertices(const carom_body *body)
 {
-	return body->is_convex ? even(body->vertex_count) : 2 * even(body->vertex_count) + 5u * body->vertex_count;
+	return 2 * even(body->vertex_count) + (body->is_convex ? 0 : CAROM_MOST_PIECES + CAROM_MOST_PIECE_VERTICES);
 }
 
 bool carom_outlines_have_room(const carom_world *world, const carom_body *body)
@@ -31,7 +31,7 @@ bool carom_outlines_have_room(const carom_world *world, const carom_body *body)
 
 uint32_t carom_outline_hull(const carom_body *body)
 {
-	return body->vertex_first + (body->is_convex ? 0 : even(body->vertex_count));
+	return body->vertex_first + (body->hull_count == body->vertex_count ? 0 : even(body->vertex_count));
 }
 
 /* Of each piece there is something to be told first. */
@@ -40,14 +40,15 @@ static uint32_t table_of(const carom_body *body)
 	return carom_outline_hull(body) + even(body->hull_count);
 }
 
-uint32_t carom_outline_drawn(const carom_body *body)
+/* Where the pieces' vertices are. */
+static uint32_t pieces_of(const carom_body *body)
 {
-	return body->is_convex ? body->vertex_first : table_of(body) + body->piece_count;
+	return table_of(body) + body->piece_count;
 }
 
 uint32_t carom_outline_size(const carom_body *body)
 {
-	return body->vertex_count == 1 ? 0 : even(carom_outline_drawn(body) + body->drawn_count - body->vertex_first);
+	return body->vertex_count == 1 ? 0 : even(pieces_of(body) + body->piece_vertices - body->vertex_first);
 }
 
 /* Where one of the latest polygons with these vertices would be noted: FNV-1a. */
@@ -60,64 +61,53 @@ static carom_note *note_of(carom_world *world, const carom_vec2 *vertices, uint3
 	return &world->notes[(hash ^ hash >> 16) % CAROM_NOTES];
 }
 
-/* Of the pieces how many vertices each has, and then these, each with its first one again. */
-static void put_pieces(const carom_pieces *pieces, carom_vec2 *table)
+/* Of the pieces how many vertices each has, and then these. */
+static void put_pieces(const carom_pieces *pieces, uint32_t vertices, carom_vec2 *table)
 {
-	const carom_vec2 *from = pieces->vertices;
-	carom_vec2 *to = table + pieces->count;
-	for (uint32_t k = 0; k < pieces->count; from += pieces->sizes[k++]) {
+	for (uint32_t k = 0; k < pieces->count; k++)
 		table[k] = (carom_vec2){(float)pieces->sizes[k], 0.0f};
-		memcpy(to, from, pieces->sizes[k] * sizeof *to);
-		to[pieces->sizes[k]] = from[0];
-		to += pieces->sizes[k] + 1;
-	}
-}
-
-uint32_t carom_outline_piece_vertices(const carom_body *body)
-{
-	return (uint32_t)body->drawn_count - body->piece_count;
+	memcpy(table + pieces->count, pieces->vertices, vertices * sizeof *table);
 }
 
 void carom_outline_pieces(const carom_world *world, const carom_body *body, carom_pieces *pieces)
 {
-	const carom_vec2 *vertices = world->vertices.items, *table = vertices + table_of(body), *from = table + body->piece_count;
-	carom_vec2 *to = pieces->vertices;
+	const carom_vec2 *vertices = world->vertices.items, *table = vertices + table_of(body);
 	pieces->count = body->piece_count;
 	pieces->hull_count = body->hull_count;
-	memcpy(pieces->hull, vertices + carom_outline_hull(body), body->hull_count * sizeof *to);
-	for (uint32_t k = 0; k < pieces->count; k++) {
+	memcpy(pieces->hull, vertices + carom_outline_hull(body), body->hull_count * sizeof *vertices);
+	for (uint32_t k = 0; k < pieces->count; k++)
 		pieces->sizes[k] = (uint8_t)table[k].x;
-		memcpy(to, from, pieces->sizes[k] * sizeof *to);
-		to += pieces->sizes[k];
-		from += pieces->sizes[k] + 1;
+	memcpy(pieces->vertices, vertices + pieces_of(body), body->piece_vertices * sizeof *vertices);
+}
+
+static void make_pieces(const carom_body *body, const carom_vec2 *vertices, carom_pieces *pieces)
+{
+	if (!body->is_convex) {
+		carom_pieces_make(vertices, body->vertex_count, pieces);
+		return;
 	}
+	pieces->count = 0;
+	pieces->hull_count = carom_corners_find(vertices, body->vertex_count, pieces->hull);
 }
 
 static bool add_anew(carom_world *world, carom_body *body, const carom_vec2 *vertices)
 {
-	carom_pieces pieces = {.hull_count = body->vertex_count};
+	carom_pieces pieces;
+	make_pieces(body, vertices, &pieces);
 	body->vertex_first = (uint32_t)used_vertices(world);
-	body->piece_count = 0;
-	body->hull_count = body->vertex_count;
-	body->drawn_count = body->vertex_count;
-	if (!body->is_convex) {
-		carom_pieces_make(vertices, body->vertex_count, &pieces);
-		body->piece_count = (uint8_t)pieces.count;
-		body->hull_count = (uint8_t)pieces.hull_count;
-		body->drawn_count = 0;
-		for (uint32_t k = 0; k < pieces.count; k++)
-			body->drawn_count = (uint16_t)(body->drawn_count + pieces.sizes[k] + 1);
-	}
+	body->piece_count = (uint8_t)pieces.count;
+	body->hull_count = (uint8_t)pieces.hull_count;
+	body->piece_vertices = 0;
+	for (uint32_t k = 0; k < pieces.count; k++)
+		body->piece_vertices = (uint16_t)(body->piece_vertices + pieces.sizes[k]);
 	const uint32_t size = carom_outline_size(body);
 	carom_vec2 *to = carom_array_grow(&world->vertices, size * sizeof *to);
 	if (!to)
 		return false;
 	memset(to, 0, size * sizeof *to);
+	memcpy(to + (carom_outline_hull(body) - body->vertex_first), pieces.hull, pieces.hull_count * sizeof *to);
 	memcpy(to, vertices, body->vertex_count * sizeof *to);
-	if (!body->is_convex) {
-		memcpy(to + (carom_outline_hull(body) - body->vertex_first), pieces.hull, pieces.hull_count * sizeof *to);
-		put_pieces(&pieces, to + (table_of(body) - body->vertex_first));
-	}
+	put_pieces(&pieces, body->piece_vertices, to + (table_of(body) - body->vertex_first));
 	return true;
 }
 
@@ -129,12 +119,12 @@ bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *
 		body->vertex_first = note->first;
 		body->piece_count = note->piece_count;
 		body->hull_count = note->hull_count;
-		body->drawn_count = note->drawn_count;
+		body->piece_vertices = note->piece_vertices;
 		return true;
 	}
 	if (!add_anew(world, body, vertices))
 		return false;
-	*note = (carom_note){body->vertex_first, body->drawn_count, body->vertex_count, body->hull_count, body->piece_count};
+	*note = (carom_note){body->vertex_first, body->piece_vertices, body->vertex_count, body->hull_count, body->piece_count};
 	return true;
 }
 
@@ -176,13 +166,13 @@ static void fill_outline(const carom_world *world, const carom_body *body, float
 {
 	const carom_vec2 *vertices = world->vertices.items;
 	const uint32_t hull = carom_outline_hull(body), table = table_of(body);
-	uint32_t first = carom_outline_drawn(body);
+	uint32_t first = pieces_of(body);
 	fill_corners(corners + hull, vertices + hull, body->hull_count);
 	for (uint32_t k = 0; k < body->piece_count; k++) {
 		const uint32_t count = (uint32_t)vertices[table + k].x;
 		fill_piece(corners[table + k], vertices + first, count);
 		fill_corners(corners + first, vertices + first, count);
-		first += count + 1;
+		first += count;
 	}
 }
 

@@ -50,6 +50,15 @@ static double turn_at(point a, point b, point c)
 	return cross(minus(b, a), minus(c, b));
 }
 
+#define STRAIGHT 1e-6 /* the sine of a turn that rounding makes */
+
+/* Is b a vertex within a side? */
+static bool is_straight(point a, point b, point c)
+{
+	const point to_b = minus(b, a), to_c = minus(c, b);
+	return !(turn_at(a, b, c) > STRAIGHT * sqrt(dot(to_b, to_b) * dot(to_c, to_c)));
+}
+
 /* ---- Triangles -------------------------------------------------------------------------------------------------- */
 
 /* The square of how long the cut would be, if the corner at the end of side k can be cut off; else infinite. */
@@ -214,10 +223,31 @@ static void grow(cutting *all, uint32_t cut)
 
 /* ---- All of it -------------------------------------------------------------------------------------------------- */
 
+static uint32_t keep_corners(const point *outline, uint32_t count, carom_vec2 *corners)
+{
+	point before = outline[count - 1];
+	uint32_t kept = 0;
+	for (uint32_t i = 0; i < count; i++) {
+		if (is_straight(before, outline[i], outline[(i + 1) % count]))
+			continue;
+		before = outline[i];
+		corners[kept++] = rounded_point(before);
+	}
+	return kept;
+}
+
+uint32_t carom_corners_find(const carom_vec2 *outline, uint32_t count, carom_vec2 *corners)
+{
+	point exact[CAROM_MAX_VERTICES];
+	for (uint32_t i = 0; i < count; i++)
+		exact[i] = exact_point(outline[i]);
+	return keep_corners(exact, count, corners);
+}
+
 /* The convex hull, from the vertex that is the farthest to the left on, by Andrew's monotone chain. */
 static uint32_t find_hull(const point *outline, uint32_t count, carom_vec2 *hull)
 {
-	point sorted[CAROM_MAX_VERTICES], chain[2 * CAROM_MAX_VERTICES];
+	point sorted[CAROM_MAX_VERTICES], chain[2 * CAROM_MAX_VERTICES] = {{0.0, 0.0}};
 	uint32_t kept = 0;
 	for (uint32_t i = 0; i < count; i++) {
 		uint32_t k = i;
@@ -235,18 +265,7 @@ static uint32_t find_hull(const point *outline, uint32_t count, carom_vec2 *hull
 		}
 		kept--; /* the other half begins there */
 	}
-	for (uint32_t i = 0; i < kept; i++)
-		hull[i] = rounded_point(chain[i]);
-	return kept;
-}
-
-#define STRAIGHT 1e-6 /* the sine of a turn that rounding makes */
-
-/* A vertex within a side would be taken for an end of it. */
-static bool is_corner(const cutting *all, uint32_t k)
-{
-	const point a = at(all, before(all, k)), b = at(all, k), c = at(all, after(all, k));
-	return turn_at(a, b, c) > STRAIGHT * sqrt(dot(minus(b, a), minus(b, a)) * dot(minus(c, b), minus(c, b)));
+	return keep_corners(chain, kept, hull);
 }
 
 static void take(const cutting *all, carom_pieces *pieces)
@@ -260,7 +279,7 @@ static void take(const cutting *all, carom_pieces *pieces)
 			continue;
 		pieces->sizes[pieces->count] = 0;
 		do {
-			if (is_corner(all, k)) {
+			if (!is_straight(at(all, before(all, k)), at(all, k), at(all, after(all, k)))) {
 				*to++ = rounded_point(at(all, k));
 				pieces->sizes[pieces->count]++;
 			}

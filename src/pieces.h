@@ -1,4 +1,5 @@
-/* A polygon that is not convex, as what its hits are found by: its hull, and convex pieces that together are the polygon. */
+/* What hits of a polygon are found by: its corners, and if it is not convex its hull, and convex pieces that together are the polygon. None of them has a vertex within a
+ * side, for that would be taken for the side's end. */
 #ifndef CAROM_PIECES_H
 #define CAROM_PIECES_H
 
@@ -15,6 +16,8 @@ typedef struct carom_pieces {
 	carom_vec2 vertices[CAROM_MOST_PIECE_VERTICES]; /* one after the other, counter-clockwise */
 } carom_pieces;
 
+/* The vertices of a convex polygon but for those within a side; how many there are. */
+uint32_t carom_corners_find(const carom_vec2 *outline, uint32_t count, carom_vec2 *corners);
 /* Of a simple polygon, counter-clockwise. */
 void carom_pieces_make(const carom_vec2 *outline, uint32_t count, carom_pieces *pieces);
 

@@ -19,13 +19,13 @@ typedef struct carom_body {
 	uint8_t shape;                /* carom_shape */
 	uint8_t vertex_count;         /* 1 for a circle */
 	bool is_static, is_kinematic; /* one of them, or none */
-	bool is_convex;               /* else the next three are another polygon's: */
-	uint8_t piece_count;          /* 0 for one that is convex */
-	uint8_t hull_count;           /* vertices of the convex hull: vertex_count of one that is convex */
-	uint16_t drawn_count;         /* vertices that are drawn, likewise: those of pieces, each with its first one again behind them */
-	uint32_t vertex_first;        /* in world->vertices, an even number; a circle has none there */
-	float radius;                 /* as given; 0 for a polygon */
-	float bound;                  /* of the circle about the centre of mass */
+	bool is_convex;
+	uint8_t hull_count;      /* vertices of the convex hull, but for those within a side: where there are none else, all */
+	uint8_t piece_count;     /* 0 for one that is convex, and so are */
+	uint16_t piece_vertices; /* those of all pieces */
+	uint32_t vertex_first;   /* in world->vertices, an even number; a circle has none there */
+	float radius;            /* as given; 0 for a polygon */
+	float bound;             /* of the circle about the centre of mass */
 	float mass, inertia, density, restitution, friction, rolling_friction, linear_damping, angular_damping, torque;
 	carom_vec2 force, recentred_by;
 	uint32_t color, categories, mask;
@@ -68,7 +68,7 @@ typedef struct carom_pair {
 /* Where one of them has its vertices, and its pieces; count 0: it is none. */
 typedef struct carom_note {
 	uint32_t first;
-	uint16_t drawn_count;
+	uint16_t piece_vertices;
 	uint8_t count, hull_count, piece_count;
 } carom_note;
 
@@ -215,12 +215,10 @@ void carom_look_for_traits(carom_world *world, size_t first);
 bool carom_outlines_have_room(const carom_world *world, const carom_body *body);
 /* How many of world->vertices a body has. */
 uint32_t carom_outline_size(const carom_body *body);
-/* Where in world->vertices a polygon's hull begins, and what is drawn of it. */
+/* Where in world->vertices a polygon's hull begins: with the polygon itself, where it is that. */
 uint32_t carom_outline_hull(const carom_body *body);
-uint32_t carom_outline_drawn(const carom_body *body);
-/* What put it together, of a polygon that is not convex, and how many vertices the pieces have in all. */
+/* What it is put together of. */
 void carom_outline_pieces(const carom_world *world, const carom_body *body, carom_pieces *pieces);
-uint32_t carom_outline_piece_vertices(const carom_body *body);
 /* Texels of Vertices that polygons take; those of circles, in their order, follow. */
 uint32_t carom_polygon_texels(const carom_world *world);
 /* Keeps a polygon's vertices and pieces, and sets what the body knows of them; false if there is no memory. */

@@ -76,6 +76,11 @@ template <typename T> Axis<T> axis_along(const Convex<T> &b, const Pose<T> &pose
 	return {false, n, offset, gap, low.vertex, face};
 }
 
+template <typename T> Axis<T> face_of(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, int32_t face)
+{
+	return axis_along(b, pose, a.normal(face), inner(a.normal(face), a.vertex(face)), face);
+}
+
 /* The face of A that B is farthest in front of, or least behind. */
 template <typename T> Axis<T> face_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
 {
@@ -97,7 +102,7 @@ template <typename T> Axis<T> face_axis(const Convex<T> &a, const Convex<T> &b, 
 			most = is_more ? gap[i] : most;
 		}
 	}
-	return axis_along(b, pose, a.normal(face), inner(a.normal(face), a.vertex(face)), face);
+	return face_of(a, b, pose, face);
 }
 
 /* From a corner of A to a point of B, both in A's frame. */
@@ -114,6 +119,14 @@ Axis<T> corner_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose,
 	return b.is_circle() || axis.gap > fallback.gap ? axis : fallback;
 }
 
+/* Beyond the end of one of A's faces, is a circle in front of the one beside it? Where two are nearly one rounding alone says which is the best. */
+template <typename T> bool circle_is_beside(const Convex<T> &a, int32_t face, const Vec<T> &point, bool is_after)
+{
+	const Vec<T> from = a.vertex(face), edge = a.vertex(a.after(face)) - from;
+	const T along = inner(edge, point - from);
+	return is_after ? along > 0 : along < inner(edge, edge);
+}
+
 /* A's best face, or where the bodies are apart and B is nearest to one of its ends, that corner. */
 template <typename T> Axis<T> polygon_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose)
 {
@@ -124,9 +137,11 @@ template <typename T> Axis<T> polygon_axis(const Convex<T> &a, const Convex<T> &
 	Vec<T> from = a.vertex(face.face), to = a.vertex(a.after(face.face)), edge = to - from;
 	T along = inner(edge, point - from);
 	if (along < 0)
-		return corner_axis(a, b, pose, from, point, face);
+		return b.is_circle() && circle_is_beside(a, a.before(face.face), point, false) ? face_of(a, b, pose, a.before(face.face))
+																					   : corner_axis(a, b, pose, from, point, face);
 	if (along > inner(edge, edge))
-		return corner_axis(a, b, pose, to, point, face);
+		return b.is_circle() && circle_is_beside(a, a.after(face.face), point, true) ? face_of(a, b, pose, a.after(face.face))
+																					 : corner_axis(a, b, pose, to, point, face);
 	return face;
 }
 

@@ -40,7 +40,7 @@ template <typename T, typename Visit> void each_piece(const Convex<T> &body, con
 		const T *const record = reinterpret_cast<const T *>(table + k);
 		const Piece<T> piece{corners, static_cast<int32_t>(record[PIECE_COUNT]), {record[PIECE_X], record[PIECE_Y]}, record[PIECE_RADIUS]};
 		visit(piece);
-		corners += piece.count + 1;
+		corners += piece.count;
 	}
 }
 
