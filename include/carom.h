@@ -95,7 +95,7 @@ typedef struct carom_vec2 {
 /** What a body looks like. */
 typedef enum carom_shape {
 	CAROM_CIRCLE,  /**< a disc of `radius` */
-	CAROM_POLYGON, /**< the convex polygon of `vertices`, either way round */
+	CAROM_POLYGON, /**< the polygon of `vertices`, either way round; it need not be convex, but by the step first_impact */
 	CAROM_REGULAR, /**< `sides` vertices on a circle of `radius`, the first on the body's +x axis */
 } carom_shape;
 
@@ -110,9 +110,10 @@ typedef struct carom_body_def {
 	float radius;               /**< m, > 0: CAROM_CIRCLE and CAROM_REGULAR */
 	uint32_t sides;             /**< 3..64: CAROM_REGULAR */
 	uint32_t vertex_count;      /**< 3..64: CAROM_POLYGON */
-	const carom_vec2 *vertices; /**< m, `vertex_count` of them, convex, any origin: they are recentred on their centre of mass;
+	const carom_vec2 *vertices; /**< m, `vertex_count` of them, in order, any origin: they are recentred on their centre of mass;
 	                               each side is longer than a millionth of the length from the first to the farthest, and the area
-	                               larger than a millionth of that squared */
+	                               larger than a millionth of that squared. The polygon meets itself nowhere: of one that is not convex
+	                               sides that don't follow each other are farther apart than a millionth of that length */
 	carom_vec2 position;        /**< m, of the centre of mass; default (0, 0) */
 	carom_vec2 velocity;        /**< m/s; default (0, 0) */
 	float angle;                /**< rad; kept in [-pi, pi]; default 0 */
@@ -155,7 +156,7 @@ typedef struct carom_body_info {
 	carom_shape shape;          /**< as it was given */
 	float radius;               /**< m, of a circle or a regular polygon, else of the circle about the centre of mass that holds the body */
 	uint32_t vertex_count;      /**< 1 for a circle */
-	const carom_vec2 *vertices; /**< m, about the centre of mass, counter-clockwise; NULL for a circle */
+	const carom_vec2 *vertices; /**< m, the outline about the centre of mass, counter-clockwise; NULL for a circle */
 	float mass;                 /**< kg; infinite for a static body, and for a kinematic one */
 	float inertia;              /**< kg m^2 about the centre of mass; infinite likewise */
 	float density;              /**< kg/m^2, as given; 0 where the mass was given */
@@ -297,7 +298,7 @@ CAROM_API void carom_world_destroy(carom_world *world);
 
 /** Adds `count` bodies, all or none; *first (may be NULL) becomes the index of the first, the others follow it.
  * CAROM_INVALID_ARGUMENT names the body (as `bodies[k]`, k from 0 in `defs`) and the field. CAROM_LIMIT: a world holds
- * 4,194,304 bodies, 25,165,824 vertices of polygons and names of 4 GiB at most; equal polygons mostly share theirs. By the steps events and contacts, few (a quarter of the bodies) join a world
+ * 4,194,304 bodies, 25,165,824 vertices of polygons and names of 4 GiB at most; of a polygon that is not convex, which is kept with its hull and convex pieces of it, up to seven times its vertices count; equal polygons mostly share theirs. By the steps events and contacts, few (a quarter of the bodies) join a world
  * that goes on, before its next step; for more, or the first that has friction or damping, or where there is no room on the device, which is made for a power of two of them, all are loaded anew. */
 CAROM_API carom_status carom_world_add(carom_world *world, const carom_body_def *defs, size_t count, uint32_t *first, carom_error *error);
 
@@ -478,10 +479,10 @@ CAROM_API double carom_world_time(const carom_world *world);
 CAROM_API const carom_world_def *carom_world_get_def(const carom_world *world);
 /** The device the world runs on. */
 CAROM_API carom_status carom_world_get_device(const carom_world *world, carom_device_info *info, carom_error *error);
-/** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all takes at most on its device, unless they crowd: a body of events and contacts with more than
+/** Bytes that a world of `body_count` bodies with `vertex_count` vertices in all, a polygon that is not convex counting with seven times its own at most, takes at most on its device, unless they crowd: a body of events and contacts with more than
  * 16 others within its reach takes 4 more for each, and one of contacts that touches more than six about 100 more for each; and unless many hits are kept at once: there is room for 4096, or as many as bodies, then each takes 64 more. One that is changed between
  * two steps by events or contacts takes 48 to 96 more. Pictures come on top
- * from the first one on: 4 bytes a pixel, and about 300 bytes a circle, or 100 a polygon and 50 a vertex of it, for as many bodies as are drawn
+ * from the first one on: 4 bytes a pixel, and about 300 bytes a circle, or 100 a polygon and 50 a vertex of it (200 where it is not convex, at most), for as many bodies as are drawn
  * at once (less than 2 GiB). 0 for a def, or so many, that no world is made from. */
 CAROM_API uint64_t carom_world_memory(const carom_world_def *def, size_t body_count, size_t vertex_count);
 
@@ -503,7 +504,8 @@ typedef struct carom_measure {
 	double momentum_x;       /**< kg m/s */
 	double momentum_y;       /**< kg m/s */
 	double angular_momentum; /**< kg m^2/s about the origin */
-	double max_penetration;  /**< m: the deepest overlap of two bodies that hit each other, or of a body and a wall, 0 if none */
+	double max_penetration;  /**< m: the deepest overlap of two bodies that hit each other, or of a body and a wall, 0 if none; of polygons that are
+	                            not convex, that of two convex pieces of them */
 } carom_measure;
 
 /** Measures the present state. Waits for the device. */
@@ -516,7 +518,7 @@ CAROM_API carom_status carom_world_hash(carom_world *world, uint64_t *hash, caro
 /* ---- Queries: what is where ---------------------------------------------------------------------------------- */
 
 /** The bodies of a world in their places, as they were when it was made. It never changes: any number of threads may ask the same one at once, while its world goes
- * on, or is no more. The answers have the same bits on all exact devices. It takes 100 to 200 bytes a body and 40 a vertex. */
+ * on, or is no more. The answers have the same bits on all exact devices. It takes 100 to 200 bytes a body and 40 a vertex, of a polygon that is not convex up to 260. */
 typedef struct carom_snapshot carom_snapshot;
 
 /** Makes one of the world as it is now. Waits for the device. */
@@ -544,12 +546,12 @@ typedef struct carom_ray_hit {
 } carom_ray_hit;
 
 /** What each of `count` rays meets first: a body, or from inside a wall of the room. Where it meets several at once it is the body with the lowest index. What a ray
- * touches where it begins is not met: a ray that begins in a body looks out of it. CAROM_INVALID_ARGUMENT names what is not finite, or a radius below 0 (as `rays[k]`). */
+ * touches where it begins is not met: a ray that begins in a body looks out of it, and meets no other part of it, either, where that is not convex. CAROM_INVALID_ARGUMENT names what is not finite, or a radius below 0 (as `rays[k]`). */
 CAROM_API carom_status carom_snapshot_cast_rays(const carom_snapshot *snapshot, size_t count, const carom_ray *rays, carom_ray_hit *hits,
 	carom_error *error);
 
 /** The same of `count` bodies that are not in it, where each moves straight from its position to `to[k]` (m) without turning. Of a def its shape, position and angle count, and its filter:
- * what it may not hit it does not meet. Faces that lie flush touch in the middle of what they share. CAROM_INVALID_ARGUMENT names what carom_world_add would (as `bodies[k]`), or
+ * what it may not hit it does not meet. Faces that lie flush touch in the middle of what they share; where several do, two of them. CAROM_INVALID_ARGUMENT names what carom_world_add would (as `bodies[k]`), or
  * `to[k]`, where that is not finite; a position may be outside the room. */
 CAROM_API carom_status carom_snapshot_cast_bodies(const carom_snapshot *snapshot, size_t count, const carom_body_def *bodies, const carom_vec2 *to,
 	carom_ray_hit *hits, carom_error *error);

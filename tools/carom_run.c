@@ -166,14 +166,34 @@ static carom_status check_options(struct run_options *options, carom_error *erro
 
 /* ---- What is said ---- */
 
+static bool is_convex(const carom_body_def *body)
+{
+	bool turns_left = false, turns_right = false;
+	for (uint32_t k = 0; k < body->vertex_count; k++) {
+		const carom_vec2 a = body->vertices[k], b = body->vertices[(k + 1) % body->vertex_count], c = body->vertices[(k + 2) % body->vertex_count];
+		const double turn = ((double)b.x - (double)a.x) * ((double)c.y - (double)b.y) - ((double)b.y - (double)a.y) * ((double)c.x - (double)b.x);
+		turns_left = turns_left || turn > 0;
+		turns_right = turns_right || turn < 0;
+	}
+	return !(turns_left && turns_right);
+}
+
+/* As carom_world_memory counts them, at most. */
+static size_t vertices_of(const carom_body_def *body)
+{
+	if (body->shape == CAROM_CIRCLE)
+		return 1;
+	if (body->shape == CAROM_REGULAR)
+		return body->sides;
+	return is_convex(body) ? body->vertex_count : 7 * (size_t)body->vertex_count;
+}
+
 static void say_scene(const struct common_options *options, const carom_scene *scene)
 {
 	char memory[32];
 	size_t vertices = 0;
-	for (size_t k = 0; k < scene->body_count; k++) {
-		const carom_body_def *body = &scene->bodies[k];
-		vertices += body->shape == CAROM_CIRCLE ? 1 : body->shape == CAROM_REGULAR ? body->sides : body->vertex_count;
-	}
+	for (size_t k = 0; k < scene->body_count; k++)
+		vertices += vertices_of(&scene->bodies[k]);
 	format_bytes(carom_world_memory(&scene->world, scene->body_count, vertices), memory, sizeof memory);
 	say(options, "%s: %zu bodies, which take %s on the device", options->arguments[0], scene->body_count, memory);
 }
