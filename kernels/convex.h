@@ -115,42 +115,57 @@ axis corner_axis(VERTICES_IN, body a, body b, pose p, float2 from, float2 to, ax
 	return b.count == 1 || k.gap > fallback.gap ? k : fallback;
 }
 
-/* The axis of a face, of which a circle is in front; `fallback` where it is not. `after`: of the face behind the one that it is beyond the end of, else of that before. */
-axis beside_axis(VERTICES_IN, body a, body b, int face, bool after, float2 point, axis fallback)
+/* Beyond an end of a's face, is a circle in front of the one beside it: the next one, or the one before? */
+int beside_face(VERTICES_IN, body a, float2 point, int face)
 {
-	float2 from = vertex_load(VERTICES, a.first, face), to = vertex_load(VERTICES, a.first, face + 1 < a.count ? face + 1 : 0);
-	float2 edge = (float2)(to.x - from.x, to.y - from.y);
+	int next = face + 1 < a.count ? face + 1 : 0, last = face > 0 ? face - 1 : a.count - 1;
+	float2 from = vertex_load(VERTICES, a.first, face), to = vertex_load(VERTICES, a.first, next), edge = (float2)(to.x - from.x, to.y - from.y);
 	float along = inner(edge, (float2)(point.x - from.x, point.y - from.y));
-	if (!(after ? along > 0.0f : along < inner(edge, edge)))
-		return fallback;
-	axis k = fallback;
-	k.corner = false;
-	k.face = face;
-	k.n = normal_load(VERTICES, a.first, face, to);
-	k.offset = inner(k.n, from);
-	k.gap = (inner(k.n, point) - k.offset) + lowest(VERTICES, b, k.n, &k.deepest);
+	if (along > inner(edge, edge)) {
+		float2 end = vertex_load(VERTICES, a.first, next + 1 < a.count ? next + 1 : 0);
+		return inner((float2)(end.x - to.x, end.y - to.y), (float2)(point.x - to.x, point.y - to.y)) > 0.0f ? next : face;
+	}
+	float2 begin = vertex_load(VERTICES, a.first, last);
+	return along < 0.0f && inner((float2)(from.x - begin.x, from.y - begin.y), (float2)(point.x - from.x, point.y - from.y)) < 0.0f ? last : face;
+}
+
+/* The axis of the face that a circle is in front of, or beyond an end of: where two are nearly one rounding alone says which keeps it the farthest away. */
+axis circle_face(VERTICES_IN, body a, body b, float2 point, axis face)
+{
+	int at = face.face, before = -1;
+	for (int i = 0; i < a.count && at != before; i++) {
+		before = at;
+		at = beside_face(VERTICES, a, point, at);
+	}
+	if (at == face.face)
+		return face;
+	axis k = face;
+	k.face = at;
+	k.n = normal_load(VERTICES, a.first, at, vertex_load(VERTICES, a.first, at + 1 < a.count ? at + 1 : 0));
+	k.offset = inner(k.n, vertex_load(VERTICES, a.first, at));
+	k.gap = (inner(k.n, point) - k.offset) - b.radius;
 	return k;
 }
 
 /* Where the deepest point of b lies beyond an end of the face, b may be nearest to that end's corner instead. */
 axis refined_axis(VERTICES_IN, body a, body b, pose p, axis face)
 {
-	float2 from = vertex_load(VERTICES, a.first, face.face);
-	float2 to = vertex_load(VERTICES, a.first, face.face + 1 < a.count ? face.face + 1 : 0);
-	float2 point = turn_back(p.ra, p.d), edge = (float2)(to.x - from.x, to.y - from.y);
+	float2 point = turn_back(p.ra, p.d);
 	if (b.count > 1) {
 		float2 v = turn(relative_rotation(p), vertex_load(VERTICES, b.first, face.deepest));
 		point = (float2)(point.x + v.x, point.y + v.y);
+	} else {
+		face = circle_face(VERTICES, a, b, point, face);
 	}
+	float2 from = vertex_load(VERTICES, a.first, face.face);
+	float2 to = vertex_load(VERTICES, a.first, face.face + 1 < a.count ? face.face + 1 : 0);
+	float2 edge = (float2)(to.x - from.x, to.y - from.y);
 	float along = inner(edge, (float2)(point.x - from.x, point.y - from.y));
-	bool before = along < 0.0f;
-	if (!before && !(along > inner(edge, edge)))
-		return face;
-	axis corner = corner_axis(VERTICES, a, b, p, before ? from : to, point, face);
-	if (b.count > 1)
-		return corner;
-	int beside = before ? (face.face > 0 ? face.face - 1 : a.count - 1) : (face.face + 1 < a.count ? face.face + 1 : 0);
-	return beside_axis(VERTICES, a, b, beside, !before, point, corner);
+	if (along < 0.0f)
+		return corner_axis(VERTICES, a, b, p, from, point, face);
+	if (along > inner(edge, edge))
+		return corner_axis(VERTICES, a, b, p, to, point, face);
+	return face;
 }
 
 axis polygon_axis(VERTICES_IN, body a, body b, pose p)

@@ -64,14 +64,14 @@ bool pieces_are_far(const piece *a, const piece *b, float t, float reach)
 SELDOM float4 pieces_first(VERTICES_IN, body a, body b, float until, float4 rules)
 {
 	float2 ra = body_rotation(a, 0.0f), rb = body_rotation(b, 0.0f);
-	float reach = APART_SLOPS * pair_slop(a, b), end = smaller(until, 1.0f);
+	float reach = APART_SLOPS * pair_slop(a, b), end = until;
 	float4 best = hit_none();
 	piece p, q;
 	for (int i = 0, first = first_piece(a); i < piece_count(a); i++, first = p.next) {
 		p = piece_load(VERTICES, a, ra, i, first);
 		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = q.next) {
 			q = piece_load(VERTICES, b, rb, j, other_first);
-			if (pieces_are_far(&p, &q, end, reach))
+			if (pieces_are_far(&p, &q, 1.0f, reach))
 				continue;
 			float4 hit = pair_first(VERTICES, p.self, q.self, end, rules);
 			if (CHANNEL(hit, HITTIMES_HIT) < CHANNEL(best, HITTIMES_HIT))
@@ -144,6 +144,7 @@ float merge_near(float slop)
 typedef struct encounter {
 	axis k;
 	grounding at; /* without gaps */
+	int touches;  /* 0: no, 1: yes, 2: and is hit */
 } encounter;
 
 encounter encounter_of(VERTICES_IN, body a, body b, pose p, float slop, float still, float part)
@@ -152,20 +153,20 @@ encounter encounter_of(VERTICES_IN, body a, body b, pose p, float slop, float st
 	m.k = hit_axis(VERTICES, a, b, p, slop, still, part);
 	m.at.c = contact_at(VERTICES, a, b, p, m.k, slop);
 	m.at.gap[0] = m.at.gap[1] = 0.0f;
+	m.touches = m.k.gap <= PIECES_TOUCH * slop ? (contact_is_hit(m.at.c, threshold_of(m.k.gap, slop, still, part).rate) ? 2 : 1) : 0;
 	return m;
 }
 
-/* Is the hit rather along this one: of what touches the fastest approach, else what is nearest? */
-bool meets_rather(const encounter *m, const encounter *than, float slop)
+/* Is the hit rather along this one: of what touches, and of this what is hit, the fastest approach, else what is nearest? */
+bool meets_rather(const encounter *m, const encounter *than)
 {
-	bool touches = m->k.gap <= PIECES_TOUCH * slop, than_touches = than->k.gap <= PIECES_TOUCH * slop;
-	if (touches != than_touches)
-		return touches;
-	return touches ? rate_of(m->at.c) < rate_of(than->at.c) : m->k.gap < than->k.gap;
+	if (m->touches != than->touches)
+		return m->touches > than->touches;
+	return m->touches ? rate_of(m->at.c) < rate_of(than->at.c) : m->k.gap < than->k.gap;
 }
 
-/* Goes through the pairs of pieces that touch or nearly do: finds the one along which the hit is, or, `merges`, the points that all have along that normal. False if there is no pair. */
-bool encounters_pass(VERTICES_IN, body a, body b, pose p, float slop, float still, float part, bool merges, encounter *best)
+/* Goes through the pairs of pieces that are within reach: finds the one along which the hit is, or, `merges`, the points that all have along that normal. False if there is no pair. */
+bool encounters_pass(VERTICES_IN, body a, body b, pose p, float slop, float still, float part, float reach, bool merges, encounter *best)
 {
 	bool any = merges;
 	piece of_a, of_b;
@@ -173,12 +174,12 @@ bool encounters_pass(VERTICES_IN, body a, body b, pose p, float slop, float stil
 		of_a = piece_load(VERTICES, a, p.ra, i, first);
 		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = of_b.next) {
 			of_b = piece_load(VERTICES, b, p.rb, j, other_first);
-			if (pieces_are_far(&of_a, &of_b, 0.0f, APART_SLOPS * slop))
+			if (pieces_are_far(&of_a, &of_b, 0.0f, reach))
 				continue;
 			encounter m = encounter_of(VERTICES, of_a.self, of_b.self, p, slop, still, part);
-			if (merges && m.k.gap <= PIECES_TOUCH * slop && are_alike(&best->at, &m.at))
+			if (merges && m.touches && are_alike(&best->at, &m.at))
 				grounding_merge(&best->at, &m.at, p, merge_near(slop));
-			if (!merges && (!any || meets_rather(&m, best, slop))) {
+			if (!merges && (!any || meets_rather(&m, best))) {
 				*best = m;
 				any = true;
 			}
@@ -191,10 +192,13 @@ bool encounters_pass(VERTICES_IN, body a, body b, pose p, float slop, float stil
 SELDOM encounter pieces_encounter(VERTICES_IN, body a, body b, pose p, float slop, float still, float part)
 {
 	encounter best;
-	if (!encounters_pass(VERTICES, a, b, p, slop, still, part, false, &best))
-		return encounter_of(VERTICES, a, b, p, slop, still, part); /* of the hulls: it can't be, but for rounding */
+	float reach = APART_SLOPS * slop;
+	if (!encounters_pass(VERTICES, a, b, p, slop, still, part, reach, false, &best)) { /* what bisection found may not be so near yet */
+		reach = INFINITY;
+		encounters_pass(VERTICES, a, b, p, slop, still, part, reach, false, &best);
+	}
 	if (a.count > 1 && b.count > 1)
-		encounters_pass(VERTICES, a, b, p, slop, still, part, true, &best);
+		encounters_pass(VERTICES, a, b, p, slop, still, part, reach, true, &best);
 	return best;
 }
 

@@ -119,12 +119,23 @@ Axis<T> corner_axis(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose,
 	return b.is_circle() || axis.gap > fallback.gap ? axis : fallback;
 }
 
-/* Beyond the end of one of A's faces, is a circle in front of the one beside it? Where two are nearly one rounding alone says which is the best. */
-template <typename T> bool circle_is_beside(const Convex<T> &a, int32_t face, const Vec<T> &point, bool is_after)
+/* The face that a circle is in front of, if that is one beside it: of faces nearly in one line rounding alone says from which it is the farthest. */
+template <typename T> Axis<T> circle_face(const Convex<T> &a, const Convex<T> &circle, const Pose<T> &pose, const Vec<T> &point, Axis<T> axis)
 {
-	const Vec<T> from = a.vertex(face), edge = a.vertex(a.after(face)) - from;
-	const T along = inner(edge, point - from);
-	return is_after ? along > 0 : along < inner(edge, edge);
+	for (int32_t k = 0; k < a.count; k++) {
+		const int32_t face = axis.face, next = a.after(face), last = a.before(face);
+		const Vec<T> from = a.vertex(face), to = a.vertex(next), edge = to - from;
+		const T along = inner(edge, point - from);
+		int32_t other = face;
+		if (along > inner(edge, edge) && inner(Vec<T>(a.vertex(a.after(next)) - to), Vec<T>(point - to)) > 0)
+			other = next;
+		else if (along < 0 && inner(Vec<T>(from - a.vertex(last)), Vec<T>(point - from)) < 0)
+			other = last;
+		if (other == face)
+			break;
+		axis = face_of(a, circle, pose, other);
+	}
+	return axis;
 }
 
 /* A's best face, or where the bodies are apart and B is nearest to one of its ends, that corner. */
@@ -134,14 +145,14 @@ template <typename T> Axis<T> polygon_axis(const Convex<T> &a, const Convex<T> &
 	if (!(face.gap + (b.is_circle() ? b.radius : 0) > 0))
 		return face;
 	Vec<T> point = b.is_circle() ? turn_back(pose.ra, pose.d) : pose.to_a(b.vertex(face.deepest));
+	if (b.is_circle())
+		face = circle_face(a, b, pose, point, face);
 	Vec<T> from = a.vertex(face.face), to = a.vertex(a.after(face.face)), edge = to - from;
 	T along = inner(edge, point - from);
 	if (along < 0)
-		return b.is_circle() && circle_is_beside(a, a.before(face.face), point, false) ? face_of(a, b, pose, a.before(face.face))
-																					   : corner_axis(a, b, pose, from, point, face);
+		return corner_axis(a, b, pose, from, point, face);
 	if (along > inner(edge, edge))
-		return b.is_circle() && circle_is_beside(a, a.after(face.face), point, true) ? face_of(a, b, pose, a.after(face.face))
-																					 : corner_axis(a, b, pose, to, point, face);
+		return corner_axis(a, b, pose, to, point, face);
 	return face;
 }
 

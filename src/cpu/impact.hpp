@@ -41,8 +41,7 @@ public:
 		bodies.fill(b, slots[column], column_way);
 		const Pose<T> at = pose(a, b, T(0));
 		const T slop = pair_slop(a, b), stillness = pair_stillness(a, b);
-		const Touch<T> touch = have_pieces(a, b) ? hit_touch_of_pieces(a, b, at, slop, stillness, found_loose)
-												 : hit_touch(a, b, at, slop, stillness, found_loose);
+		const Touch<T> touch = have_pieces(a, b) ? answer_of_pieces(a, b, at, slop, stillness, found_loose) : answer_of(a, b, at, slop, stillness);
 		const bool from_b = touch.contact.from_b;
 		const Body<T> &ref = from_b ? b : a, &inc = from_b ? a : b;
 		Collision<T> collision{touch.contact, {touch.gap, slop, stillness, found_loose}, 1, ref.inverse_mass, inc.inverse_mass, ref.inverse_inertia,
@@ -57,6 +56,12 @@ public:
 
 private:
 	static constexpr T found_loose = T(0.5);
+
+	static Touch<T> answer_of(const Convex<T> &a, const Convex<T> &b, const Pose<T> &at, T slop, T stillness)
+	{
+		const Axis<T> axis = hit_axis(a, b, at, slop, stillness, found_loose);
+		return {contact_at(a, b, at, axis, slop), axis};
+	}
 
 	Impact<T> impact(const Collision<T> &collision) const
 	{

@@ -55,8 +55,8 @@ public:
 	{
 	}
 
-	/* Calls `visit(piece of A, piece of B)`, in order, for each two that may get so near before `until`, which `visit` may change. */
-	template <typename Visit> void each(const T &until, T reach, const Visit &visit) const
+	/* Calls `visit(piece of A, piece of B)`, in order, for each two that may get so near before `until`. */
+	template <typename Visit> void each(T until, T reach, const Visit &visit) const
 	{
 		each_piece(a, [&](const Piece<T> &own) {
 			const Vec<T> from = turn(ra, own.middle);
@@ -81,10 +81,10 @@ template <typename T, typename Find>
 {
 	HitTime<T> first = no_hit<T>();
 	T until = pair.until;
-	PiecePairs<T>(pair.a, pair.b).each(until, T(APART_SLOPS) * pair.slop, [&](const Convex<T> &a, const Convex<T> &b) {
+	PiecePairs<T>(pair.a, pair.b).each(T(1), T(APART_SLOPS) * pair.slop, [&](const Convex<T> &a, const Convex<T> &b) {
 		const HitTime<T> found = find(Pair<T>(a, b, pair.inside, until), rules);
-		if (found.hit <= until && found.hit < first.hit)
-			first = found, until = found.hit;
+		if (found.hit < first.hit)
+			first = found, until = smaller(until, found.hit);
 	});
 	return first;
 }
@@ -148,32 +148,50 @@ private:
 	}
 };
 
-/* How a hit of two convex bodies is answered. */
-template <typename T> Touch<T> hit_touch(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, T slop, T stillness, T loose)
-{
-	const Axis<T> axis = hit_axis(a, b, pose, slop, stillness, loose);
-	return {contact_at(a, b, pose, axis, slop), axis};
-}
+/* How a hit of two convex pieces would be answered. */
+template <typename T> struct Answer : Touch<T> {
+	enum { apart, touching, hit } state;
 
-/* The same of two of which one has pieces: along the way on which those that touch approach the fastest, at all points that are along it. */
+	Answer(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, T slop, T stillness, T loose)
+		: Answer(a, b, pose, hit_axis(a, b, pose, slop, stillness, loose), slop, stillness, loose)
+	{
+	}
+
+	/* Is the hit of two bodies rather this one of their pieces: what touches and is hit, what touches at least, and the fastest, or the nearest? */
+	bool is_before(const Answer &other) const
+	{
+		if (state != other.state)
+			return state > other.state;
+		return state == apart ? this->gap < other.gap : this->contact.slowest() < other.contact.slowest();
+	}
+
+private:
+	Answer(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, const Axis<T> &axis, T slop, T stillness, T loose)
+		: Touch<T>(contact_at(a, b, pose, axis, slop), axis), state(apart)
+	{
+		if (axis.gap <= T(PIECES_TOUCH) * slop)
+			state = this->contact.is_below(Threshold<T>(axis.gap, slop, stillness, loose).rate) ? hit : touching;
+	}
+};
+
+/* How one of two bodies is, of which one has pieces: at all points that are along the way. */
 template <typename T>
-[[gnu::noinline]] Touch<T> hit_touch_of_pieces(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, T slop, T stillness, T loose)
+[[gnu::noinline]] Touch<T> answer_of_pieces(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, T slop, T stillness, T loose)
 {
-	static thread_local std::vector<Touch<T>> all;
-	const T near = T(PIECES_TOUCH) * slop, now = 0;
+	static thread_local std::vector<Answer<T>> all;
 	all.clear();
 	for (const T reach : {T(APART_SLOPS) * slop, infinite<T>}) /* what bisection found may not be so near yet */
 		if (all.empty())
-			PiecePairs<T>(a, b).each(now, reach,
-				[&](const Convex<T> &own, const Convex<T> &other) { all.push_back(hit_touch(own, other, pose, slop, stillness, loose)); });
-	const Touch<T> *first = all.data();
-	for (const Touch<T> &touch : all)
-		if (first->gap <= near ? touch.gap <= near && touch.contact.slowest() < first->contact.slowest() : touch.gap < first->gap)
-			first = &touch;
+			PiecePairs<T>(a, b).each(T(0), reach,
+				[&](const Convex<T> &own, const Convex<T> &other) { all.emplace_back(own, other, pose, slop, stillness, loose); });
+	const Answer<T> *first = all.data();
+	for (const Answer<T> &answer : all)
+		if (answer.is_before(*first))
+			first = &answer;
 	Touch<T> merged = *first;
-	for (const Touch<T> &touch : all)
-		if (touch.gap <= near && !a.is_circle() && !b.is_circle())
-			merged.merge(touch, pose, slop);
+	for (const Answer<T> &answer : all)
+		if (answer.state != Answer<T>::apart && !a.is_circle() && !b.is_circle())
+			merged.merge(answer, pose, slop);
 	return merged;
 }
 
@@ -197,8 +215,7 @@ template <typename T> struct Touches {
 	/* Of what has pieces: along each way one. */
 	[[gnu::noinline]] void find_of_pieces(const Convex<T> &a, const Convex<T> &b, const Pose<T> &pose, T force, T slop)
 	{
-		const T now = 0;
-		PiecePairs<T>(a, b).each(now, force, [&](const Convex<T> &own, const Convex<T> &other) {
+		PiecePairs<T>(a, b).each(T(0), force, [&](const Convex<T> &own, const Convex<T> &other) {
 			Touch<T> touch;
 			if (find(own, other, pose, force, slop, touch))
 				add(touch, a.is_circle() || b.is_circle(), pose, slop);
