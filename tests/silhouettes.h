@@ -1,4 +1,4 @@
-/* Polygons that are not convex, for the tests of rendering.
+/* Polygons, most of them not convex, for the tests of rendering.
  * SPDX-License-Identifier: MIT */
 #ifndef CAROM_TESTS_SILHOUETTES_H
 #define CAROM_TESTS_SILHOUETTES_H
@@ -6,8 +6,9 @@
 #include "carom.h"
 
 #include <math.h>
+#include <string.h>
 
-enum { SILHOUETTES = 7 };
+enum { SILHOUETTES = 8 };
 
 static inline carom_vec2 silhouette_polar(double radius, double angle)
 {
@@ -61,6 +62,7 @@ static inline uint32_t silhouette_spiral(carom_vec2 *v)
 /* Of shape number k, some 2 m wide; `v` has room for CAROM_MAX_VERTICES. */
 static inline uint32_t silhouette_vertices(uint32_t k, carom_vec2 *v)
 {
+	static const carom_vec2 flat[5] = {{-1, -1}, {0.3f, -1}, {1, -1}, {1, 1}, {-1, 1}}; /* convex, with a vertex within a side */
 	static const carom_vec2 l[6] = {{0, 0}, {2, 0}, {2, 0.6f}, {0.6f, 0.6f}, {0.6f, 2}, {0, 2}};
 	static const carom_vec2 u[8] = {{0, 0}, {2, 0}, {2, 2}, {1.5f, 2}, {1.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 2}, {0, 2}};
 	switch (k) {
@@ -70,6 +72,7 @@ static inline uint32_t silhouette_vertices(uint32_t k, carom_vec2 *v)
 	case 3: return silhouette_star(12, 0.55, v);
 	case 4: return silhouette_gear(v);
 	case 5: return silhouette_comb(0.06f, v);
+	case 6: return memcpy(v, flat, sizeof flat), 5;
 	default: return silhouette_spiral(v);
 	}
 }
@@ -85,13 +88,12 @@ static inline carom_body_def silhouette_body(uint32_t k, carom_vec2 *v, float x,
 	return def;
 }
 
-/* So many on a grid about the origin, some static. The world does not outlive the next call. */
+/* So many on a grid about the origin, some static. */
 static inline carom_status silhouette_add(carom_world *world, uint32_t count, float pitch, carom_error *error)
 {
-	static carom_vec2 v[SILHOUETTES][CAROM_MAX_VERTICES];
 	for (uint32_t k = 0; k < count; k++) {
-		const uint32_t shape = k % SILHOUETTES;
-		carom_body_def def = silhouette_body(shape, v[shape], pitch * ((float)(k % 5) - 2), pitch * ((float)(k / 5 % 3) - 1), 0.37f * (float)k);
+		carom_vec2 v[CAROM_MAX_VERTICES];
+		carom_body_def def = silhouette_body(k % SILHOUETTES, v, pitch * ((float)(k % 5) - 2), pitch * ((float)(k / 5 % 3) - 1), 0.37f * (float)k);
 		def.is_static = k % 4 == 3;
 		const carom_status status = carom_world_add(world, &def, 1, NULL, error);
 		if (status)
