@@ -228,7 +228,7 @@ static int restore(void **state)
 static void passes_give_one_picture(void **state)
 {
 	(void)state;
-	picture first[2] = {{0}}, found[2];
+	picture first[2] = {{0}}, found[2] = {{0}};
 	SCENERY_EACH_DEVICE(device) {
 		for (int limited = 0; limited < 2; limited++) {
 			carom_world_def def = room(NULL, NULL);
