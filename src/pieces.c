@@ -61,8 +61,7 @@ static bool is_straight(point a, point b, point c)
 
 /* ---- Triangles -------------------------------------------------------------------------------------------------- */
 
-#define PASSING \
-	1e-3 /* of a cut's length: how far from it other vertices are to be, for a piece that grows over a cut does not get away from what touches it elsewhere */
+#define PASSING 1e-3 /* of a cut's length: how far from it other vertices are to be, for its line is a side of pieces */
 
 /* The square of how long the cut would be, if the corner at the end of side k can be cut off so that no vertex is behind the cut, or nearer to it than `passing` of its length; else infinite. */
 static double ear_cut(const cutting *all, uint32_t k, double passing)
@@ -127,9 +126,7 @@ static uint32_t sharpest_ear(const cutting *all, uint32_t ring, uint32_t left)
 static void cut_into_triangles(cutting *all, uint32_t ring)
 {
 	for (uint32_t left = all->count; left > 3; left--) {
-		uint32_t ear = best_ear(all, ring, left, PASSING);
-		if (ear == NONE)
-			ear = best_ear(all, ring, left, 0.0);
+		const uint32_t clear = best_ear(all, ring, left, PASSING), ear = clear == NONE ? best_ear(all, ring, left, 0.0) : clear;
 		ring = ear == NONE ? sharpest_ear(all, ring, left) : ear;
 		cut_ear(all, ring);
 	}
@@ -269,6 +266,49 @@ static void grow(cutting *all, uint32_t cut)
 		all->sides[end].from = grown(all, at(all, end), minus(at(all, end), at(all, ahead)), at(all, cut), at(all, back));
 }
 
+/* Is a point in the piece with that side, or nearly? */
+static bool holds(const cutting *all, uint32_t ring, point p)
+{
+	uint32_t k = ring;
+	bool is_in = true;
+	do {
+		is_in = is_in && turn_at(at(all, k), at(all, after(all, k)), p) >= -ON_CUT * length_of(all, k);
+		k = after(all, k);
+	} while (k != ring);
+	return is_in;
+}
+
+static point unit(point p)
+{
+	return along((point){0.0, 0.0}, 1.0 / sqrt(dot(p, p)), p);
+}
+
+/* The part of a way from a corner to a line. */
+static double part_to_line(point corner, point way, point a, point b)
+{
+	const double part = cross(minus(b, a), minus(a, corner)) / cross(minus(b, a), way);
+	return part > 0.0 ? part : HUGE_VAL;
+}
+
+/* A piece that ends between two cuts in a corner that points inwards is drawn back from there, where those on both sides of it have grown over the cuts: else what touches these there
+ * would touch that piece too. */
+static void draw_back(cutting *all, uint32_t k)
+{
+	const uint32_t back = before(all, k), first = all->sides[back].twin, second = all->sides[k].twin;
+	if (!all->sides[k].is_cut || !all->sides[back].is_cut || all->sides[before(all, first)].is_cut || all->sides[after(all, second)].is_cut)
+		return;
+	const point q = at(all, k), from = at(all, back), to = at(all, after(all, k)), ahead = at(all, first), behind = at(all, after(all, second));
+	if (is_same(q, ahead) || is_same(q, behind))
+		return;
+	const point low = cross(minus(to, q), minus(ahead, q)) > 0.0 ? ahead : to, high = cross(minus(behind, q), minus(from, q)) > 0.0 ? behind : from;
+	const point a = unit(minus(low, q)), b = unit(minus(high, q)), way = {a.x + b.x, a.y + b.y};
+	double most = part_to_line(q, way, from, to);
+	most = fmin(most, fmin(part_to_line(q, way, ahead, at(all, after(all, first))), part_to_line(q, way, behind, at(all, second))));
+	const point drawn = along(q, 0.5 * most, way);
+	if (isfinite(most) && holds(all, first, drawn) && holds(all, first, from) && holds(all, second, drawn) && holds(all, second, to))
+		all->sides[k].from = drawn;
+}
+
 /* ---- All of it -------------------------------------------------------------------------------------------------- */
 
 static uint32_t keep_corners(const point *outline, uint32_t count, carom_vec2 *corners)
@@ -353,5 +393,8 @@ void carom_pieces_make(const carom_vec2 *outline, uint32_t count, carom_pieces *
 	for (uint32_t k = 0; k < all.side_count; k++)
 		if (!all.is_gone[k] && all.sides[k].is_cut)
 			grow(&all, k);
+	for (uint32_t k = 0; k < all.side_count; k++)
+		if (!all.is_gone[k])
+			draw_back(&all, k);
 	take(&all, pieces);
 }
