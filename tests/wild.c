@@ -87,6 +87,34 @@ static void make_outline(scenery_random *random, carom_vec2 *corners)
 	}
 }
 
+/* Corners at growing angles, now far from the middle, now near it: not convex, but simple. */
+static void make_hollow(scenery_random *random, carom_vec2 *corners)
+{
+	const float deep = scenery_uniform(random, 0.15f, 0.8f), turn = 6.2831853f / (float)WILD_CORNERS;
+	for (uint32_t i = 0; i < WILD_CORNERS; i++) {
+		const float angle = ((float)i + scenery_uniform(random, 0.0f, 0.6f)) * turn, far = i % 2 ? 0.45f * deep : 0.45f;
+		corners[i] = (carom_vec2){far * cosf(angle), far * sinf(angle)};
+	}
+}
+
+/* Half of the polygons of one world in three, by numbers of their own: the bodies of a seed are kept. */
+static void make_hollows(uint64_t seed, wild_world *world)
+{
+	scenery_random random = {seed ^ 3};
+	if (!one_in(&random, 3))
+		return;
+	for (uint32_t i = 0; i < WILD_HOLLOWS; i++)
+		make_hollow(&random, world->hollows[i]);
+	for (uint32_t i = 0; i < world->count; i++) {
+		carom_body_def *body = &world->bodies[i];
+		if (body->shape == CAROM_CIRCLE || body->sides > 8 || one_in(&random, 2))
+			continue;
+		body->shape = CAROM_POLYGON;
+		body->vertices = world->hollows[below(&random, WILD_HOLLOWS)];
+		body->vertex_count = WILD_CORNERS;
+	}
+}
+
 /* Below the others, in a room that grows for it or in none. */
 static void add_large(scenery_random *random, wild_world *world)
 {
@@ -171,6 +199,7 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 		body->vertices = world->outlines[below(&random, WILD_OUTLINES)];
 		body->vertex_count = WILD_CORNERS;
 	}
+	make_hollows(seed, world);
 	scenery_random driving = {seed ^ 1}; /* of its own: the bodies of a seed are kept */
 	if (one_in(&driving, 3))
 		scenery_drive(&driving, world->count, 5.0f, world->bodies);

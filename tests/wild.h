@@ -5,19 +5,19 @@
 
 #include "scenery.h"
 
-enum { WILD_SIDE = 24, WILD_MOST = WILD_SIDE * WILD_SIDE + 1, WILD_WATCHERS = 400, WILD_OUTLINES = 8, WILD_CORNERS = 9 };
+enum { WILD_SIDE = 24, WILD_MOST = WILD_SIDE * WILD_SIDE + 1, WILD_WATCHERS = 400, WILD_OUTLINES = 8, WILD_CORNERS = 9, WILD_HOLLOWS = 4 };
 
 /* `bodies` point into `outlines`. */
 typedef struct wild_world {
 	carom_world_def def;
 	uint32_t count;
 	carom_body_def bodies[WILD_MOST + WILD_WATCHERS];
-	carom_vec2 outlines[WILD_OUTLINES][WILD_CORNERS];
+	carom_vec2 outlines[WILD_OUTLINES][WILD_CORNERS], hollows[WILD_HOLLOWS][WILD_CORNERS];
 } wild_world;
 
 /* Up to 64 circles and regular polygons on a lattice in a room, which may be far from the origin. */
 void wild_make(uint64_t seed, wild_world *world);
-/* Of any size, by other rules, among them irregular polygons and one large body, with walls or without, or one fast body among others that rest, or rows that exactly fill their room. */
+/* Of any size, by other rules, among them irregular polygons, also such as are not convex, and one large body, with walls or without, or one fast body among others that rest, or rows that exactly fill their room. */
 void wild_make_wider(uint64_t seed, wild_world *world);
 /* Many that nothing happens to, so that those in hits are few: only then bodies do not look at each other in each step. */
 void wild_add_watchers(wild_world *world);
