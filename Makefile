@@ -338,6 +338,7 @@ mixer          | --time 10                     | two paddles that turn in a heap
 sand           | --time 8                      | the same balls twice: below they have rolling friction, and stay in a heap
 bridge         | --time 1.5                    | planks and a chain that are joined: the bridge bears what fell on it, and the ball has hit the boxes
 car            | --time 6.9                    | a car with motors on springs, which has drawn a sled by a rope over bumps and through two gates
+letters        | --time 6                      | letters in a bowl, and hooks that hang in hooks: none of them is convex
 drum           | --time 9                      | a drum of bars that are fixed to each other, which a motor turns, and the balls that it mixes
 sorter         | --time 1.8                    | red and blue bodies in one room, which pass through each other
 mixed          | --time 2                      | circles and polygons in one room after two seconds
