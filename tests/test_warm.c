@@ -195,7 +195,7 @@ static void other_steps_forget_them(void **unused)
 		for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
 			carom_world_def def = runs_resting(steps[i], 4.0f, 4.0f);
 			const carom_body_def body = ball(0.0f, 2.0f);
-			const contact_list list = {1, {{0, CAROM_WALL_BOTTOM, {20.0f, 0.0f}, {0.0f, 0.0f}}}};
+			const contact_list list = {1, {{0, CAROM_WALL_BOTTOM, {20.0f, 0.0f}, {0.0f, 0.0f}, 0}}};
 			carom_world *world = runs_world(&def, device, &body, 1);
 			if (!world)
 				continue;
@@ -217,8 +217,8 @@ static void wrong_forces_do_no_harm(void **unused)
 		carom_world_def def = runs_resting("contacts", 4.0f, 4.0f);
 		const carom_body_def bodies[] = {ball(0.0f, 0.501f), ball(2.0f, 0.501f)};
 		const contact_list list = {4,
-			{{1, 0, {3e38f, 1e30f}, {-3e38f, 0.0f}}, {0, CAROM_WALL_BOTTOM, {3e38f, 3e38f}, {3e38f, -3e38f}},
-				{0, CAROM_WALL_TOP, {1e9f, 0.0f}, {1e9f, 0.0f}}, {1, CAROM_WALL_BOTTOM, {1e4f, 0.0f}, {0.0f, 0.0f}}}};
+			{{1, 0, {3e38f, 1e30f}, {-3e38f, 0.0f}, 0}, {0, CAROM_WALL_BOTTOM, {3e38f, 3e38f}, {3e38f, -3e38f}, 0},
+				{0, CAROM_WALL_TOP, {1e9f, 0.0f}, {1e9f, 0.0f}, 0}, {1, CAROM_WALL_BOTTOM, {1e4f, 0.0f}, {0.0f, 0.0f}, 0}}};
 		carom_world *world = runs_world(&def, device, bodies, 2);
 		if (!world)
 			continue;
@@ -253,18 +253,21 @@ static void wrong_contacts_are_refused(void **unused)
 		contact_list list;
 		const char *said;
 	} wrong[] = {
-		{{1, {{5, 0, {0}, {0}}}}, "contacts[0].body: found 5, the world has 5 bodies"},
-		{{2, {{1, 0, {0}, {0}}, {0, 0, {0}, {0}}}}, "contacts[1].other: found 0, must be the index of a body before body 0, or of a wall"},
-		{{1, {{1, -5, {0}, {0}}}}, "contacts[0].other: found -5"},
-		{{1, {{1, 2, {0}, {0}}}}, "contacts[0].other: found 2"},
-		{{1, {{4, 3, {0}, {0}}}}, "contacts[0]: one of the two must be dynamic, and body 4 is static"},
-		{{1, {{4, -1, {0}, {0}}}}, "contacts[0]: one of the two must be dynamic, and body 4 is static"},
-		{{1, {{1, 0, {1.0f, -1.0f}, {0}}}}, "contacts[0].normal: found -1, must be finite and at least 0 (N)"},
-		{{1, {{1, 0, {NAN, 0}, {0}}}}, "contacts[0].normal: found "},
-		{{1, {{1, 0, {INFINITY, 0}, {0}}}}, "contacts[0].normal: found inf"},
-		{{1, {{1, 0, {0}, {0, NAN}}}}, "contacts[0].friction: must be two finite numbers (N)"},
-		{{3, {{1, 0, {0}, {0}}, {2, 0, {0}, {0}}, {1, 0, {1}, {0}}}}, "contacts: body 1 has more than one with body 0"},
-		{{2, {{1, -2, {0}, {0}}, {1, -2, {1}, {0}}}}, "contacts: body 1 has more than one with wall -2"},
+		{{1, {{5, 0, {0}, {0}, 0}}}, "contacts[0].body: found 5, the world has 5 bodies"},
+		{{2, {{1, 0, {0}, {0}, 0}, {0, 0, {0}, {0}, 0}}}, "contacts[1].other: found 0, must be the index of a body before body 0, or of a wall"},
+		{{1, {{1, -5, {0}, {0}, 0}}}, "contacts[0].other: found -5"},
+		{{1, {{1, 2, {0}, {0}, 0}}}, "contacts[0].other: found 2"},
+		{{1, {{4, 3, {0}, {0}, 0}}}, "contacts[0]: one of the two must be dynamic, and body 4 is static"},
+		{{1, {{4, -1, {0}, {0}, 0}}}, "contacts[0]: one of the two must be dynamic, and body 4 is static"},
+		{{1, {{1, 0, {1.0f, -1.0f}, {0}, 0}}}, "contacts[0].normal: found -1, must be finite and at least 0 (N)"},
+		{{1, {{1, 0, {NAN, 0}, {0}, 0}}}, "contacts[0].normal: found "},
+		{{1, {{1, 0, {INFINITY, 0}, {0}, 0}}}, "contacts[0].normal: found inf"},
+		{{1, {{1, 0, {0}, {0, NAN}, 0}}}, "contacts[0].friction: must be two finite numbers (N)"},
+		{{3, {{1, 0, {0}, {0}, 0}, {2, 0, {0}, {0}, 0}, {1, 0, {1}, {0}, 0}}}, "contacts: body 1 has more than one with body 0"},
+		{{2, {{1, -2, {0}, {0}, 0}, {1, -2, {1}, {0}, 0}}}, "contacts: body 1 has more than one with wall -2"},
+		{{3, {{1, 0, {0}, {0}, 0}, {1, 0, {0}, {0}, 3}, {1, 0, {1}, {0}, 3}}}, "contacts: body 1 has more than one with body 0"},
+		{{1, {{1, 0, {0}, {0}, 4}}}, "contacts[0].part: found 4, must be from 0 to 3"},
+		{{1, {{1, -2, {0}, {0}, 1}}}, "contacts[0].part: found 1, must be 0 with a wall"},
 	};
 	(void)unused;
 	carom_world_def def = runs_resting("contacts", 20.0f, 8.0f);
@@ -272,7 +275,7 @@ static void wrong_contacts_are_refused(void **unused)
 	bodies[3].is_static = bodies[4].is_static = true;
 	bodies[3].mass = bodies[4].mass = 0.0f;
 	carom_world *world = runs_world(&def, &scenery_devices[0], bodies, 5);
-	const contact_list good = {2, {{3, 2, {1, 2}, {3, 4}}, {1, 0, {5, 6}, {7, 8}}}}, sorted = {2, {good.all[1], good.all[0]}};
+	const contact_list good = {2, {{3, 2, {1, 2}, {3, 4}, 0}, {1, 0, {5, 6}, {7, 8}, 0}}}, sorted = {2, {good.all[1], good.all[0]}};
 	carom_contact one;
 	carom_error error;
 	set_contacts(world, &good);
@@ -287,7 +290,7 @@ static void wrong_contacts_are_refused(void **unused)
 
 	def.has_room = false;
 	world = runs_world(&def, &scenery_devices[0], bodies, 5);
-	refuse(world, &(contact_list){1, {{1, CAROM_WALL_LEFT, {0}, {0}}}}, "contacts[0].other: found a wall, but there is no room");
+	refuse(world, &(contact_list){1, {{1, CAROM_WALL_LEFT, {0}, {0}, 0}}}, "contacts[0].other: found a wall, but there is no room");
 	carom_world_destroy(world);
 }
 
