@@ -380,6 +380,7 @@ pictures: all
 	$(BUILD)/carom run scenes/sand.json --time 8 --size 720x405 --png docs/sand.png
 	$(BUILD)/carom run scenes/bridge.json --time 1.5 --size 720x405 --png docs/bridge.png
 	$(BUILD)/carom run scenes/car.json --time 6.9 --size 720x405 --png docs/car.png
+	$(BUILD)/carom run scenes/letters.json --time 6 --size 720x405 --png docs/letters.png
 	$(BUILD)/carom run scenes/drum.json --time 9 --size 720x405 --png docs/drum.png
 	$(BUILD)/carom run scenes/sorter.json --time 1.8 --size 720x405 --png docs/sorter.png
 	$(BUILD)/carom run scenes/thin_wall.json --time 1 --fps 3 --size 480x264 --frames docs/thin_wall

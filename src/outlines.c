@@ -21,7 +21,7 @@ static uint32_t even(uint32_t count)
 /* More than it has. */
 static uint32_t most_vertices(const carom_body *body)
 {
-	return 2 * even(body->vertex_count) + (body->is_convex ? 0 : CAROM_MOST_PIECES + CAROM_MOST_PIECE_VERTICES);
+	return 2 * even(body->vertex_count) + (body->is_convex ? 0 : 5u * body->vertex_count);
 }
 
 bool carom_outlines_have_room(const carom_world *world, const carom_body *body)
