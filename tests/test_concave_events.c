@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include "concave.h"
 #include "foretold.h"
+#include "hollows.h"
 #include "runs.h"
 
 enum { MOST_BODIES = 40 };
@@ -80,8 +81,31 @@ static void each_step_is_as_foretold(void **unused)
 	}
 }
 
+/* Stars, combs and spirals with up to 64 corners, which nobody has drawn. */
+static void random_outlines_are_as_foretold(void **unused)
+{
+	static carom_vec2 vertices[MOST_BODIES][CAROM_MAX_VERTICES];
+	static const int which[] = {1, 2};
+	(void)unused;
+	for (size_t k = 0; k < sizeof which / sizeof *which; k++) {
+		const scene *s = &scenes[which[k]];
+		carom_body_def bodies[MOST_BODIES];
+		scenery_random random = {k + 5};
+		const carom_world_def def = make(s, k + 200, bodies);
+		for (size_t i = 0; i < s->count; i++) {
+			if (bodies[i].shape != CAROM_POLYGON)
+				continue;
+			bodies[i].vertex_count = hollows_make(&random, (hollow_kind)(i % HOLLOW_KINDS), 0.45f, vertices[i]);
+			bodies[i].vertices = vertices[i];
+		}
+		const foretold_scene foretold = {s->name, &def, bodies, s->count, true};
+		runs_enough(foretold_follow(&foretold, runs_affordable(30)) > 20);
+	}
+}
+
 int main(void)
 {
-	const struct CMUnitTest tests[] = {cmocka_unit_test(runs_as_foretold), cmocka_unit_test(each_step_is_as_foretold)};
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(runs_as_foretold), cmocka_unit_test(each_step_is_as_foretold), cmocka_unit_test(random_outlines_are_as_foretold)};
 	return cmocka_run_group_tests_name("concave_events", tests, NULL, NULL);
 }

@@ -82,16 +82,20 @@ static face best_face(const exact_body *a, const exact_body *b, const double *d,
 	return best;
 }
 
-/* Beyond the ends of the face that is nearest to a circle's centre it is the corner that touches. */
-static void turn_to_corner(touch *t, const double *from, const double *to, const double *centre)
+/* Beyond the ends of all faces it is the corner nearest to a circle's centre that touches. */
+static void turn_to_corner(touch *t, const exact_body *a, corners at, const double *centre)
 {
-	const double edge[2] = {to[0] - from[0], to[1] - from[1]}, away[2] = {centre[0] - from[0], centre[1] - from[1]};
-	const double along = inner(edge, away), square = inner(edge, edge);
-	const double *corner = along < 0.0 ? from : along > square ? to : NULL;
-	if (!corner)
-		return;
-	const double n[2] = {centre[0] - corner[0], centre[1] - corner[1]}, size = hypot(n[0], n[1]);
-	t->normal[0] = n[0] / size, t->normal[1] = n[1] / size;
+	double least = INFINITY, normal[2] = {1.0, 0.0};
+	for (uint32_t i = 0; i < a->count; i++) {
+		const double *to = at[(i + 1) % a->count], edge[2] = {to[0] - at[i][0], to[1] - at[i][1]},
+					 away[2] = {centre[0] - at[i][0], centre[1] - at[i][1]};
+		const double along = inner(edge, away), size = hypot(away[0], away[1]);
+		if (cross(away, edge) > 0.0 && along >= 0.0 && along <= inner(edge, edge))
+			return;
+		if (size < least)
+			least = size, normal[0] = away[0] / size, normal[1] = away[1] / size;
+	}
+	memcpy(t->normal, normal, sizeof normal);
 }
 
 static touch touch_polygon_circle(const exact_body *a, const exact_body *b)
@@ -105,7 +109,7 @@ static touch touch_polygon_circle(const exact_body *a, const exact_body *b)
 	const face f = best_face(a, b, d, at, normal, centre);
 	memcpy(t.normal, normal[f.index], sizeof t.normal);
 	if (f.apart > 0.0)
-		turn_to_corner(&t, at[f.index], at[(f.index + 1) % (int)a->count], d);
+		turn_to_corner(&t, a, at, d);
 	for (int k = 0; k < 2; k++)
 		t.reference[0][k] = d[k] - b->radius * t.normal[k];
 	return t;
