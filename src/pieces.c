@@ -326,7 +326,7 @@ static uint32_t keep_corners(const point *outline, uint32_t count, carom_vec2 *c
 
 uint32_t carom_corners_find(const carom_vec2 *outline, uint32_t count, carom_vec2 *corners)
 {
-	point exact[CAROM_MAX_VERTICES];
+	point exact[CAROM_MAX_VERTICES] = {{0.0, 0.0}};
 	for (uint32_t i = 0; i < count; i++)
 		exact[i] = exact_point(outline[i]);
 	return keep_corners(exact, count, corners);

@@ -130,7 +130,7 @@ double outline_distance(const exact_body *a, const exact_body *b)
 
 /* One point where they touch, seen from a to b. */
 typedef struct spot {
-	double normal[2], lever[2][2], gap, rate;
+	double normal[2], lever[2][2], rate;
 	bool swapped; /* the side is b's */
 } spot;
 
@@ -142,11 +142,11 @@ typedef struct spots {
 	spot list[MOST_SPOTS];
 } spots;
 
-static void add_spot(spots *all, int sided, const double *normal, const double *point, double gap)
+static void add_spot(spots *all, int sided, const double *normal, const double *point)
 {
 	const exact_body *a = all->bodies[0], *b = all->bodies[1];
 	const double sign = sided ? -1.0 : 1.0, d[2] = {b->x - a->x, b->y - a->y}, v[2] = {b->vx - a->vx, b->vy - a->vy};
-	spot s = {.gap = gap, .swapped = sided != 0};
+	spot s = {.swapped = sided != 0};
 	for (int k = 0; k < 2; k++) {
 		s.normal[k] = sign * normal[k];
 		s.lever[0][k] = point[k];
@@ -178,7 +178,7 @@ static void vertices_at_side(spots *all, int sided, int i)
 		if (gap > all->gap || gap < -all->deep || along < -all->gap || along > length + all->gap)
 			continue;
 		if (is_lowest(q, k, p->normal[i], all->slop))
-			add_spot(all, sided, p->normal[i], at(q, k), gap);
+			add_spot(all, sided, p->normal[i], at(q, k));
 	}
 }
 
@@ -192,7 +192,7 @@ static void circle_at_side(spots *all, int sided, int i)
 	const double along = inner(side, away), gap = inner(p->normal[i], away) - radius;
 	if (along < 0.0 || along > inner(side, side) || gap > all->gap || gap < -all->deep)
 		return;
-	add_spot(all, sided, p->normal[i], (double[]){centre[0] - radius * p->normal[i][0], centre[1] - radius * p->normal[i][1]}, gap);
+	add_spot(all, sided, p->normal[i], (double[]){centre[0] - radius * p->normal[i][0], centre[1] - radius * p->normal[i][1]});
 }
 
 static void circle_at_vertex(spots *all, int sided, int i)
@@ -207,7 +207,7 @@ static void circle_at_vertex(spots *all, int sided, int i)
 	if (cross(after, before) <= 0.0 || inner(away, before) > 0.0 || inner(away, after) > 0.0 || gap > all->gap || gap < -all->deep)
 		return;
 	const double normal[2] = {away[0] / size, away[1] / size};
-	add_spot(all, sided, normal, (double[]){centre[0] - radius * normal[0], centre[1] - radius * normal[1]}, gap);
+	add_spot(all, sided, normal, (double[]){centre[0] - radius * normal[0], centre[1] - radius * normal[1]});
 }
 
 static void find_spots(spots *all)

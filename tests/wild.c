@@ -93,7 +93,8 @@ static void make_hollow(scenery_random *random, carom_vec2 *corners)
 	const float deep = scenery_uniform(random, 0.15f, 0.8f), turn = 6.2831853f / (float)WILD_CORNERS;
 	for (uint32_t i = 0; i < WILD_CORNERS; i++) {
 		const float angle = ((float)i + scenery_uniform(random, 0.0f, 0.6f)) * turn, far = i % 2 ? 0.45f * deep : 0.45f;
-		corners[i] = (carom_vec2){far * cosf(angle), far * sinf(angle)};
+		const float x = far * cosf(angle), y = far * sinf(angle);
+		corners[i] = (carom_vec2){x, y};
 	}
 }
 
