@@ -17,7 +17,8 @@
 
 static const struct {
 	const char *scene;
-	uint64_t hash, own; /* after STEPS of first_impact, and of the scene's own step, which is events where it says nothing */
+	uint64_t hash,
+		own; /* after STEPS of first_impact, 0 where that takes no such bodies, and of the scene's own step, which is events where it says nothing */
 } golden[] = {
 	{"scenes/billiard_break.json", 0x67a2d3b09229d3f4, 0xbe6530f293e25062},
 	{"scenes/bridge.json", 0xde9bddfc3ed99fda, 0x167fcc49fa5bd786},
@@ -25,6 +26,7 @@ static const struct {
 	{"scenes/circles_1024.json", 0xb407392652c0fb4a, 0xaa3285fdc8f4d50f},
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343},
 	{"scenes/heap.json", 0x515bfcb74767cfd7, 0xbda8d6369b41be42},
+	{"scenes/letters.json", 0, 0x6f240df27815a0e9},
 	{"scenes/mixed.json", 0x62e06f0b87986c3c, 0x58b0504d2d2afd92},
 	{"scenes/mixer.json", 0x9a455603469d877e, 0xb3cfba1a5634bcb6},
 	{"scenes/newtons_cradle.json", 0xc7f0be3c1a579185, 0xf2d7510159883cca},
@@ -161,7 +163,8 @@ static void every_scene_has_its_hash(void **unused)
 {
 	(void)unused;
 	for (size_t i = 0; i < sizeof golden / sizeof *golden; i++)
-		check_hash(golden[i].scene, "first_impact", STEPS, golden[i].hash);
+		if (golden[i].hash)
+			check_hash(golden[i].scene, "first_impact", STEPS, golden[i].hash);
 }
 
 static void every_scene_has_its_own_hash(void **unused)
