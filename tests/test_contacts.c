@@ -342,7 +342,7 @@ static void forces_add_no_energy(void **unused)
 	uint64_t hits = 0;
 	double most = 0.0;
 	(void)unused;
-	for (uint64_t seed = 1; seed <= 26; seed++) {
+	for (uint64_t seed = 1; seed <= 30; seed++) {
 		carom_error error;
 		wild_make_wider(seed, &wild);
 		if (!(wild.def.restitution < 1.0f) || !(wild.def.gravity.y < 0.0f))
