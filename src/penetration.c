@@ -114,7 +114,7 @@ static double separation_of_polygons(const carom_placed *a, const carom_placed *
 		return separation_of_polygons(b, a, enough);
 	if (!b->pieces)
 		least = separation_of_pieces(a, b, enough);
-	for (uint32_t k = 0; k < b->piece_count; k++)
+	for (uint32_t k = 0; b->pieces && k < b->piece_count; k++)
 		if (-overlap_of_boxes(a, &b->pieces[k]) < least)
 			least = separation_of_pieces(a, &b->pieces[k], least);
 	return least > 0 && (carom_holds(a, b->corners->x, b->corners->y) || carom_holds(b, a->corners->x, a->corners->y)) ? 0 : least;

@@ -17,8 +17,8 @@ template <typename T> struct Slot {
 
 	bool is_circle() const { return !(mass[MASS_COUNT] > 1); }
 	/* Of a polygon that is not convex those of its hull. */
-	int32_t vertices() const { return static_cast<int32_t>(count() % PIECES); }
-	int32_t pieces() const { return static_cast<int32_t>(count() / PIECES); }
+	int32_t vertices() const { return static_cast<int32_t>(vertices_and_pieces() % PIECES); }
+	int32_t pieces() const { return static_cast<int32_t>(vertices_and_pieces() / PIECES); }
 	/* Not static, nor kinematic: those have infinite mass, and no hit changes them. */
 	bool is_dynamic() const { return mass[MASS_INVERSE] > 0; }
 	/* A kinematic body: it goes on as it does, whatever it hits. */
@@ -30,7 +30,7 @@ template <typename T> struct Slot {
 	T radius() const { return turn[TURN_RADIUS]; }
 
 private:
-	uint32_t count() const { return static_cast<uint32_t>(static_cast<int32_t>(mass[MASS_COUNT])); }
+	uint32_t vertices_and_pieces() const { return static_cast<uint32_t>(static_cast<int32_t>(mass[MASS_COUNT])); }
 };
 
 /* A body's way from a time on. */
