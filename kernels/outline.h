@@ -112,7 +112,7 @@ int16 crosses_side(float4 ends, float16 s, float16 x, float16 y)
 }
 
 /* How far they are from the outline of so many sides, below 0 inside. */
-float16 beyond_outline(RECORD_IN(edges), int rest, int count, float16 x, float16 y)
+SELDOM float16 beyond_outline(RECORD_IN(edges), int rest, int count, float16 x, float16 y)
 {
 	float16 least = (float16)(INFINITY);
 	int16 inside = (int16)(0);

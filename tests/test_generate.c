@@ -34,18 +34,26 @@ static void every_machine_gives_the_same_bytes(void **state)
 	check("$C generate --shape circle --count 1024 | cmp - scenes/circles_1024.json", 0, NULL);
 }
 
+static double radius_of(const carom_body_def *body)
+{
+	double radius = (double)body->radius;
+	for (uint32_t k = 0; body->shape == CAROM_POLYGON && k < body->vertex_count; k++)
+		radius = fmax(radius, hypot((double)body->vertices[k].x, (double)body->vertices[k].y));
+	return radius;
+}
+
 /* The circles around the bodies keep apart, from the walls too. */
 static void check_apart(const carom_scene *scene)
 {
 	for (size_t k = 0; k < scene->body_count; k++) {
 		const carom_body_def *a = &scene->bodies[k];
-		double reach = fmax(fabs((double)a->position.x), fabs((double)a->position.y)) + (double)a->radius;
+		double reach = fmax(fabs((double)a->position.x), fabs((double)a->position.y)) + radius_of(a);
 		if (reach >= (double)scene->world.room_max.x)
 			fail_msg("body %zu touches a wall", k);
 		for (size_t i = 0; i < k; i++) {
 			const carom_body_def *b = &scene->bodies[i];
 			double dx = (double)a->position.x - (double)b->position.x, dy = (double)a->position.y - (double)b->position.y;
-			if (sqrt(dx * dx + dy * dy) <= (double)a->radius + (double)b->radius)
+			if (sqrt(dx * dx + dy * dy) <= radius_of(a) + radius_of(b))
 				fail_msg("bodies %zu and %zu touch", i, k);
 		}
 	}
@@ -90,6 +98,8 @@ static void nothing_touches_at_any_fill(void **state)
 		{"--shape triangle --count 1000 --fill 0.34 --radius 300", 1000, 0.34},
 		{"--shape square --count 1000 --fill 0.5", 1000, 0.5},
 		{"--shape regular:64 --count 999 --fill 0.6", 999, 0.6},
+		{"--shape star:5 --count 300", 300, 0.25},
+		{"--shape star:32 --count 200 --fill 0.3 --radius 7", 200, 0.3},
 		{"--shape mixed --count 1001 --fill 0.4", 1001, 0.4},
 	};
 	for (size_t k = 0; k < COUNT(cases); k++) {

@@ -14,11 +14,13 @@ struct generate_options {
 	const char *out; /* NULL for standard output */
 };
 
+#define SHAPES "triangle, square, regular:K, star:K, circle, mixed"
+
 static carom_status read_shape(const char *text, void *target, carom_error *error)
 {
 	struct generate_options *options = target;
 	struct placement_def *placement = &options->placement;
-	uint64_t sides = 0;
+	uint64_t sides = 0, points = 0;
 	placement->mixed = strcmp(text, "mixed") == 0;
 	if (strcmp(text, "triangle") == 0) {
 		sides = 3;
@@ -27,10 +29,14 @@ static carom_status read_shape(const char *text, void *target, carom_error *erro
 	} else if (strncmp(text, "regular:", 8) == 0) {
 		if (read_count(text + 8, &sides, error) != CAROM_OK || sides < CAROM_MIN_VERTICES || sides > CAROM_MAX_VERTICES)
 			return wrong(error, "found \"%s\"; allowed: regular:K with K sides, 3 to 64", text);
+	} else if (strncmp(text, "star:", 5) == 0) {
+		if (read_count(text + 5, &points, error) != CAROM_OK || points < 3 || points > CAROM_MAX_VERTICES / 2)
+			return wrong(error, "found \"%s\"; allowed: star:K with K points, 3 to 32", text);
 	} else if (!placement->mixed && strcmp(text, "circle") != 0) {
-		return wrong(error, "found \"%s\"; allowed: triangle, square, regular:K, circle, mixed", text);
+		return wrong(error, "found \"%s\"; allowed: " SHAPES, text);
 	}
 	placement->sides = (uint32_t)sides;
+	placement->points = (uint32_t)points;
 	options->shape = text;
 	return CAROM_OK;
 }
@@ -55,7 +61,8 @@ static carom_status read_speed(const char *text, void *target, carom_error *erro
 
 static const struct option options_table[] = {
 	{"shape", "SHAPE", read_shape, 0,
-		"triangle, square, regular:K (K sides, 3 to 64), circle, or mixed: circles and regular polygons of 3 to 6 sides in turn"},
+		"triangle, square, regular:K (K sides, 3 to 64), star:K (K points, 3 to 32; not convex), circle, or mixed: circles and regular polygons of "
+		"3 to 6 sides in turn"},
 	{"count", "N", read_body_count, offsetof(struct generate_options, count), "bodies, 1 to 4194304"},
 	{"fill", "PART", read_positive, offsetof(struct generate_options, placement.fill),
 		"area of the bodies / area of the room, above 0; how much fits is told above; default 0.25"},
@@ -71,7 +78,7 @@ static const struct option options_table[] = {
 static carom_status check_options(struct generate_options *options, carom_error *error)
 {
 	if (!options->shape)
-		return wrong(error, "--shape is missing; allowed: triangle, square, regular:K, circle, mixed");
+		return wrong(error, "--shape is missing; allowed: " SHAPES);
 	if (options->count == 0)
 		return wrong(error, "--count is missing; allowed: a whole number from 1 to %u", MAX_PLACED);
 	options->placement.count = (uint32_t)options->count;
@@ -82,6 +89,11 @@ static void put_body(FILE *stream, const carom_body_def *body)
 {
 	if (body->shape == CAROM_CIRCLE) {
 		fprintf(stream, "{\"circle\": {\"radius\": %.9g}", (double)body->radius);
+	} else if (body->shape == CAROM_POLYGON) {
+		fputs("{\"polygon\": {\"vertices\": [", stream);
+		for (uint32_t k = 0; k < body->vertex_count; k++)
+			fprintf(stream, "%s[%.9g, %.9g]", k > 0 ? ", " : "", (double)body->vertices[k].x, (double)body->vertices[k].y);
+		fputs("]}", stream);
 	} else {
 		fprintf(stream, "{\"regular\": {\"sides\": %u, \"radius\": %.9g}", (unsigned)body->sides, (double)body->radius);
 	}

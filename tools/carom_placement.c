@@ -34,12 +34,32 @@ static uint32_t sides_of(const struct placement_def *def, uint32_t index)
 	return def->mixed ? kinds[index % MIXED_KINDS] : def->sides;
 }
 
+#define NOTCH 0.4 /* of a star's radius: how far the corners are from its middle that point inwards */
+
+/* Of a star, or of what so many sides are, in a circle of radius 1. */
+static double area_of(const struct placement_def *def, uint32_t sides)
+{
+	return def->points > 0 ? def->points * NOTCH * sine(PI / def->points) : unit_area(sides);
+}
+
+/* Each vertex is turned from the one before. */
+static void fill_star(const struct placement_def *def, carom_vec2 *star)
+{
+	const double c = sine(PI / 2 - PI / def->points), s = sine(PI / def->points);
+	struct point p = {def->radius, 0};
+	for (uint32_t k = 0; k < 2 * def->points; k++) {
+		const double part = k % 2 ? NOTCH : 1;
+		star[k] = (carom_vec2){(float)(part * p.x), (float)(part * p.y)};
+		p = (struct point){c * p.x - s * p.y, s * p.x + c * p.y};
+	}
+}
+
 static double total_area(const struct placement_def *def)
 {
 	double area = 0;
 	uint32_t kinds = def->mixed ? MIXED_KINDS : 1;
 	for (uint32_t k = 0; k < kinds; k++)
-		area += unit_area(sides_of(def, k)) * (def->count / kinds + (k < def->count % kinds ? 1 : 0));
+		area += area_of(def, sides_of(def, k)) * (def->count / kinds + (k < def->count % kinds ? 1 : 0));
 	return area * def->radius * def->radius;
 }
 
@@ -106,17 +126,19 @@ static float uniform(struct random *random, double most)
 	return (float)(most * random_signed(random) + 0.0);
 }
 
-static carom_body_def make_body(const struct placement_def *def, uint32_t index, struct point at, struct random *random)
+static carom_body_def make_body(const struct placement_def *def, uint32_t index, struct point at, const carom_vec2 *star, struct random *random)
 {
 	carom_body_def body = carom_default_body_def();
 	uint32_t sides = sides_of(def, index);
-	body.shape = sides == 0 ? CAROM_CIRCLE : CAROM_REGULAR;
+	body.shape = def->points > 0 ? CAROM_POLYGON : sides == 0 ? CAROM_CIRCLE : CAROM_REGULAR;
 	body.sides = sides;
+	body.vertices = star;
+	body.vertex_count = 2 * def->points;
 	body.radius = (float)def->radius;
 	body.position = (carom_vec2){(float)at.x, (float)at.y};
 	body.velocity.x = uniform(random, def->speed);
 	body.velocity.y = uniform(random, def->speed);
-	if (sides > 0) {
+	if (body.shape != CAROM_CIRCLE) {
 		body.angle = uniform(random, PI);
 		body.angular_velocity = uniform(random, def->speed);
 	}
@@ -130,7 +152,7 @@ carom_status placement_create(const struct placement_def *def, carom_body_def **
 		return status;
 	struct random random = {def->seed};
 	double inner = inner_half(def, def->fill), distance = def->radius * (2 + GAP);
-	carom_body_def *made = malloc(def->count * sizeof *made);
+	carom_body_def *made = malloc(def->count * sizeof *made + CAROM_MAX_VERTICES * sizeof(carom_vec2)); /* the star's vertices are behind them */
 	struct point *points = malloc(def->count * sizeof *points);
 	bool placed = made && points;
 	if (placed) {
@@ -139,9 +161,12 @@ carom_status placement_create(const struct placement_def *def, carom_body_def **
 		placed = shake(points, def->count, inner, distance, reach, &random);
 	}
 	if (placed) {
+		carom_vec2 *star = (carom_vec2 *)(made + def->count);
+		if (def->points > 0)
+			fill_star(def, star);
 		shuffle(points, def->count, &random);
 		for (uint32_t k = 0; k < def->count; k++)
-			made[k] = make_body(def, k, points[k], &random);
+			made[k] = make_body(def, k, points[k], star, &random);
 		*bodies = made;
 		*half = (float)half_of(def, def->fill);
 	} else {

@@ -9,7 +9,8 @@
 
 struct placement_def {
 	bool mixed;     /* circles and regular polygons of 3 to 6 sides in turn */
-	uint32_t sides; /* of all bodies if not mixed; 0 for circles */
+	uint32_t sides; /* of all bodies if not mixed; 0 for circles, and for stars of so many */
+	uint32_t points;
 	uint32_t count; /* 1..MAX_PLACED */
 	double fill;    /* area of the bodies / area of the room, > 0 */
 	double speed;   /* each velocity component is uniform in [-speed, speed] m/s, the angular velocity in rad/s */
@@ -18,7 +19,7 @@ struct placement_def {
 };
 
 /* The same bodies on every machine: made with + - * / and square roots alone. *bodies is an array of def->count, to be
- * freed, in an order that has nothing to do with their places; the room reaches from -*half to *half, m, both ways.
+ * freed, with what its pointers point to, in an order that has nothing to do with their places; the room reaches from -*half to *half, m, both ways.
  * CAROM_INVALID_ARGUMENT: so much can't be packed, or the room gets too large for floats. */
 carom_status placement_create(const struct placement_def *def, carom_body_def **bodies, float *half, carom_error *error);
 
