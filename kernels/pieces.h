@@ -49,15 +49,21 @@ piece piece_load(VERTICES_IN, body whole, float2 rotation, int i, int first)
 	return p;
 }
 
-/* Do two pieces surely not come within reach until t? */
+/* Do two pieces surely not come within reach until t? Their circles go straight on, and aside by no more than turns and pushes take them. */
 bool pieces_are_far(const piece *a, const piece *b, float t, float reach)
 {
 	float2 d = (float2)((b->self.x.x - a->self.x.x) + (b->middle.x - a->middle.x), (b->self.x.y - a->self.x.y) + (b->middle.y - a->middle.y));
-	float2 v = (float2)(b->self.v.x - a->self.v.x, b->self.v.y - a->self.v.y), push = (float2)(b->self.a.x - a->self.a.x, b->self.a.y - a->self.a.y);
+	float2 e = (float2)(t * (b->self.v.x - a->self.v.x), t * (b->self.v.y - a->self.v.y));
+	float2 push = (float2)(b->self.a.x - a->self.a.x, b->self.a.y - a->self.a.y);
 	float turned = (magnitude(a->self.w) + 0.5f * magnitude(a->self.b)) * a->far;
 	float other_turned = (magnitude(b->self.w) + 0.5f * magnitude(b->self.b)) * b->far;
-	float way = (((span(v) + 0.5f * span(push)) + turned) + other_turned) * t;
-	return norm(d) - (a->radius + b->radius) > way + reach;
+	float near = (a->radius + b->radius) + (((0.5f * span(push) + turned) + other_turned) * t + reach);
+	float approach = inner(d, e), square = inner(e, e);
+	if (approach >= 0.0f)
+		return norm(d) > near;
+	if (-approach >= square)
+		return norm((float2)(d.x + e.x, d.y + e.y)) > near;
+	return magnitude(cross2(d, e)) > near * sqrt(square);
 }
 
 /* The first hit of two bodies of which one at least has pieces. */

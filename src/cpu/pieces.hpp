@@ -49,8 +49,8 @@ template <typename T> class PiecePairs
 {
 public:
 	PiecePairs(const Convex<T> &row, const Convex<T> &column)
-		: a(row), b(column), x(column.x - row.x), ra(rotation_of(row.angle_at(0))), rb(rotation_of(column.angle_at(0))),
-		  speed(span(column.v - row.v) + T(0.5) * span(column.a - row.a)), spin_a(std::abs(row.w) + T(0.5) * std::abs(row.b)),
+		: a(row), b(column), x(column.x - row.x), v(column.v - row.v), ra(rotation_of(row.angle_at(0))), rb(rotation_of(column.angle_at(0))),
+		  pushed(T(0.5) * span(column.a - row.a)), spin_a(std::abs(row.w) + T(0.5) * std::abs(row.b)),
 		  spin_b(std::abs(column.w) + T(0.5) * std::abs(column.b))
 	{
 	}
@@ -58,21 +58,33 @@ public:
 	/* Calls `visit(piece of A, piece of B)`, in order, for each two that may get so near before `until`. */
 	template <typename Visit> void each(T until, T reach, const Visit &visit) const
 	{
+		const Vec<T> way = until * v;
 		each_piece(a, [&](const Piece<T> &own) {
 			const Vec<T> from = turn(ra, own.middle);
-			const T way = speed + spin_a * norm(own.middle);
+			const T aside = pushed + spin_a * norm(own.middle);
 			each_piece(b, [&](const Piece<T> &other) {
-				const Vec<T> d = x + (turn(rb, other.middle) - from);
-				if (!(norm(d) - (own.radius + other.radius) > (way + spin_b * norm(other.middle)) * until + reach))
+				const T near = (own.radius + other.radius) + ((aside + spin_b * norm(other.middle)) * until + reach);
+				if (!passes(x + (turn(rb, other.middle) - from), way, near))
 					visit(own.of(a), other.of(b));
 			});
 		});
 	}
 
 private:
+	/* Does what goes straight on keep that distance? */
+	static bool passes(const Vec<T> &d, const Vec<T> &way, T distance)
+	{
+		const T approach = inner(d, way), square = inner(way, way);
+		if (approach >= 0)
+			return norm(d) > distance;
+		if (-approach >= square)
+			return norm(Vec<T>(d + way)) > distance;
+		return std::abs(cross(d, way)) > distance * std::sqrt(square);
+	}
+
 	const Convex<T> &a, &b;
-	const Vec<T> x, ra, rb;
-	const T speed, spin_a, spin_b; /* lengths in a step */
+	const Vec<T> x, v, ra, rb;
+	const T pushed, spin_a, spin_b; /* lengths in a step */
 };
 
 /* The first hit of two pieces, as `find(pair, rules)` has that of two convex bodies. */
