@@ -52,7 +52,7 @@ static void place_corners(carom_placed *at, const frame *f, const carom_vec2 *ve
 		corners[k].at = length > 0 ? corners[k].normal_x * corners[k].x + corners[k].normal_y * corners[k].y : HUGE_VAL;
 	}
 	at->corners = corners;
-	at->corner_count = count;
+	at->corner_count = (uint8_t)count;
 	parts->corners += count;
 	place_box(at);
 }
@@ -66,7 +66,7 @@ static void place_pieces(carom_placed *at, const frame *f, const carom_pieces *p
 		place_corners(&to[k], f, vertices, pieces->sizes[k], parts);
 	}
 	at->pieces = to;
-	at->piece_count = pieces->count;
+	at->piece_count = (uint8_t)pieces->count;
 	parts->pieces += pieces->count;
 }
 
@@ -108,7 +108,7 @@ static void sort_by_level(carom_crowd *c, uint32_t mask)
 		largest = carom_most(c->bodies[k].radius, largest);
 	for (size_t k = 0; k < c->count; k++) {
 		carom_placed *body = &c->bodies[k];
-		body->level = is_somewhere(body, mask) ? level_of(body->radius, largest) : CAROM_GRIDS;
+		body->level = (uint8_t)(is_somewhere(body, mask) ? level_of(body->radius, largest) : CAROM_GRIDS);
 		if (body->level < CAROM_GRIDS)
 			c->grids[body->level].count++;
 	}

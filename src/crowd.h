@@ -23,9 +23,9 @@ typedef struct carom_placed {
 	const carom_corner *corners;       /* NULL for a circle */
 	const struct carom_placed
 		*pieces; /* of a polygon that is not convex: convex ones, of which corners and box alone are known, that together are it; else NULL */
-	uint32_t corner_count, level; /* its grid; CAROM_GRIDS: it is nowhere, for a number of it is not finite, or it is not asked for */
 	uint32_t categories, mask;
-	uint32_t piece_count;
+	uint8_t corner_count, piece_count;
+	uint8_t level; /* its grid; CAROM_GRIDS: it is nowhere, for a number of it is not finite, or it is not asked for */
 	bool is_dynamic;
 } carom_placed;
 

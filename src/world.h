@@ -16,10 +16,10 @@ typedef enum carom_trait {
 
 /* A body as it is kept: what carom_body_info tells, with offsets instead of pointers. */
 typedef struct carom_body {
-	uint8_t shape;                /* carom_shape */
-	uint8_t vertex_count;         /* 1 for a circle */
-	bool is_static, is_kinematic; /* one of them, or none */
-	bool is_convex;
+	uint8_t shape;                        /* carom_shape */
+	bool is_static : 1, is_kinematic : 1; /* one of them, or none */
+	bool is_convex : 1;
+	uint8_t vertex_count;    /* 1 for a circle */
 	uint8_t hull_count;      /* vertices of the convex hull, but for those within a side: where there are none else, all */
 	uint8_t piece_count;     /* 0 for one that is convex, and so are */
 	uint16_t piece_vertices; /* those of all pieces */
