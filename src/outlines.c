@@ -114,8 +114,8 @@ static bool add_anew(carom_world *world, carom_body *body, const carom_vec2 *ver
 bool carom_outlines_add(carom_world *world, carom_body *body, const carom_vec2 *vertices)
 {
 	carom_note *note = note_of(world, vertices, body->vertex_count);
-	const carom_vec2 *noted = (const carom_vec2 *)world->vertices.items + note->first;
-	if (note->count == body->vertex_count && !memcmp(noted, vertices, body->vertex_count * sizeof *vertices)) {
+	const carom_vec2 *kept = world->vertices.items; /* NULL where there is none */
+	if (note->count == body->vertex_count && !memcmp(kept + note->first, vertices, body->vertex_count * sizeof *vertices)) {
 		body->vertex_first = note->first;
 		body->piece_count = note->piece_count;
 		body->hull_count = note->hull_count;
