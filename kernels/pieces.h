@@ -66,24 +66,48 @@ bool pieces_are_far(const piece *a, const piece *b, float t, float reach)
 	return magnitude(cross2(d, e)) > near * sqrt(square);
 }
 
+/* A pair of pieces, and which ones they are. */
+typedef struct piece_pair {
+	piece a, b;
+	int i, j;
+} piece_pair;
+
+/* Before the first one. */
+piece_pair pairs_begin(body b)
+{
+	piece_pair at;
+	at.i = -1;
+	at.j = piece_count(b) - 1;
+	return at;
+}
+
+/* Goes on to the next one that is not far, of bodies that are so turned; false if there is none. */
+bool next_pair(VERTICES_IN, body a, body b, float2 ra, float2 rb, float t, float reach, piece_pair *at)
+{
+	do {
+		bool ends = at->j + 1 == piece_count(b);
+		if (ends && ++at->i == piece_count(a))
+			return false;
+		if (ends)
+			at->a = piece_load(VERTICES, a, ra, at->i, at->i > 0 ? at->a.next : first_piece(a));
+		at->j = ends ? 0 : at->j + 1;
+		at->b = piece_load(VERTICES, b, rb, at->j, at->j > 0 ? at->b.next : first_piece(b));
+	} while (pieces_are_far(&at->a, &at->b, t, reach));
+	return true;
+}
+
 /* The first hit of two bodies of which one at least has pieces. */
 SELDOM float4 pieces_first(VERTICES_IN, body a, body b, float until, float4 rules)
 {
 	float2 ra = body_rotation(a, 0.0f), rb = body_rotation(b, 0.0f);
 	float reach = APART_SLOPS * pair_slop(a, b), end = until;
 	float4 best = hit_none();
-	piece p, q;
-	for (int i = 0, first = first_piece(a); i < piece_count(a); i++, first = p.next) {
-		p = piece_load(VERTICES, a, ra, i, first);
-		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = q.next) {
-			q = piece_load(VERTICES, b, rb, j, other_first);
-			if (pieces_are_far(&p, &q, 1.0f, reach))
-				continue;
-			float4 hit = pair_first(VERTICES, p.self, q.self, end, rules);
-			if (CHANNEL(hit, HITTIMES_HIT) < CHANNEL(best, HITTIMES_HIT))
-				best = hit;
-			end = smaller(end, CHANNEL(best, HITTIMES_HIT));
-		}
+	piece_pair at = pairs_begin(b);
+	while (next_pair(VERTICES, a, b, ra, rb, 1.0f, reach, &at)) {
+		float4 hit = pair_first(VERTICES, at.a.self, at.b.self, end, rules);
+		if (CHANNEL(hit, HITTIMES_HIT) < CHANNEL(best, HITTIMES_HIT))
+			best = hit;
+		end = smaller(end, CHANNEL(best, HITTIMES_HIT));
 	}
 	return best;
 }
@@ -175,20 +199,14 @@ bool meets_rather(const encounter *m, const encounter *than)
 bool encounters_pass(VERTICES_IN, body a, body b, pose p, float slop, float still, float part, float reach, bool merges, encounter *best)
 {
 	bool any = merges;
-	piece of_a, of_b;
-	for (int i = 0, first = first_piece(a); i < piece_count(a); i++, first = of_a.next) {
-		of_a = piece_load(VERTICES, a, p.ra, i, first);
-		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = of_b.next) {
-			of_b = piece_load(VERTICES, b, p.rb, j, other_first);
-			if (pieces_are_far(&of_a, &of_b, 0.0f, reach))
-				continue;
-			encounter m = encounter_of(VERTICES, of_a.self, of_b.self, p, slop, still, part);
-			if (merges && m.touches && are_alike(&best->at, &m.at))
-				grounding_merge(&best->at, &m.at, p, merge_near(slop));
-			if (!merges && (!any || meets_rather(&m, best))) {
-				*best = m;
-				any = true;
-			}
+	piece_pair at = pairs_begin(b);
+	while (next_pair(VERTICES, a, b, p.ra, p.rb, 0.0f, reach, &at)) {
+		encounter m = encounter_of(VERTICES, at.a.self, at.b.self, p, slop, still, part);
+		if (merges && m.touches && are_alike(&best->at, &m.at))
+			grounding_merge(&best->at, &m.at, p, merge_near(slop));
+		if (!merges && (!any || meets_rather(&m, best))) {
+			*best = m;
+			any = true;
 		}
 	}
 	return any;
@@ -246,15 +264,11 @@ int grounding_add(grounding *all, int count, const grounding *at, pose p, bool i
 SELDOM int pieces_find(VERTICES_IN, body a, body b, pose p, float force, float slop, grounding *all)
 {
 	int count = 0;
-	piece of_a, of_b;
-	for (int i = 0, first = first_piece(a); i < piece_count(a); i++, first = of_a.next) {
-		of_a = piece_load(VERTICES, a, p.ra, i, first);
-		for (int j = 0, other_first = first_piece(b); j < piece_count(b); j++, other_first = of_b.next) {
-			grounding at;
-			of_b = piece_load(VERTICES, b, p.rb, j, other_first);
-			if (!pieces_are_far(&of_a, &of_b, 0.0f, force) && grounding_find(VERTICES, of_a.self, of_b.self, p, force, slop, &at))
-				count = grounding_add(all, count, &at, p, a.count == 1 || b.count == 1, slop);
-		}
+	piece_pair at = pairs_begin(b);
+	while (next_pair(VERTICES, a, b, p.ra, p.rb, 0.0f, force, &at)) {
+		grounding found;
+		if (grounding_find(VERTICES, at.a.self, at.b.self, p, force, slop, &found))
+			count = grounding_add(all, count, &found, p, a.count == 1 || b.count == 1, slop);
 	}
 	return count;
 }

@@ -44,6 +44,11 @@ static uint32_t before(const cutting *all, uint32_t k)
 	return at_side;
 }
 
+static bool is_same(point a, point b)
+{
+	return a.x == b.x && a.y == b.y;
+}
+
 /* Above 0 where it turns to the left at b. */
 static double turn_at(point a, point b, point c)
 {
@@ -156,7 +161,7 @@ static bool suffices(const cutting *all, uint32_t cut)
 {
 	const point from = at(all, cut), to = at(all, after(all, cut));
 	uint32_t k = 0;
-	while (all->outline[k].x != from.x || all->outline[k].y != from.y)
+	while (!is_same(all->outline[k], from))
 		k++;
 	const point a = all->outline[(k + all->count - 1) % all->count], b = all->outline[(k + 1) % all->count];
 	return turn_at(a, from, b) < 0.0 && turn_at(a, from, to) >= 0.0 && turn_at(to, from, b) >= 0.0;
@@ -202,11 +207,6 @@ static void join_pieces(cutting *all)
 }
 
 /* ---- Growing ---------------------------------------------------------------------------------------------------- */
-
-static bool is_same(point a, point b)
-{
-	return a.x == b.x && a.y == b.y;
-}
 
 /* The first `part` of a ray from `corner` along `way` at which side a-b is met by it. */
 static double part_at_side(point corner, point way, point a, point b)

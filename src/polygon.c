@@ -2,7 +2,6 @@
 #include "polygon.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "point.h"
 #include "status.h"
