@@ -119,21 +119,9 @@ static bool cross(const solid *a, const solid *b)
 	return false;
 }
 
-static double from_corners(const solid *s, const solid *corners)
-{
-	double nearest = HUGE_VAL;
-	for (uint32_t i = 0; i < corners->count; i++)
-		nearest = fmin(nearest, hollows_distance(s, corners->corners[i][0], corners->corners[i][1]));
-	return nearest;
-}
-
 double hollows_gap(const solid *a, const solid *b)
 {
-	if (b->count == 0)
-		return hollows_distance(a, b->x, b->y) - b->radius;
-	if (a->count == 0)
-		return hollows_distance(b, a->x, a->y) - a->radius;
-	const double nearest = fmin(from_corners(a, b), from_corners(b, a));
+	const double nearest = solids_nearest(a, b, hollows_distance);
 	return nearest > 0 && cross(a, b) ? -SOLIDS_SURE : nearest;
 }
 

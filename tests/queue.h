@@ -59,5 +59,7 @@ void queue_shake_body(exact_body *k, scenery_random *random, double relative);
 void queue_step(queue *q, double length, size_t most);
 
 double queue_kinetic_energy(const queue *q);
+/* Along x, axis 0, or y, of bodies that are all dynamic. */
+double queue_momentum(const queue *q, int axis);
 
 #endif

@@ -129,3 +129,11 @@ double queue_kinetic_energy(const queue *q)
 	}
 	return sum;
 }
+
+double queue_momentum(const queue *q, int axis)
+{
+	double sum = 0.0;
+	for (const queue_body *k = q->bodies; k < q->bodies + q->count; k++)
+		sum += (axis ? k->at.vy : k->at.vx) / k->inverse_mass;
+	return sum;
+}

@@ -50,22 +50,27 @@ static double beyond_faces(const solid *faces, const solid *s)
 	return best;
 }
 
-static double from_corners(const solid *s, const solid *corners)
+static double from_corners(const solid *s, const solid *corners, solids_measure *distance)
 {
 	double nearest = HUGE_VAL;
 	for (uint32_t i = 0; i < corners->count; i++)
-		nearest = fmin(nearest, solids_distance(s, corners->corners[i][0], corners->corners[i][1]));
+		nearest = fmin(nearest, distance(s, corners->corners[i][0], corners->corners[i][1]));
 	return nearest;
+}
+
+double solids_nearest(const solid *a, const solid *b, solids_measure *distance)
+{
+	if (b->count == 0)
+		return distance(a, b->x, b->y) - b->radius;
+	if (a->count == 0)
+		return distance(b, a->x, a->y) - a->radius;
+	return fmin(from_corners(a, b, distance), from_corners(b, a, distance));
 }
 
 double solids_gap(const solid *a, const solid *b)
 {
-	if (b->count == 0)
-		return solids_distance(a, b->x, b->y) - b->radius;
-	if (a->count == 0)
-		return solids_distance(b, a->x, a->y) - a->radius;
-	const double beyond = fmax(beyond_faces(a, b), beyond_faces(b, a));
-	return beyond < 0 ? beyond : fmin(from_corners(a, b), from_corners(b, a));
+	const double beyond = a->count > 0 && b->count > 0 ? fmax(beyond_faces(a, b), beyond_faces(b, a)) : 0;
+	return beyond < 0 ? beyond : solids_nearest(a, b, solids_distance);
 }
 
 solid solids_moved(const solid *s, double x, double y)
@@ -155,12 +160,12 @@ carom_vec2 solids_somewhere(scenery_random *random)
 	return (carom_vec2){scenery_uniform(random, -half, half), scenery_uniform(random, -half, half)};
 }
 
-double solids_first(const solid stand[SOLIDS_COUNT], const solid *moves, double along_x, double along_y, int32_t *other)
+double solids_first(const solid *stand, int32_t count, solids_way *meeting, const solid *moves, double along_x, double along_y, int32_t *other)
 {
 	double first = 2, next = 2;
 	*other = CAROM_NOTHING;
-	for (int32_t k = 0; k < SOLIDS_COUNT; k++) {
-		const double part = solids_meeting(&stand[k], moves, along_x, along_y);
+	for (int32_t k = 0; k < count; k++) {
+		const double part = meeting(&stand[k], moves, along_x, along_y);
 		if (part < 0)
 			return -1;
 		if (part < first)

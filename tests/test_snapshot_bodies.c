@@ -184,7 +184,7 @@ static void bodies_meet_what_is_nearest(void **unused)
 		for (int i = 0; i < CASTS; i++) {
 			const double x = (double)to[i].x - move[i].x, y = (double)to[i].y - move[i].y;
 			int32_t nearest;
-			const double first = solids_first(stand, &move[i], x, y, &nearest);
+			const double first = solids_first(stand, SOLIDS_COUNT, solids_meeting, &move[i], x, y, &nearest);
 			if (first < 0)
 				continue;
 			sure++;

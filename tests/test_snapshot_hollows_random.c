@@ -7,23 +7,6 @@
 
 enum { ASKED = 600, PAIRS = 1500 };
 
-/* What of all is met first, or CAROM_NOTHING, and when; -1 where that is not sure. */
-static double first_of(const solid stand[HOLLOWS_COUNT], const solid *moves, double along_x, double along_y, int32_t *other)
-{
-	double first = 2, next = 2;
-	*other = CAROM_NOTHING;
-	for (int32_t k = 0; k < HOLLOWS_COUNT; k++) {
-		const double part = hollows_meeting(&stand[k], moves, along_x, along_y);
-		if (part < 0)
-			return -1;
-		if (part < first)
-			next = first, first = part, *other = k;
-		else
-			next = fmin(next, part);
-	}
-	return first <= 1 && next - first < 1e-6 ? -1 : first;
-}
-
 /* The point is on both, and along the normal one leaves the other: less than that where a corner points inwards. */
 static void check_touch(const solid *stands, const solid *there, const carom_ray_hit *hit, int number)
 {
@@ -64,7 +47,7 @@ static void rays_meet_what_is_nearest(void **unused)
 		const double x = (double)ray.to.x - disc.x, y = (double)ray.to.y - disc.y;
 		int32_t nearest;
 		carom_ray_hit hit;
-		const double first = first_of(stand, &disc, x, y, &nearest);
+		const double first = solids_first(stand, HOLLOWS_COUNT, hollows_meeting, &disc, x, y, &nearest);
 		assert_int_equal(carom_snapshot_cast_rays(snapshot, 1, &ray, &hit, NULL), CAROM_OK);
 		if (first < 0)
 			continue;
@@ -113,7 +96,7 @@ static void bodies_meet_what_is_nearest(void **unused)
 		int32_t nearest;
 		carom_ray_hit hit;
 		carom_error error;
-		const double first = first_of(stand, &moves, x, y, &nearest);
+		const double first = solids_first(stand, HOLLOWS_COUNT, hollows_meeting, &moves, x, y, &nearest);
 		scenery_check(carom_snapshot_cast_bodies(snapshot, 1, &body, &to, &hit, &error), &error);
 		if (first < 0)
 			continue;

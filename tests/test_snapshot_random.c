@@ -34,7 +34,8 @@ static void rays_meet_what_is_nearest(void **unused)
 			if (i % 2)
 				ray.radius = powf(10.0f, scenery_uniform(&random, -3, 0.5f));
 			const solid disc = {.x = (double)ray.from.x, .y = (double)ray.from.y, .radius = (double)ray.radius};
-			const double first = solids_first(solids, &disc, (double)ray.to.x - disc.x, (double)ray.to.y - disc.y, &nearest);
+			const double first = solids_first(solids, SOLIDS_COUNT, solids_meeting, &disc, (double)ray.to.x - disc.x, (double)ray.to.y - disc.y,
+				&nearest);
 			if (first < 0)
 				continue;
 			assert_int_equal(carom_snapshot_cast_rays(snapshot, 1, &ray, &hit, NULL), CAROM_OK);
