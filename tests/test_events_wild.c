@@ -111,22 +111,22 @@ static void check_one_outcome(wild_world *wild, uint32_t steps)
 	const scenery_device *cpu = scenery_devices;
 	const uint32_t slices = 2 + wild->count % (SLICES_MOST - 1);
 	wild->def.threads = 1;
-	const outcome first = run(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, 1);
-	print_message("%u bodies, %llu hits\n", (unsigned)wild->count, (unsigned long long)first.hits);
-	check_same(&first, run_looking(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps), cpu, "looking each step");
-	const outcome steered = run_steered(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, true);
-	check_same(&steered, run_steered(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, false), cpu, "steered");
+	const outcome first = run(wild_create(wild, cpu), steps, 1);
+	print_message("%u bodies, %u joints, %llu hits\n", (unsigned)wild->count, (unsigned)wild->joint_count, (unsigned long long)first.hits);
+	check_same(&first, run_looking(wild_create(wild, cpu), steps), cpu, "looking each step");
+	const outcome steered = run_steered(wild_create(wild, cpu), steps, true);
+	check_same(&steered, run_steered(wild_create(wild, cpu), steps, false), cpu, "steered");
 	wild->def.threads = 2;
-	check_same(&first, run_in_slices(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, slices), cpu, "in slices");
-	check_same(&first, run_in_halves(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps), cpu, "in halves");
+	check_same(&first, run_in_slices(wild_create(wild, cpu), steps, slices), cpu, "in slices");
+	check_same(&first, run_in_halves(wild_create(wild, cpu), steps), cpu, "in halves");
 	for (; wild->def.threads <= 3; wild->def.threads++)
-		check_same(&first, run(runs_world(&wild->def, cpu, wild->bodies, wild->count), steps, steps), cpu, "step by step");
+		check_same(&first, run(wild_create(wild, cpu), steps, steps), cpu, "step by step");
 	for (const scenery_device *device = scenery_devices + 1; device < scenery_devices + scenery_device_count; device++) {
-		carom_world *world = runs_world(&wild->def, device, wild->bodies, wild->count);
+		carom_world *world = wild_create(wild, device);
 		if (!world)
 			continue;
 		check_same(&first, run(world, steps, 1), device, "in one go");
-		check_same(&first, run_in_slices(runs_world(&wild->def, device, wild->bodies, wild->count), steps, slices), device, "in slices");
+		check_same(&first, run_in_slices(wild_create(wild, device), steps, slices), device, "in slices");
 	}
 }
 

@@ -63,6 +63,7 @@ static void make(scenery_random *random, uint32_t sizes, wild_world *world)
 	def->room_min = (carom_vec2){middle - half, -half};
 	def->room_max = (carom_vec2){middle + half, half};
 	world->count = side * side;
+	world->joint_count = 0;
 	for (uint32_t i = 0; i < world->count; i++) {
 		carom_body_def *body = &world->bodies[i];
 		*body = wild_body(random, shapes, speed);
@@ -218,6 +219,7 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 	const bool filtered = one_in(&filtering, 4);
 	for (uint32_t i = 0; i < world->count && filtered; i++)
 		scenery_filter(&filtering, &world->bodies[i]);
+	wild_join(seed, world);
 }
 
 /* Tiny static bodies in a row below all others, where few get. */
@@ -284,13 +286,13 @@ static void replace(carom_world *world, uint32_t index)
 /* One joint more, as the two are; or all of them go. */
 static void join(carom_world *world, uint32_t step, uint32_t count)
 {
-	carom_joint joints[16];
+	static carom_joint joints[WILD_JOINTS];
 	carom_error error;
 	size_t has = carom_world_joint_count(world);
 	if (strcmp(carom_pipeline_get(&carom_world_get_def(world)->pipeline, "step"), "contacts") != 0 || count < 2)
 		return;
 	scenery_check(carom_world_get_joints(world, 0, has, joints, &error), &error);
-	has = has < sizeof joints / sizeof *joints ? has : 0;
+	has = step % 49 == 45 || has == WILD_JOINTS ? 0 : has;
 	joints[has] = carom_default_joint();
 	joints[has].kind = (carom_joint_kind)(step % 5);
 	joints[has].body = 5 * step % count;
