@@ -74,9 +74,11 @@ private:
 			return pass_on(id, other_id, u);
 		if (is_borne && answered.hit.total > 0 && (is_joined(id) || is_joined(other_id)))
 			return tug(id, other_id, other, u, answered);
-		look_again(id, other_id);
 		if (other_id >= 0)
-			look_again(other_id, id);
+			members[other_id].seen = -1;
+		look_again(id);
+		if (other_id >= 0)
+			look_again(other_id);
 		return true;
 	}
 
@@ -154,6 +156,8 @@ private:
 		const Disc<T> other_disc(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length);
 		const Outlook<T> outlook(approach, slots[s], disc_of(s, work[id]), slots[other], other_disc);
 		clusters.wake_before(s, outlook.earliest);
+		if (at >= 0 && members[at].seen < 0)
+			return; /* looks later, at this one, too */
 		if (seen > 0 && at < clusters.status[STATUS_NUMBERS]) /* a member */
 			clusters.wake_before(other, outlook.earliest);
 		const T first = work[id].next[NEXT_TIME];
