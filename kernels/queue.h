@@ -46,10 +46,10 @@ INLINE discs discs_seen(RECORD_IN(slots), RECORD_OUT(work), int s, ints others, 
 }
 
 /* The first event of a member, by what is known now, as far as a lane's part of the neighbours goes, the first lane's with the walls. For later steps
- * the pair is the member's, or if both were changed the one's for which it is: so both keep when to look again. With the partner in its last event, -1 for
- * none, one work-item finds the next one once for both: *found_with is (its time, 1 for a pause), and (0, -1) before. */
+ * the pair is the member's, or if both were changed the one's for which it is: so both keep when to look again. Of two that look at once, the partner and it, or one that is
+ * none (-1), and of a shock's parties that look one after the other, the later one looks for their hit. */
 finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_IN(owners), float4 rules, int id, int leader,
-	float length, int partner, int lane, int lanes, float2 *found_with)
+	float length, int partner, bool is_later, int lane, int lanes)
 {
 	int s = active[id], wall, seen = 0, end = spans[SPAN(s, SPAN_END)];
 	trajectory k = work_load(work, id);
@@ -80,15 +80,13 @@ finding look(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, RECORD_O
 			float until = smaller(CHANNEL(first, NEXT_TIME), 1.0f);
 			if (!FIRST(others.live) || FIRST(meetings) > until)
 				continue;
+			if (other_id >= 0 && (other_id == partner ? !is_later : members[MEMBER(other_id, MEMBER_SEEN)] < 0))
+				continue;
 			/* not asked yet by what looks at four, or at more steps than this one */
 			if ((BUNCH > 1 || ahead > 0.0f) && stay_apart(disc_k, disc_seen(slots, work, other, other_id, length)))
 				continue;
-			bool is_partner = other_id >= 0 && other_id == partner, is_known = is_partner && found_with->y >= 0.0f;
 			trajectory o = other_id < 0 ? trajectory_start(slots, other) : work_load(work, other_id);
-			pause = is_known && found_with->y > 0.0f;
-			t = is_known ? found_with->x : pair_time(VERTICES, slots, rules, s, k, other, o, length, is_partner ? 1.0f : until, &pause);
-			if (is_partner)
-				*found_with = (float2)(t, pause ? 1.0f : 0.0f);
+			t = pair_time(VERTICES, slots, rules, s, k, other, o, length, until, &pause);
 			if (!(t <= 1.0f) || t > CHANNEL(first, NEXT_TIME))
 				continue;
 			float4 next = event_of(slots, s, other, t, pause);
@@ -266,7 +264,6 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 	int leader = -1, head = -1, first = -1; /* of the first lane's cluster, */
 	int party = -1;                         /* and of its last event, if that was a shock, the first that has not looked again */
 	for (;;) {
-		float2 found_with = (float2)(0.0f, -1.0f);
 		while (lane == 0 && party < 0 && !goes_on(work, first, until)) {
 			int k = TAKE(all->next);
 			if (head >= 0)
@@ -306,7 +303,7 @@ void clusters_run(VERTICES_IN, TEX_IN(uniforms), RECORD_IN(slots), LISTS_IN, REC
 		for (int k = lane & 1; k < 2; k += min(lanes, 2))
 			if (looks[k] >= 0)
 				findings[lanes > 1 ? lane : k] = look(VERTICES, TEX(uniforms), slots, LISTS, work, owners, rules, looks[k],
-					PEEK(members, MEMBER(looks[k], MEMBER_OWNER)), length, looks[1 - k], lane / 2, each, &found_with);
+					PEEK(members, MEMBER(looks[k], MEMBER_OWNER)), length, looks[1 - k], k > 0, lane / 2, each);
 		team_reduce(all, lane, lanes);
 		for (int k = 0; k < 2 && lane == 0; k++) {
 			int id = looks[k];

@@ -12,8 +12,6 @@
 #include "cpu/tug.hpp"
 #include "cpu/ways.hpp"
 
-#include <optional>
-
 namespace carom::cpu {
 
 /* One cluster, by its leader's number. */
@@ -69,22 +67,21 @@ private:
 		const T u = next[NEXT_TIME];
 		Answered answered(work[id].trajectory(slots[clusters.active[id]]));
 		const bool is_shock = answer(id, other_id, answered);
-		with_partner.reset();
 		if (is_shock)
 			return pass_on(id, other_id, u);
 		if (is_borne && answered.hit.total > 0 && (is_joined(id) || is_joined(other_id)))
 			return tug(id, other_id, other, u, answered);
 		if (other_id >= 0)
-			members[other_id].seen = -1;
+			members[other_id].seen = -1; /* it looks later */
 		look_again(id);
 		if (other_id >= 0)
 			look_again(other_id);
 		return true;
 	}
 
-	void look_again(int32_t id, int32_t partner = -1)
+	void look_again(int32_t id)
 	{
-		look(id, partner);
+		look(id);
 		heap.update(id);
 	}
 
@@ -118,8 +115,8 @@ private:
 		members[id].seen = 0;
 	}
 
-	/* Finds the member's first event. What it does with its partner in the last one, if it had one, is found once for both. */
-	void look(int32_t id, int32_t partner = -1)
+	/* Finds the member's first event. */
+	void look(int32_t id)
 	{
 		const int32_t s = clusters.active[id];
 		const Trajectory<T> way = work[id].trajectory(slots[s]);
@@ -133,7 +130,7 @@ private:
 		}
 		clusters.wake_at(s, is_clear ? 1 + clusters.ahead : 1);
 		Sieve<T> sieve(clusters.ahead);
-		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach, partner); };
+		const auto meet = [&](int32_t, int32_t other, const Approach<T> &approach) { look_at(id, way, other, approach); };
 		clusters.each_neighbour(s, clusters.spans[s].end, [&](int32_t other, bool) {
 			if (const int32_t at = membership.seen(other); at >= 0)
 				sieve.add(s, other, between(disc, disc_of(other, work[at]), clusters.ahead));
@@ -147,9 +144,9 @@ private:
 
 	Disc<T> disc_of(int32_t s, const Work<T> &at) const { return Disc<T>(slots[s], at.place, at.time, at.held > 0, clusters.length); }
 
-	/* The member's next event may be the one with this body. Else one of both is to look whether they hit later: the one that was changed last does, or the
-	 * one for which the pair is, if that is changed in this step, too. */
-	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach, int32_t partner)
+	/* The member's next event may be the one with this body. Of two that look again after one event the later one looks whether they hit: so one of both knows, and the other
+	 * looks again when its own next event has come. In later steps the one that was changed last does, or the one for which the pair is, if that is changed in this step, too. */
+	void look_at(int32_t id, const Trajectory<T> &way, int32_t other, const Approach<T> &approach)
 	{
 		const int32_t s = clusters.active[id], at = membership.seen(other), seen = at >= 0 ? members[at].events : 0;
 		const Trajectory<T> other_way = membership.way_at(at, other);
@@ -157,18 +154,12 @@ private:
 		const Outlook<T> outlook(approach, slots[s], disc_of(s, work[id]), slots[other], other_disc);
 		clusters.wake_before(s, outlook.earliest);
 		if (at >= 0 && members[at].seen < 0)
-			return; /* looks later, at this one, too */
+			return;                                           /* it looks later */
 		if (seen > 0 && at < clusters.status[STATUS_NUMBERS]) /* a member */
 			clusters.wake_before(other, outlook.earliest);
 		const T first = work[id].next[NEXT_TIME];
-		const bool is_partner = at >= 0 && at == partner;
-		if (!outlook.may_touch || outlook.earliest > first)
-			return;
-		const Found hit = is_partner && with_partner ? *with_partner
-													 : clusters.pair_time(s, way, other, other_way, is_partner ? T(1) : smaller(first, T(1)));
-		if (is_partner)
-			with_partner = hit;
-		offer(id, other, hit, seen);
+		if (outlook.may_touch && !(outlook.earliest > first))
+			offer(id, other, clusters.pair_time(s, way, other, other_way, smaller(first, T(1))), seen);
 	}
 
 	/* A hit with another slot, or with wall -1 - partner, which has had so many events. */
@@ -376,7 +367,6 @@ private:
 	const bool is_borne; /* forces bear what rests: the step contacts */
 	const T until;       /* the slice's end */
 	bool finished = false;
-	std::optional<Found> with_partner; /* what the two of the last event do next, once one of them has found it */
 };
 
 }
