@@ -583,7 +583,8 @@
  * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies.
  *
  * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,
- * or for TUG_SWEEPS. Joints go TUG_FARTHER times as far as would bring each alone there: what a hit does then gets through a row of many in as many sweeps, not their square. Where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, it goes on once more, as if no anchor were to move against another; and where all have more energy in the end by that much it acts on the two alone. A body has TUG_POINTS. */
+ * or for TUG_SWEEPS. Joints go TUG_FARTHER times as far as would bring each alone there: what a hit does then gets through a row of many in as many sweeps, not their square. Where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, it goes on once more, as if no anchor were to move against another; and where all have more energy in the end by that much it acts on the two alone. Joints that bring their anchors farther than TUG_LOOSE of both radii
+ * in the step hold nothing, nor do those whose anchors part by so much more, or less, a step than their force would have it. A body has TUG_POINTS. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -602,6 +603,7 @@
 #define TUG_GAIN 0.015625f
 #define TUG_POINTS 11 /* one fewer than SHOCK_POINTS */
 #define TUG_WITHIN 0.0000152587890625f
+#define TUG_LOOSE 0.125f
 #define SHOCK_PARTING 0.5f
 #define SHOCK_WITHIN 0.5f
 #define HOLD_LIMIT 4096

@@ -6,6 +6,7 @@
 typedef struct shock {
 	int first, last, count;
 	float time, length, weight;
+	float whole, share;      /* s: a whole step; and how much of that this one is */
 	int leader, head, round; /* of the cluster */
 } shock;
 
@@ -16,6 +17,8 @@ void shock_begin(TEX_IN(uniforms), float time, int leader, int head, int round, 
 	all->time = time;
 	all->length = length;
 	all->weight = weight_of(TEX(uniforms), length);
+	all->whole = whole_length(TEX(uniforms), length);
+	all->share = part_of_whole(length, all->whole);
 	all->leader = leader;
 	all->head = head;
 	all->round = round;

@@ -47,6 +47,20 @@ bool joints_meet(RECORD_OUT(shocks), int party, int s, int id)
 	return any;
 }
 
+/* Does a joint's point hold nothing, since in the step it brings the anchors so far, or since by now they part so much faster, or slower, than its force would have it? In m a whole
+ * step. */
+bool joint_is_loose(RECORD_IN(slots), int s, int partner, float2 n, float arm, float other_arm, float least, float part, const shock *all)
+{
+	float radii = CHANNEL(SLOT_LOAD(slots, s, SLOT_TURN), TURN_RADIUS), other = 0.0f;
+	if (partner >= 0) {
+		radii += CHANNEL(SLOT_LOAD(slots, partner, SLOT_TURN), TURN_RADIUS);
+		other = way_speed(trajectory_start(slots, partner), n, other_arm);
+	}
+	float begun = (way_speed(trajectory_start(slots, s), n, arm) - other) * all->whole, more = -least - begun;
+	float way = all->share * begun + (0.5f * (all->share * all->share)) * more, planned = begun + (all->time * all->share) * more;
+	return larger(magnitude(way), magnitude(part * all->whole - planned)) > TUG_LOOSE * radii;
+}
+
 /* A party more: it is moved to the time, and its points of joints come behind so many others. They are to have the rates that they had, or none if the tug `stops`. */
 void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
 	LIST_IN(touching), RECORD_IN(contacts), int id, int point, bool stops, const struck *hit, shock *all)
@@ -72,6 +86,8 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 			if (party < 0)
 				coming = way_speed(tug_way(slots, status, members, work, owners, shocks, partner, false, hit, all), n, other_arm);
 		}
+		if (joint_is_loose(slots, s, partner, n, arm, other_arm, at[4 * FOUR_LEAST], part, all))
+			continue;
 		__global float4 *to = shocks + SHOCK(id, point++);
 		to[SHOCK_NORMAL] = (float4)(n.x, n.y, arm, other_arm);
 		to[SHOCK_GRIP] = (float4)(0.0f, 0.0f, SHOCK_JOINT, stops ? 0.0f : part);
@@ -153,8 +169,11 @@ void tug_begin_anew(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), RECOR
 	CHANNEL(*struck_at, SHOCK_RUB) = inner(hit->impulse, aside(hit->n));
 }
 
-/* False if the cluster has to be given up. */
-bool tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
+#define TUG_LOST 0    /* the cluster has to be given up */
+#define TUG_ENDS 1    /* sweeps came to an end, */
+#define TUG_GOES_ON 2 /* or did not */
+
+int tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
 	RECORD_IN(contacts), int one, float least, bool stops, const struck *hit, shock *all, int *first)
 {
 	bool more = true;
@@ -172,7 +191,7 @@ bool tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), L
 							continue;
 						party = join(slots, LISTS, work, owners, parents, partner, one, all->leader, all->head, all->round, first);
 						if (party < 0)
-							return false;
+							return TUG_LOST;
 						tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, party, 0, stops, hit, all);
 					}
 					/* also where that one has no room for this point */
@@ -182,7 +201,7 @@ bool tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), L
 			}
 		more |= tug_push(slots, active, work, shocks, one, 0, least); /* in the end the two part, whatever joints wanted */
 	}
-	return true;
+	return more ? TUG_GOES_ON : TUG_ENDS;
 }
 
 /* Twice the kinetic energy of the body in slot s that moves so, 0 if it is held. */
@@ -209,14 +228,14 @@ bool party_is_driven(RECORD_IN(slots), RECORD_OUT(shocks), int id)
 	return false;
 }
 
-/* Twice the energy that all have more than before the hit: sweeps that come to no end may give some. 0 where something kinematic drives them. */
+/* Twice the energy that all have more than before the hit: sweeps that come to no end may give some. 0 where they came to one, and something kinematic drives them. */
 float tug_energy(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
-	const struck *hit, const shock *all)
+	int how, const struck *hit, const shock *all)
 {
 	float gained = 0.0f;
 	for (int id = all->first; id >= 0; id = party_next(members, id)) {
 		int s = active[id];
-		if (party_is_driven(slots, shocks, id))
+		if (how == TUG_ENDS && party_is_driven(slots, shocks, id))
 			return 0.0f;
 		trajectory was = tug_way(slots, status, members, work, owners, shocks, s, true, hit, all);
 		gained += way_energy(slots, s, work_load(work, id)) - way_energy(slots, s, was);
@@ -238,14 +257,14 @@ bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), 
 	if (other >= 0)
 		tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, other, 0, false, hit, all);
 	float changed = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all), least = TUG_WITHIN * changed;
-	if (!tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, false, hit, all, first))
-		return false;
-	if (tug_is_much(shocks, one, tug_gain(slots, members, shocks, one, all), changed)) {
+	int how = tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, false, hit, all, first);
+	if (how != TUG_LOST && tug_is_much(shocks, one, tug_gain(slots, members, shocks, one, all), changed)) {
 		tug_begin_anew(slots, members, work, shocks, hit, all);
-		if (!tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, true, hit, all, first))
-			return false;
+		how = tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, true, hit, all, first);
 	}
-	if (tug_is_much(shocks, one, tug_energy(slots, status, members, active, work, owners, shocks, hit, all), changed))
+	if (how == TUG_LOST)
+		return false;
+	if (tug_is_much(shocks, one, tug_energy(slots, status, members, active, work, owners, shocks, how, hit, all), changed))
 		tug_begin_anew(slots, members, work, shocks, hit, all); /* and so it stays: the hit acts on the two alone */
 	return true;
 }

@@ -279,6 +279,8 @@ public:
 
 	T rule(int32_t channel) const { return uniforms.fact(UNIFORMS_RULES, channel); }
 	T time_step() const { return world(WORLD_TIME_STEP); }
+	/* s: of the step in which forces are found. */
+	T whole() const { return whole_length(length, uniforms); }
 	T room(int32_t channel) const { return uniforms.fact(UNIFORMS_ROOM, channel); }
 	/* What gravity makes of a speed in a step. */
 	T weight() const { return norm(Vec<T>((world(WORLD_GRAVITY_X) * length) * length, (world(WORLD_GRAVITY_Y) * length) * length)); }

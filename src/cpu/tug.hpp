@@ -28,7 +28,7 @@ template <typename T> class Tug
 {
 public:
 	Tug(const Clusters<T> &all, Work<T> *work_of, const JointPoints<T> &joints)
-		: clusters(all), work(work_of), touching(joints.touching), lanes(joints.points)
+		: clusters(all), work(work_of), touching(joints.touching), lanes(joints.points), whole(all.whole()), share(part_of_whole(all.length, whole))
 	{
 	}
 
@@ -52,7 +52,7 @@ public:
 		}
 		if (is_lost)
 			return false;
-		if (energy_gained() > T(TUG_GAIN) * (contact.impulse * changed))
+		if ((goes_on || !is_driven()) && energy_gained() > T(TUG_GAIN) * (contact.impulse * changed))
 			begin_anew(); /* and so it stays: the hit acts on the two alone */
 		for (int32_t k = 0; k < count; k++)
 			if (!parties[k].is_held) {
@@ -76,9 +76,9 @@ private:
 	/* In sweeps over all points, until they do no more, or the cluster is lost. */
 	template <typename Join> void pass_on(const Membership<T> &own, const Join &join)
 	{
-		bool more = true;
-		for (int32_t sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
-			more = false;
+		goes_on = true;
+		for (int32_t sweep = 0; sweep < TUG_SWEEPS && goes_on; sweep++) {
+			goes_on = false;
 			for (int32_t k = 0; k < count; k++)
 				for (int32_t point = 0; point < parties[k].points; point++) {
 					Point &p = points[parties[k].first + point];
@@ -86,9 +86,9 @@ private:
 						continue;
 					if (is_lost)
 						return;
-					more |= push(parties[k], p, p.other, true);
+					goes_on |= push(parties[k], p, p.other, true);
 				}
-			more |= push(parties[0], contact, contact.other, false); /* in the end the two part, whatever joints wanted */
+			goes_on |= push(parties[0], contact, contact.other, false); /* in the end the two part, whatever joints wanted */
 		}
 	}
 
@@ -174,9 +174,23 @@ private:
 				p.part -= speed_on(way_of(partner.slot(), own, true), p.n, p.other_arm);
 				p.coming = speed_on(way_of(partner.slot(), own, false), p.n, p.other_arm);
 			}
+			if (is_loose(p, slot, four.least[i])) {
+				taken--, parties[k].points--;
+				continue;
+			}
 			if (stops)
 				p.part = 0;
 		}
+	}
+
+	/* Does it hold nothing, since in the step it brings its anchors so far, or since by now they part so much faster, or slower, than its force would have it? In m a whole step. */
+	bool is_loose(const Point &p, const Slot<T> &slot, T least_way) const
+	{
+		const T radii = slot.radius() + (p.slot >= 0 ? clusters.slots[p.slot].radius() : T(0));
+		const T other = p.slot >= 0 ? speed_on(Trajectory<T>(clusters.slots[p.slot]), p.n, p.other_arm) : T(0);
+		const T begun = (speed_on(Trajectory<T>(slot), p.n, p.arm) - other) * whole, more = -least_way - begun;
+		const T way = share * begun + (T(0.5) * (share * share)) * more, now = p.part * whole;
+		return larger(std::abs(way), std::abs(now - (begun + (time * share) * more))) > T(TUG_LOOSE) * radii;
 	}
 
 	/* Has a party points of joints with slot s? Then these are with party k. */
@@ -222,12 +236,16 @@ private:
 
 	bool is_driven(const Point &p) const { return p.slot >= 0 && clusters.slots[p.slot].is_kinematic(); }
 
-	/* Twice the energy that all have more than before the hit: sweeps that come to no end may give some. 0 where something kinematic drives them. */
+	/* Does something kinematic give and take energy as it likes? */
+	bool is_driven() const
+	{
+		return std::any_of(points, points + taken, [&](const Point &p) { return is_driven(p); }) || is_driven(contact);
+	}
+
+	/* Twice the energy that all have more than before the hit: sweeps that come to no end may give some. */
 	T energy_gained() const
 	{
 		T all = 0;
-		if (std::any_of(points, points + taken, [&](const Point &p) { return is_driven(p); }) || is_driven(contact))
-			return 0;
 		for (int32_t k = 0; k < count; k++) {
 			const int32_t s = clusters.active[parties[k].id];
 			const Trajectory<T> *way = s == first_slot ? before[0] : s == second_slot ? before[1] : nullptr;
@@ -256,11 +274,13 @@ private:
 	Work<T> *const work;
 	const Touching *const touching;
 	const Points<T> *const lanes;
+	const T whole, share; /* s: a whole step; and how much of that this one is */
 	int32_t count = 0, taken = 0, first_slot = -1, second_slot = -1;
 	const Trajectory<T> *before[2] = {nullptr, nullptr};
 	T time = 0, changed = 0, least = 0, /* how much the hit changed a rate, and what of that is too little */
 		first_impulse = 0, first_rub = 0;
 	bool stops = false;   /* joints are to have no speeds, instead of those that they had */
+	bool goes_on = false; /* sweeps have come to no end */
 	bool is_lost = false; /* the cluster has to be given up */
 	Point contact{};
 	Party parties[SHOCK_PARTIES];
