@@ -267,7 +267,7 @@ float way_along(RECORD_IN(slots), int s, float2 n, float arm, float length)
 typedef struct aimed {
 	held own, other;
 	hold h;
-	bool stiff;
+	bool stiff, tired; /* tired: so is the island */
 } aimed;
 
 void aim_look(aimed *aim, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int partner, int now, float length,
@@ -281,7 +281,7 @@ void aim_look(aimed *aim, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), R
 	aim->h = hold_of(joints, side, aim->own, aim->other, by_velocity);
 }
 
-/* Is a step too long for what a side's joint does? What its forces make turn adds to itself, or the anchors are far from where they belong, or a spring could not swing. */
+/* Is a step too long for what a side's joint does? What its forces make turn adds to itself, or the anchors are far from where they belong, or the island is tired, or a spring could not swing. */
 bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, float length, float k)
 {
 	int kind = joint_kind(joints, side);
@@ -292,7 +292,8 @@ bool joint_is_stiff(RECORD_IN(joints), int side, const aimed *aim, float force, 
 		gives += (aim->own.inverse_mass + aim->other.inverse_mass) / CHANNEL(joints[JOINT(side / 2, JOINT_PARTIES)], JOINT_LENGTH);
 	if (kind == JOINT_SLIDER)
 		gives += larger(magnitude(aim->h.slid.x), magnitude(aim->h.slid.y)) * (side & 1 ? aim->own : aim->other).inverse_inertia;
-	return force * gives > JOINT_STIFF || (kind == JOINT_ROPE ? -target : magnitude(target)) > far || magnitude(aim->h.target[1]) > far;
+	return (aim->tired && kind != JOINT_ROPE) || force * gives > JOINT_STIFF || (kind == JOINT_ROPE ? -target : magnitude(target)) > far
+		|| magnitude(aim->h.target[1]) > far;
 }
 
 /* So that they have that rate, as a way of a whole step, when the step ends. */
@@ -322,7 +323,7 @@ float part_least(RECORD_IN(joints), int side, const aimed *aim, int part, float 
 	bool one_way = part_pushes_one_way(part), eases = aim->stiff;
 	float target = one_way ? smaller(wanted, most) : larger(smaller(wanted, most), -most);
 	if (part_turns(part))
-		eases = (one_way ? wanted : magnitude(wanted)) > JOINT_FAR * radii;
+		eases = one_way ? wanted > JOINT_FAR * radii : aim->tired || magnitude(wanted) > JOINT_FAR * radii;
 	if (eases)
 		return least_at_last(EASE * target, parts, k);
 	return (2.0f / k - 1.0f) * parts - (2.0f / (k * k)) * (one_way && target < 0.0f ? target : k * target);
@@ -360,10 +361,11 @@ void aside_aim(__global float *to, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(p
 
 /* What forces are to do, once it is known where all would get with those that there are. */
 void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined),
-	int s, int now, float length, float k)
+	int s, int now, bool tired, float length, float k)
 {
 	int point = 0, rows = touching[TOUCH(s, TOUCHING_ROWS)], first = first_four(touching, s);
 	aimed aim;
+	aim.tired = tired;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
 		int part = row_part(joints, &row), side = row.side;
 		__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);

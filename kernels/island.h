@@ -44,13 +44,15 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 		return false;
 	bool aims = joined[JOINED_COUNT] > 0 && !impulses;
 	if (aims && is_aimed(done) && held) {
-		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, length, part);
+		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, island_is_tired(touching, islands, s), length, part);
 		/* with which the next one has its steps */
 		CHANNEL(loads[LOADS_OF(s) + LOADS_ALONE], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 	}
-	if (!rests_iterate(slots, contacts, grips, touching, loads, joints, joined, s, number & 1, done, rub, impulses,
-			done == 0 || (aims && is_aimed(done - 1)), length)
-		|| done + 1 >= most)
+	bool wanted = rests_iterate(slots, contacts, grips, touching, loads, joints, joined, s, number & 1, done, rub, impulses,
+		done == 0 || (aims && is_aimed(done - 1)), length);
+	if (impulses && held && done + 1 == most)
+		island_tire(slots, contacts, touching, islands, joints, joined, s, wanted, length);
+	if (!wanted || done + 1 >= most)
 		return false;
 	if (PEEK(touching, wants) == number)
 		atomic_max(&touching[wants], number + 1);

@@ -38,15 +38,6 @@ void last_forces_of(RECORD_IN(slots), RECORD_IN(warm), LIST_IN(warm_spans), int 
 	last->friction = second ? last->held.y : last->held.x;
 }
 
-/* A force between a slot and a partner in a step's units; 0 if it is too large for either to begin with. */
-float force_begun(RECORD_IN(slots), int s, int partner, float force, float length)
-{
-	float start = (force * length) * length, inverse_mass = CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE);
-	if (partner >= 0)
-		inverse_mass = larger(inverse_mass, CHANNEL(SLOT_LOAD(slots, partner, SLOT_MASS), MASS_INVERSE));
-	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
-}
-
 /* Sees to it that there is room for the forces of as many contacts as a slot has now; what is kept goes along. */
 void warm_take(RECORD_IN(slots), LIST_OUT(status), RECORD_IN(contacts), LIST_IN(touching), RECORD_OUT(warm), LIST_OUT(warm_spans), int s, bool rub)
 {
@@ -138,12 +129,6 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 	warm_spans[WARM_SPAN(body, WARM_SPAN_COUNT)] = count;
 }
 
-/* Where it is kept what a joint's point does. */
-int part_kept(int part)
-{
-	return part == PART_MOTOR ? JOINT_TORQUE : part_turns(part) ? JOINT_STOP : part == PART_PIN_Y ? JOINT_FORCE + 1 : JOINT_FORCE;
-}
-
 /* A force at a point with that arm as it is kept: of two stops as a torque in which the other one's, which was kept `beside`, has the opposite sign. */
 float part_keeps(int part, float now, float arm, float beside)
 {
@@ -153,16 +138,6 @@ float part_keeps(int part, float now, float arm, float beside)
 	if (part == PART_UPPER)
 		return force > 0.0f ? 0.0f - force * magnitude(arm) : beside;
 	return part_turns(part) ? force * magnitude(arm) : force;
-}
-
-float part_begins(int part, float kept, float arm)
-{
-	float force = kept;
-	if (part_turns(part))
-		force = magnitude(arm) > 0.0f ? kept / magnitude(arm) : 0.0f;
-	if (part == PART_LOWER)
-		return larger(force, 0.0f);
-	return part_pushes_one_way(part) ? larger(0.0f - force, 0.0f) : force;
 }
 
 __global float *joint_forces(RECORD_OUT(joints), int side)
@@ -183,28 +158,20 @@ bool joint_strays(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side
 	return larger(magnitude(h.target[0]), magnitude(h.target[1])) > far || (joint_is_fixed(joints, side) && magnitude(h.turned * h.arm) > far);
 }
 
-/* Forces begin with the last ones, unless a joint strays. Where those hold the body's angle too fast for the step, by what they pull at its levers, forces turn it less. */
-void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_OUT(touching), RECORD_IN(joints), LIST_IN(joined), int s, float length)
+/* Forces begin with the last ones, unless a joint strays, or the island is tired. Where those hold the body's angle too fast for the step forces turn it less. */
+void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(joints), LIST_IN(joined),
+	int s, float length)
 {
 	int point = 0, first = first_four(touching, s);
-	bool strays = false;
-	float2 lever = (float2)(0.0f, 0.0f);
-	float holds = 0.0f;
+	bool tired = island_is_tired(touching, islands, s), strays = false;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
-		int part = row_part(joints, &row);
-		float kept = ((__global const float *)(joints + JOINT(row.side / 2, JOINT_FORCES)))[part_kept(part)];
-		if (row.point == 0) {
-			held own = held_body(slots, s, joint_anchor(joints, row.side));
-			strays = joint_strays(slots, places, joints, row.side, own, JOINT_ASTRAY * at[4 * FOUR_TOLERANCE], length);
-			lever = own.lever;
-		}
-		float last = force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
-		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = strays ? 0.0f : last;
-		if (!part_turns(part))
-			holds += last * (at[4 * FOUR_NORMAL_X] * lever.x + at[4 * FOUR_NORMAL_Y] * lever.y);
+		if (row.point == 0)
+			strays = joint_strays(slots, places, joints, row.side, held_body(slots, s, joint_anchor(joints, row.side)),
+				JOINT_ASTRAY * at[4 * FOUR_TOLERANCE], length);
+		at[4 * FOUR_FORCE] = at[4 * FOUR_START] = tired || strays ? 0.0f : row_last(slots, joints, &row, s, at, length);
 	}
-	holds *= CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE_INERTIA);
+	float holds = joined_hold(slots, contacts, touching, joints, joined, s, length);
 	touching[TOUCH(s, TOUCHING_TURNS)] = as_int(holds > JOINT_STIFF ? 1.0f / (1.0f + 0.5f * holds) : 1.0f);
 }
 

@@ -440,7 +440,9 @@
 #define TOUCHING_FOOTING 5        /* bits: of a root, what its island is on: */
 #define FOOTING_FIRM 1            /* its ground, on which it does not slide; */
 #define FOOTING_LOOSE 2           /* something else, or on which it slides; and of each slot, root or not: */
-#define FOOTING_SLIDES 4          /* its body slides somewhere */
+#define FOOTING_SLIDES 4          /* its body slides somewhere; of a root: */
+#define FOOTING_TIRED 8           /* joints of its island wanted more iterations of impulses than there are, */
+#define FOOTING_TENSE 16          /* and forces of the last step hold an angle, or a place across a joint, too fast for the step */
 #define TOUCHING_FIRST 6          /* of its fours in Contacts and Grips; there is room for */
 #define TOUCHING_ROOM 7           /* so many, */
 #define TOUCHING_MADE 8           /* as long as this is STATUS_MADE */
@@ -653,7 +655,8 @@
  * JOINT_AIMED, and a body is taken to turn by no more than JOINT_TURN. A step is too long for that where what a force makes turn in it, by its arm's growth, is more than JOINT_STIFF, and might grow from
  * step to step, or where anchors are farther from where they belong than JOINT_FAR of both radii: there forces take the speed along the ways at the step's end, as impulses do, and bring
  * anchors by EASE of the way. Where anchors, or angles that are fixed, are JOINT_ASTRAY times what they are found within from where they belong, forces begin with none: the last ones were not
- * right, and iterations that come to no end would add to them from step to step. What last forces pull at a body's levers holds its angle, like a spring: where that makes it turn by more than JOINT_STIFF
+ * right, and iterations that come to no end would add to them from step to step. So does all of an island whose impulses came to no end, and there, too, forces take the speed along the ways at the step's end: what
+ * they don't find then is lost, and never given. But where joints are tense they bear what they do by the last forces alone, and go on with those. What last forces pull at a body's levers holds its angle, like a spring: where that makes it turn by more than JOINT_STIFF
  * times as far as it is from there, in a step, forces turn it less, as if they knew where it will be. A tension holds likewise where its ends are across it: of what has a length that is a point
  * more, which holds aside as if it knew how far forces take them. */
 #define JOINT_PART 0.25f

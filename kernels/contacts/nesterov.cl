@@ -50,7 +50,7 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_
 			warm_take(slots, status, contacts, touching, warm, warm_spans, s, rub);
 			island_join(slots, contacts, touching, islands, s);
 		} else {
-			joined_warm(slots, places, contacts, touching, joints, joined, s, length);
+			joined_warm(slots, places, contacts, touching, islands, joints, joined, s, length);
 			rests_warm(slots, contacts, grips, touching, warm, warm_spans, s, rub, length);
 		}
 		float4 load = load_alone(slots, impulses, s, length);

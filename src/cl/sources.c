@@ -11,10 +11,10 @@
 #include "status.h"
 
 /* Each header stands after those it needs. */
-static const char *const headers[2][39] = {
+static const char *const headers[2][40] = {
 	{"layout", "texture", "numbers", "filter", "body", "convex", "contact", "apart", "search", "room", "reduce", "toi", "pieces", "impulse",
 		"forward", "slots", "reach", "cluster", "around", "mend", "roster", "answer", "slice", "heap", "team", "join", "sleep", "rest", "shock",
-		"tug", "queue", "seek", "joint", "load", "held", "island", "kept", "still"},
+		"tug", "queue", "seek", "joint", "load", "held", "last", "island", "kept", "still"},
 	{"layout", "texture", "numbers", "vertices", "shapes", "outline", "tiles", "light"},
 };
 

@@ -117,29 +117,56 @@ template <typename T> T &kept_at(Joint<T> &joint, Part part)
 	return joint.forces[part == Part::motor ? JOINT_TORQUE : is_angular(part) ? JOINT_STOP : JOINT_FORCE + (part == Part::pin_y)];
 }
 
-/* Forces begin with the last ones, but where these have led astray: what iterations can't find would add up from step to step. What they pull at the body's levers holds its angle, like a
- * spring; where that is too fast for the step they turn the body less, as if they knew how far it will have turned. */
-template <typename T> void warm_joined(const Rests<T> &rests, const Joints<T> &joints, int32_t s)
+/* Calls `visit(rows, points, i, last)` for each point of a body's joints, `last` being the force that the step before left there. Returns how fast those hold its angle, by what they pull at
+ * its levers, as a spring would. */
+template <typename T, typename Visit> T visit_last(const Rests<T> &rests, const Joints<T> &joints, int32_t s, const Visit &visit)
 {
 	int32_t point = 0;
-	bool is_astray = false;
 	Vec<T> lever(0, 0);
 	T holds = 0;
 	for (JointRows<T> rows(joints, rests.slots[s].body()); rows.has() && point < rests.touching[s].joined; rows.next(), point++) {
 		Points<T> &points = rests.points[rests.touching[s].first + point / lane_count];
 		const int32_t i = point % lane_count;
-		if (rows.begins()) {
-			const HeldNow<T> now(joints, rows.which_side(), rests.slots, rests.places, s);
-			is_astray = now.hold.astray(rows.joint(), rests.length) > T(JOINT_ASTRAY) * points.tolerance[i];
-			lever = now.own.lever;
-		}
+		if (rows.begins())
+			lever = Held<T>(rests.slots[s], joints.anchor(rows.which_side())).lever;
 		const T kept = begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]);
 		const T last = begun(rests, rests.slots[s], Partner(points.partner[i]), kept, rests.length);
-		points.force[i] = points.start[i] = is_astray ? T(0) : last;
+		visit(rows, points, i, last);
 		if (!is_angular(rows.part()))
 			holds += last * inner(Vec<T>(points.normal_x[i], points.normal_y[i]), lever);
 	}
-	holds *= rests.slots[s].mass[MASS_INVERSE_INERTIA];
+	return holds * rests.slots[s].mass[MASS_INVERSE_INERTIA];
+}
+
+/* Did impulses of the joints of a body's island come to no end, though none of them is tense? Then forces would not, either, and might give energy. */
+template <typename T> bool is_tired(const Rests<T> &rests, int32_t s)
+{
+	return (rests.touching[rests.islands.parents[s]].footing & (FOOTING_TIRED | FOOTING_TENSE)) == FOOTING_TIRED;
+}
+
+/* After the last iteration of impulses that a body with joints can have: says that of its island, if it wants one more. */
+template <typename T> void tire(const Rests<T> &rests, const Joints<T> &joints, int32_t s, bool wants)
+{
+	const Touching &own = rests.touching[s];
+	int32_t rows = 0;
+	const T holds = visit_last(rests, joints, s, [&rows](const JointRows<T> &, const Points<T> &, int32_t, T) { rows++; });
+	const int32_t tense = holds > T(JOINT_STIFF) || own.joined > rows ? FOOTING_TENSE : 0;
+	__atomic_fetch_or(&rests.touching[rests.islands.parents[s]].footing, (wants ? FOOTING_TIRED : 0) | tense, __ATOMIC_RELAXED);
+}
+
+/* Forces begin with the last ones, but where these have led astray, or the island is tired: what iterations can't find would add up from step to step. Where they hold the body's angle too
+ * fast for the step they turn it less, as if they knew how far it will have turned. */
+template <typename T> void warm_joined(const Rests<T> &rests, const Joints<T> &joints, int32_t s)
+{
+	const bool tired = is_tired(rests, s);
+	bool is_astray = false;
+	const T holds = visit_last(rests, joints, s, [&](const JointRows<T> &rows, Points<T> &points, int32_t i, T last) {
+		if (rows.begins()) {
+			const HeldNow<T> now(joints, rows.which_side(), rests.slots, rests.places, s);
+			is_astray = now.hold.astray(rows.joint(), rests.length) > T(JOINT_ASTRAY) * points.tolerance[i];
+		}
+		points.force[i] = points.start[i] = tired || is_astray ? T(0) : last;
+	});
 	rests.touching[s].turns = holds > T(JOINT_STIFF) ? static_cast<float>(1 / (1 + T(0.5) * holds)) : 1.0f;
 }
 
@@ -155,11 +182,11 @@ template <typename T> class Aim
 public:
 	Aim(const Rests<T> &all, const Joints<T> &every_joint, int32_t slot_side, const Lanes<T> *now, int32_t slot, Partner other_slot, bool at_end)
 		: rests(&all), joints(&every_joint), side(slot_side), loads(now), s(slot), partner(other_slot), own(own_at(at_end)), other(other_at(at_end)),
-		  held(every_joint.of(slot_side), Joints<T>::is_other(slot_side), own, other, at_end), is_stiff(at_end)
+		  held(every_joint.of(slot_side), Joints<T>::is_other(slot_side), own, other, at_end), is_stiff(at_end), tired(is_tired(all, slot))
 	{
 	}
 
-	/* Whether the step is too long, by what the forces at its point, of a pin at both, add up to. */
+	/* Whether the step is too long, by what the forces at its point, of a pin at both, add up to, or the island is tired. */
 	void choose(T forces)
 	{
 		const Joint<T> &joint = joints->of(side);
@@ -170,8 +197,9 @@ public:
 		if (joint.is(JOINT_SLIDER))
 			gives += largest(held.slid) * (Joints<T>::is_other(side) ? own : other).inverse_inertia;
 		const T least = joint.is(JOINT_ROPE) ? -held.target[0] : std::abs(held.target[0]);
-		is_stiff = joint.is(JOINT_SPRING) ? joint.answer(rests->length, rests->part).at_end
-										  : forces * gives > T(JOINT_STIFF) || least > far || std::abs(held.target[1]) > far;
+		is_stiff = joint.is(JOINT_SPRING)
+			? joint.answer(rests->length, rests->part).at_end
+			: (tired && !joint.is(JOINT_ROPE)) || forces * gives > T(JOINT_STIFF) || least > far || std::abs(held.target[1]) > far;
 		if (is_stiff)
 			*this = Aim(*rests, *joints, side, loads, s, partner, true);
 	}
@@ -248,7 +276,7 @@ private:
 	{
 		const T most = T(JOINT_MOST) * (own.radius + other.radius), far = T(JOINT_FAR) * (own.radius + other.radius), k = rests->part;
 		const T aim = held.aim(part, joints->of(side)), up = smaller(aim, most), target = is_one_sided(part) ? up : larger(up, -most);
-		const bool eases = is_angular(part) ? (is_one_sided(part) ? aim : std::abs(aim)) > far : is_stiff;
+		const bool eases = is_angular(part) ? (is_one_sided(part) ? aim > far : tired || std::abs(aim) > far) : is_stiff;
 		const T way = is_one_sided(part) && target < 0 ? target : k * target;
 		return eases ? at_last(T(EASE) * target, parts) : (2 / k - 1) * parts - (2 / (k * k)) * way;
 	}
@@ -275,7 +303,7 @@ private:
 	Partner partner;
 	Held<T> own, other;
 	Hold<T> held;
-	bool is_stiff;
+	bool is_stiff, tired;
 };
 
 /* What forces are to do, once it is known where all would get with those that they begin with. */

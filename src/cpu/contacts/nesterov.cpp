@@ -250,6 +250,8 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 		const bool is_loose = rests.touching[s].joined > rests.touching[s].firm;
 		const bool wants = is_loose ? iterate_one<rubs, true>(rests, joints, loads, s, number & 1, done, anew)
 									: iterate_one<rubs, false>(rests, joints, loads, s, number & 1, done, anew);
+		if (rests.impulses && is_joined && done + 1 == most)
+			tire(rests, joints, s, wants);
 		if (!wants || done + 1 >= most)
 			continue;
 		wanted = true;
