@@ -86,14 +86,17 @@ void wild_join(uint64_t seed, wild_world *world)
 	const char *step = carom_pipeline_get(&world->def.pipeline, "step");
 	if (!one_in(&random, 3) || !step || strcmp(step, "contacts") != 0)
 		return;
-	const uint32_t rare = 1 + below(&random, 8), kinds = below(&random, 10), side = (uint32_t)sqrtf((float)world->count), lattice = side * side;
-	for (uint32_t i = 0; i < lattice; i++) {
-		if (i % side + 1 < side && one_in(&random, rare))
-			add(&random, kinds, i, (int32_t)(i + 1), world);
-		if (i + side < lattice && one_in(&random, rare))
-			add(&random, kinds, i + side, (int32_t)i, world);
-		if (one_in(&random, 16))
-			add(&random, kinds, i, CAROM_GROUND, world);
+	const uint32_t rare = 1 + below(&random, 8), kinds = below(&random, 10), side = (uint32_t)sqrtf((float)world->count);
+	for (uint32_t row = 0; row < side; row++) {
+		for (uint32_t column = 0; column < side; column++) {
+			const uint32_t i = row * side + column;
+			if (column + 1 < side && one_in(&random, rare))
+				add(&random, kinds, i, (int32_t)(i + 1), world);
+			if (row + 1 < side && one_in(&random, rare))
+				add(&random, kinds, i + side, (int32_t)i, world);
+			if (one_in(&random, 16))
+				add(&random, kinds, i, CAROM_GROUND, world);
+		}
 	}
 }
 
