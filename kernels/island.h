@@ -39,19 +39,19 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 	bool impulses = status[STATUS_PASS] == PASS_IMPULSES;
 	bool held = first_contact(touching, s) > 0;
 	int number = status[STATUS_FIRST] + done, most = !(rub && impulses) ? CONTACT_ITERATIONS : held ? JOINT_IMPULSES : GRIP_IMPULSES;
-	int wants = TOUCH(done == 0 ? island_root(touching, islands, s) : islands[s], TOUCHING_WANTED);
+	int root = done == 0 ? island_root(touching, islands, s) : islands[s], wants = TOUCH(root, TOUCHING_WANTED);
 	if (PEEK(touching, wants) < number)
 		return false;
 	bool aims = joined[JOINED_COUNT] > 0 && !impulses;
 	if (aims && is_aimed(done) && held) {
-		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, island_is_tired(touching, islands, s), length, part);
+		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, island_is_tired(touching, root), length, part);
 		/* with which the next one has its steps */
 		CHANNEL(loads[LOADS_OF(s) + LOADS_ALONE], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 	}
 	bool wanted = rests_iterate(slots, contacts, grips, touching, loads, joints, joined, s, number & 1, done, rub, impulses,
 		done == 0 || (aims && is_aimed(done - 1)), length);
 	if (impulses && held && done + 1 == most)
-		island_tire(slots, contacts, touching, islands, joints, joined, s, wanted, length);
+		island_tire(slots, contacts, touching, joints, joined, s, root, wanted, length);
 	if (!wanted || done + 1 >= most)
 		return false;
 	if (PEEK(touching, wants) == number)

@@ -163,7 +163,7 @@ void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_O
 	int s, float length)
 {
 	int point = 0, first = first_four(touching, s);
-	bool tired = island_is_tired(touching, islands, s), strays = false;
+	bool tired = island_is_tired(touching, islands[s]), strays = false;
 	for (joint_row row = held_row(slots, touching, joints, joined, s); row.side >= 0; row_next(joints, joined, &row), point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 		if (row.point == 0)

@@ -50,17 +50,17 @@ float joined_hold(RECORD_IN(slots), RECORD_IN(contacts), LIST_IN(touching), RECO
 	return holds * CHANNEL(SLOT_LOAD(slots, s, SLOT_MASS), MASS_INVERSE_INERTIA);
 }
 
-/* Did impulses of the joints of a body's island come to no end, though none of them is tense? Then forces would not, either, and might give energy. */
-bool island_is_tired(LIST_IN(touching), LIST_IN(islands), int s)
+/* Did impulses of the joints of a root's island come to no end, though none of them is tense? Then forces would not, either, and might give energy. */
+bool island_is_tired(LIST_IN(touching), int root)
 {
-	return (touching[TOUCH(islands[s], TOUCHING_FOOTING)] & (FOOTING_TIRED | FOOTING_TENSE)) == FOOTING_TIRED;
+	return (touching[TOUCH(root, TOUCHING_FOOTING)] & (FOOTING_TIRED | FOOTING_TENSE)) == FOOTING_TIRED;
 }
 
 /* After the last iteration of impulses that a body with joints can have: says that of its island, if it wants one more. */
-void island_tire(RECORD_IN(slots), RECORD_IN(contacts), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(joints), LIST_IN(joined), int s, bool wants,
+void island_tire(RECORD_IN(slots), RECORD_IN(contacts), LIST_OUT(touching), RECORD_IN(joints), LIST_IN(joined), int s, int root, bool wants,
 	float length)
 {
 	bool tense = joined_hold(slots, contacts, touching, joints, joined, s, length) > JOINT_STIFF
 		|| touching[TOUCH(s, TOUCHING_JOINED)] > touching[TOUCH(s, TOUCHING_ROWS)];
-	atomic_or(&touching[TOUCH(islands[s], TOUCHING_FOOTING)], (wants ? FOOTING_TIRED : 0) | (tense ? FOOTING_TENSE : 0));
+	atomic_or(&touching[TOUCH(root, TOUCHING_FOOTING)], (wants ? FOOTING_TIRED : 0) | (tense ? FOOTING_TENSE : 0));
 }
