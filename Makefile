@@ -313,7 +313,7 @@ doc:
 	@CAROM_VERSION='$(VERSION)' CAROM_BUILD='$(BUILD)' $(DOXYGEN) tools/Doxyfile
 	@echo '$(BUILD)/doc/html/index.html'
 
-# Races that hide from a run show here, of the library and of the command, where other threads write the frames.
+# Races that hide from a run show here, of the library and of the command, where other threads write the frames; and of joints, and of what rests.
 check-threads:
 	@$(MAKE) SANITIZE=thread run-threads
 
@@ -321,6 +321,8 @@ run-threads: $(BUILD)/tests/test_threads $(BUILD)/carom
 	$<
 	$(BUILD)/carom run scenes/mixed.json --device cpu --time 0.5 --frames $(BUILD)/film --fps 100 --size 320x180
 	@rm -r $(BUILD)/film
+	$(BUILD)/carom run scenes/drum.json --device cpu --steps 40
+	$(BUILD)/carom run scenes/heap.json --device cpu --steps 100
 
 # On every OpenCL implementation that is installed, and from several compilers; ROWS are those of tools/conformance, all by default.
 conformance: all $(TEST_PROGRAMS)

@@ -35,7 +35,8 @@ inline bool lists_are_good(const int32_t *status)
 /* Has the step no slice after this one? */
 inline bool is_last_slice(const int32_t *status)
 {
-	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES] || status[STATUS_ACTIVE] == 0;
+	return status[STATUS_SLICE] + 1 >= status[STATUS_SLICES]
+		|| __atomic_load_n(&status[STATUS_ACTIVE], __ATOMIC_RELAXED) == 0; /* clusters may get members meanwhile */
 }
 
 /* Does a pass of contacts go on in the next handing over? */
