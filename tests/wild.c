@@ -6,34 +6,34 @@
 
 #include "runs.h"
 
-static uint32_t below(scenery_random *random, uint32_t end)
+uint32_t wild_below(scenery_random *random, uint32_t end)
 {
 	return (uint32_t)scenery_uniform(random, 0.0f, (float)end);
 }
 
-static bool one_in(scenery_random *random, uint32_t many)
+bool wild_one_in(scenery_random *random, uint32_t many)
 {
-	return below(random, many) == 0;
+	return wild_below(random, many) == 0;
 }
 
 static carom_body_def wild_body(scenery_random *random, uint32_t shapes, float speed)
 {
-	const float small = one_in(random, 6) ? 0.02f : 0.6f, radius = 0.5f * scenery_uniform(random, small, 1.0f);
+	const float small = wild_one_in(random, 6) ? 0.02f : 0.6f, radius = 0.5f * scenery_uniform(random, small, 1.0f);
 	const float vy = scenery_uniform(random, -speed, speed), vx = scenery_uniform(random, -speed, speed);
 	carom_body_def body = scenery_circle(0.0f, 0.0f, vx, vy, radius);
-	if (shapes == 1 || (shapes == 2 && one_in(random, 2))) {
+	if (shapes == 1 || (shapes == 2 && wild_one_in(random, 2))) {
 		body.shape = CAROM_REGULAR;
-		body.sides = 3 + below(random, 5);
+		body.sides = 3 + wild_below(random, 5);
 		body.angle = scenery_uniform(random, -3.0f, 3.0f);
 		body.angular_velocity = scenery_uniform(random, -5.0f, 5.0f);
 	}
-	if (one_in(random, 12))
+	if (wild_one_in(random, 12))
 		body.is_static = true;
-	if (one_in(random, 8))
+	if (wild_one_in(random, 8))
 		body.mass = scenery_uniform(random, 0.01f, 100.0f);
-	if (one_in(random, 15) && !body.is_static)
+	if (wild_one_in(random, 15) && !body.is_static)
 		body.force = (carom_vec2){scenery_uniform(random, -3.0f, 3.0f), scenery_uniform(random, -3.0f, 3.0f)};
-	if (one_in(random, 8) && !body.is_static && body.shape == CAROM_REGULAR)
+	if (wild_one_in(random, 8) && !body.is_static && body.shape == CAROM_REGULAR)
 		body.torque = scenery_uniform(random, -1.0f, 1.0f);
 	if (body.is_static) {
 		body.velocity = (carom_vec2){0.0f, 0.0f};
@@ -48,17 +48,17 @@ static void make(scenery_random *random, uint32_t sizes, wild_world *world)
 	static const float restitutions[] = {0.0f, 0.0f, 0.3f, 0.9f, 1.0f, 1.0f}, frictions[] = {0.0f, 0.0f, 0.0f, 0.2f, 0.7f, 1000.0f};
 	carom_world_def *def = &world->def;
 	*def = runs_def();
-	const uint32_t shapes = below(random, 3), side = 2 + below(random, sizes);
+	const uint32_t shapes = wild_below(random, 3), side = 2 + wild_below(random, sizes);
 	const float pitch = scenery_uniform(random, 1.02f, 2.0f), half = 0.5f * (float)side * pitch + 0.6f;
-	const float middle = one_in(random, 3) ? scenery_uniform(random, -200.0f, 200.0f) : 0.0f;
-	const float speed = one_in(random, 12) ? 300.0f : scenery_uniform(random, 0.0f, 10.0f);
+	const float middle = wild_one_in(random, 3) ? scenery_uniform(random, -200.0f, 200.0f) : 0.0f;
+	const float speed = wild_one_in(random, 12) ? 300.0f : scenery_uniform(random, 0.0f, 10.0f);
 	scenery_random rubbing = {random->state ^ 1}; /* of its own: the bodies of a seed are kept */
-	def->restitution = restitutions[below(random, 6)];
-	def->friction = frictions[below(&rubbing, 6)];
-	def->rolling_friction = one_in(&rubbing, 3) ? 0.125f : 0.0f;
-	def->linear_damping = one_in(&rubbing, 6) ? scenery_uniform(&rubbing, 0.0f, 4.0f) : 0.0f;
+	def->restitution = restitutions[wild_below(random, 6)];
+	def->friction = frictions[wild_below(&rubbing, 6)];
+	def->rolling_friction = wild_one_in(&rubbing, 3) ? 0.125f : 0.0f;
+	def->linear_damping = wild_one_in(&rubbing, 6) ? scenery_uniform(&rubbing, 0.0f, 4.0f) : 0.0f;
 	def->angular_damping = def->linear_damping;
-	def->gravity.y = one_in(random, 2) ? -scenery_uniform(random, 0.0f, 20.0f) : 0.0f;
+	def->gravity.y = wild_one_in(random, 2) ? -scenery_uniform(random, 0.0f, 20.0f) : 0.0f;
 	def->has_room = true;
 	def->room_min = (carom_vec2){middle - half, -half};
 	def->room_max = (carom_vec2){middle + half, half};
@@ -103,16 +103,16 @@ static void make_hollow(scenery_random *random, carom_vec2 *corners)
 static void make_hollows(uint64_t seed, wild_world *world)
 {
 	scenery_random random = {seed ^ 3};
-	if (!one_in(&random, 3))
+	if (!wild_one_in(&random, 3))
 		return;
 	for (uint32_t i = 0; i < WILD_HOLLOWS; i++)
 		make_hollow(&random, world->hollows[i]);
 	for (uint32_t i = 0; i < world->count; i++) {
 		carom_body_def *body = &world->bodies[i];
-		if (body->shape == CAROM_CIRCLE || body->sides > 8 || one_in(&random, 2))
+		if (body->shape == CAROM_CIRCLE || body->sides > 8 || wild_one_in(&random, 2))
 			continue;
 		body->shape = CAROM_POLYGON;
-		body->vertices = world->hollows[below(&random, WILD_HOLLOWS)];
+		body->vertices = world->hollows[wild_below(&random, WILD_HOLLOWS)];
 		body->vertex_count = WILD_CORNERS;
 	}
 }
@@ -122,14 +122,14 @@ static void add_large(scenery_random *random, wild_world *world)
 {
 	carom_body_def large = scenery_circle(0.0f, 0.0f, 0.0f, 0.0f, scenery_uniform(random, 2.0f, 20.0f));
 	large.position.x = 0.5f * (world->def.room_min.x + world->def.room_max.x);
-	large.is_static = one_in(random, 2);
-	if (one_in(random, 2)) {
+	large.is_static = wild_one_in(random, 2);
+	if (wild_one_in(random, 2)) {
 		large.shape = CAROM_REGULAR;
-		large.sides = 3 + below(random, 60);
+		large.sides = 3 + wild_below(random, 60);
 	}
 	if (!large.is_static)
 		large.velocity = (carom_vec2){scenery_uniform(random, -20.0f, 20.0f), scenery_uniform(random, -20.0f, 20.0f)};
-	if (one_in(random, 2)) {
+	if (wild_one_in(random, 2)) {
 		world->def.has_room = false;
 		large.position.y = world->def.room_min.y - large.radius - 1.0f;
 	} else {
@@ -148,7 +148,7 @@ static void make_shot(scenery_random *random, wild_world *world)
 		world->bodies[i].velocity = (carom_vec2){0.0f, 0.0f};
 		world->bodies[i].angular_velocity = 0.0f;
 	}
-	carom_body_def *shot = &world->bodies[below(random, world->count)];
+	carom_body_def *shot = &world->bodies[wild_below(random, world->count)];
 	shot->is_static = shot->is_kinematic = false;
 	shot->mass = 1000.0f;
 	const float speed = 1.5f / world->def.time_step;
@@ -159,9 +159,9 @@ static void make_shot(scenery_random *random, wild_world *world)
 static void make_tight(scenery_random *random, wild_world *world)
 {
 	static const carom_vec2 square[4] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
-	const uint32_t side = 2 + below(random, 5);
-	const float half = 0.5f * (float)side, pitch = one_in(random, 2) ? 1.0f : 1.25f;
-	const bool are_squares = one_in(random, 2);
+	const uint32_t side = 2 + wild_below(random, 5);
+	const float half = 0.5f * (float)side, pitch = wild_one_in(random, 2) ? 1.0f : 1.25f;
+	const bool are_squares = wild_one_in(random, 2);
 	carom_world_def *def = &world->def;
 	def->has_room = true;
 	def->room_min = (carom_vec2){-half, 0.0f};
@@ -186,37 +186,37 @@ void wild_make_wider(uint64_t seed, wild_world *world)
 	static const float steps[] = {0.005f, 1.0f / 60.0f, 1.0f / 60.0f, 0.1f};
 	scenery_random random = {seed};
 	carom_error error;
-	make(&random, one_in(&random, 6) ? WILD_SIDE - 1 : 7, world);
-	world->def.time_step = steps[below(&random, 4)];
-	scenery_check(carom_pipeline_set(&world->def.pipeline, "toi", tois[below(&random, 2)], &error), &error);
-	scenery_check(carom_pipeline_set(&world->def.pipeline, "impulse", impulses[below(&random, 4) / 3], &error), &error);
+	make(&random, wild_one_in(&random, 6) ? WILD_SIDE - 1 : 7, world);
+	world->def.time_step = steps[wild_below(&random, 4)];
+	scenery_check(carom_pipeline_set(&world->def.pipeline, "toi", tois[wild_below(&random, 2)], &error), &error);
+	scenery_check(carom_pipeline_set(&world->def.pipeline, "impulse", impulses[wild_below(&random, 4) / 3], &error), &error);
 	for (uint32_t i = 0; i < WILD_OUTLINES; i++)
 		make_outline(&random, world->outlines[i]);
-	const bool irregular = one_in(&random, 2);
+	const bool irregular = wild_one_in(&random, 2);
 	for (uint32_t i = 0; i < world->count; i++) {
 		carom_body_def *body = &world->bodies[i];
-		if (!irregular || body->shape == CAROM_CIRCLE || one_in(&random, 2))
+		if (!irregular || body->shape == CAROM_CIRCLE || wild_one_in(&random, 2))
 			continue;
 		body->shape = CAROM_POLYGON;
-		body->vertices = world->outlines[below(&random, WILD_OUTLINES)];
+		body->vertices = world->outlines[wild_below(&random, WILD_OUTLINES)];
 		body->vertex_count = WILD_CORNERS;
 	}
 	make_hollows(seed, world);
 	scenery_random driving = {seed ^ 1}; /* of its own: the bodies of a seed are kept */
-	if (one_in(&driving, 3))
+	if (wild_one_in(&driving, 3))
 		scenery_drive(&driving, world->count, 5.0f, world->bodies);
-	if (one_in(&random, 6))
+	if (wild_one_in(&random, 6))
 		world->def.has_room = false;
-	if (one_in(&random, 3))
+	if (wild_one_in(&random, 3))
 		add_large(&random, world);
-	if (one_in(&random, 2))
+	if (wild_one_in(&random, 2))
 		scenery_check(carom_pipeline_set(&world->def.pipeline, "step", "contacts", &error), &error);
-	if (one_in(&random, 12))
+	if (wild_one_in(&random, 12))
 		make_shot(&random, world);
-	if (one_in(&random, 12))
+	if (wild_one_in(&random, 12))
 		make_tight(&random, world);
 	scenery_random filtering = {seed ^ 2};
-	const bool filtered = one_in(&filtering, 4);
+	const bool filtered = wild_one_in(&filtering, 4);
 	for (uint32_t i = 0; i < world->count && filtered; i++)
 		scenery_filter(&filtering, &world->bodies[i]);
 	wild_join(seed, world);

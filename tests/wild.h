@@ -25,6 +25,10 @@ typedef struct wild_world {
 	carom_joint joints[WILD_JOINTS];
 } wild_world;
 
+/* From 0 up to below the end, each as likely; and true as often as once in so many times. */
+uint32_t wild_below(scenery_random *random, uint32_t end);
+bool wild_one_in(scenery_random *random, uint32_t many);
+
 /* Up to 64 circles and regular polygons on a lattice in a room, which may be far from the origin. */
 void wild_make(uint64_t seed, wild_world *world);
 /* Of any size, by other rules, among them irregular polygons, also such as are not convex, and one large body, with walls or without, or one fast body among others that rest, or rows that exactly fill their room; and in
