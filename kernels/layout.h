@@ -240,7 +240,7 @@
 #define MEMBER_HEAD 3     /* of a leader: the first member; -1 if it leads none */
 #define MEMBER_EVENTS 4   /* of the body in this step */
 #define MEMBER_RAPID 5    /* of these, rapid ones */
-#define MEMBER_SEEN 6     /* events of the partner when NEXT was found; below 0: a shock's party that is to look again, see party_next */
+#define MEMBER_SEEN 6     /* events of the partner when NEXT was found; below 0: it is to look again, as a shock's parties are, see party_next */
 #define MEMBER_HITS 8     /* answered with an impulse, counted at one of the two bodies */
 #define MEMBER_ROUND 7    /* of a leader: the round in which the cluster is to be done */
 #define MEMBER_CHILD 9    /* of the cluster's heap, where it is made of links: the first below this one, */

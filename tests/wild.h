@@ -12,7 +12,7 @@ enum {
 	WILD_OUTLINES = 8,
 	WILD_CORNERS = 9,
 	WILD_HOLLOWS = 4,
-	WILD_JOINTS = 2 * WILD_MOST + 16
+	WILD_JOINTS = 3 * WILD_MOST
 };
 
 /* `bodies` point into `outlines`. */

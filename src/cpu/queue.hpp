@@ -153,8 +153,9 @@ private:
 		const Disc<T> other_disc(slots[other], other_way.place, other_way.time, other_way.held > 0, clusters.length);
 		const Outlook<T> outlook(approach, slots[s], disc_of(s, work[id]), slots[other], other_disc);
 		clusters.wake_before(s, outlook.earliest);
-		if (at >= 0 && members[at].seen < 0)
-			return;                                           /* it looks later */
+		const bool looks_later = at >= 0 && members[at].seen < 0;
+		if (looks_later)
+			return;
 		if (seen > 0 && at < clusters.status[STATUS_NUMBERS]) /* a member */
 			clusters.wake_before(other, outlook.earliest);
 		const T first = work[id].next[NEXT_TIME];
