@@ -1,6 +1,7 @@
 #include "cpu/pixels.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace carom::cpu {
 
@@ -16,29 +17,31 @@ public:
 
 	Tiling(const Records<T> &of_shapes, const Texels<T> &frame)
 		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))),
-		  boxes(of_shapes), x0(frame.fact(FRAME_BOX, BOX_X0)), y0(frame.fact(FRAME_BOX, BOX_Y0)), x1(frame.fact(FRAME_BOX, BOX_X1)),
-		  y1(frame.fact(FRAME_BOX, BOX_Y1))
+		  boxes(of_shapes), least{side(frame, BOX_X0), side(frame, BOX_Y0), side(frame, BOX_X0), side(frame, BOX_Y0)}, most{side(frame, BOX_X1),
+																														   side(frame, BOX_Y1),
+																														   side(frame, BOX_X1),
+																														   side(frame, BOX_Y1)}
 	{
 	}
 
 	/* Which tiles a shape touches. */
 	Tiles of(int32_t shape) const
 	{
-		if (!(boxes.of(shape, BOX_X0) < boxes.of(shape, BOX_X1)))
+		Lanes<T> box;
+		std::memcpy(&box, &boxes.of(shape, 0), sizeof box);
+		const Lanes<T> cut = smaller(larger(box, least), most);
+		if (!(cut[BOX_X0] < cut[BOX_X1] && cut[BOX_Y0] < cut[BOX_Y1]))
 			return {0, 0, 0, 0}; /* not seen, as most radius lines */
-		const int32_t left = whole(larger(boxes.of(shape, BOX_X0), x0) - x0), top = whole(larger(boxes.of(shape, BOX_Y0), y0) - y0);
-		const int32_t right = whole(smaller(boxes.of(shape, BOX_X1), x1) - x0);
-		const int32_t bottom = whole(smaller(boxes.of(shape, BOX_Y1), y1) - y0);
-		if (left >= right || top >= bottom)
-			return {0, 0, 0, 0};
-		return {left / tile_width, top / tile_height, (right - 1) / tile_width + 1, (bottom - 1) / tile_height + 1};
+		const Lanes<T> parts{T(1) / tile_width, T(1) / tile_height, T(1) / tile_width, T(1) / tile_height};
+		const Whole tiles = __builtin_convertvector(((cut - least) + Lanes<T>{0, 0, tile_width - 1, tile_height - 1}) * parts, Whole);
+		return {tiles[BOX_X0], tiles[BOX_Y0], tiles[BOX_X1], tiles[BOX_Y1]};
 	}
 
 private:
-	static int32_t whole(T v) { return static_cast<int32_t>(v); }
+	static T side(const Texels<T> &frame, int32_t which) { return frame.fact(FRAME_BOX, which); }
 
 	const Records<T> boxes;
-	const T x0, y0, x1, y1;
+	const Lanes<T> least, most;
 };
 
 /* Calls `visit(shape, row, tiles)` for the shapes of a chunk, in order, and the rows that each touches. */

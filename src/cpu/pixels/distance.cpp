@@ -53,9 +53,9 @@ public:
 			const Stroke<T> &stroke = strokes[k];
 			tile.open(stroke.first % tile_width, stroke.first / tile_width, stroke.columns, stroke.rows);
 			if (stroke.columns == small)
-				blend<small>(tile, stroke, small, small);
+				blend<small, small>(tile, stroke, small, small);
 			else
-				blend<block>(tile, stroke, stroke.columns, stroke.rows);
+				blend<block, 1>(tile, stroke, stroke.columns, stroke.rows);
 		}
 		waiting = taken = 0;
 	}
@@ -148,17 +148,30 @@ private:
 			patch.beyond_line(edge);
 	}
 
-	template <int32_t wide> static void blend(Tile<T> &tile, const Stroke<T> &stroke, int32_t columns, int32_t rows)
+	/* `wide` columns of `high` rows at a time: what of the light is the stroke's, then that over what was there. */
+	template <int32_t wide, int32_t high> static void blend(Tile<T> &tile, const Stroke<T> &stroke, int32_t columns, int32_t rows)
 	{
-		for (int c = 0; c < 3; c++) {
-			const T line = stroke.outline.channels[c], middle = stroke.fill.channels[c];
-			const T *cover = stroke.cover, *inside = stroke.inside;
-			for (int32_t row = 0; row < rows; row++) {
-				T *ground = tile.light[c] + stroke.first + row * tile_width;
-				for (int32_t column = 0; column < columns; column += wide, ground += wide, cover += wide, inside += wide) {
+		constexpr int32_t count = wide * high;
+		const T opacity = stroke.opacity;
+		const int32_t first = stroke.first;
+		const T *cover = stroke.cover, *inside = stroke.inside;
+		for (int32_t row = 0; row < rows; row += high) {
+			for (int32_t column = 0; column < columns; column += wide, cover += count, inside += count) {
+				T own[3][count], covered[count];
+				for (int c = 0; c < 3; c++) {
+					const T line = stroke.outline.channels[c], middle = stroke.fill.channels[c];
 #pragma omp simd
-					for (int32_t i = 0; i < wide; i++)
-						ground[i] = ground[i] + stroke.opacity * ((line * (cover[i] - inside[i]) + middle * inside[i]) - cover[i] * ground[i]);
+					for (int32_t i = 0; i < count; i++)
+						own[c][i] = line * (cover[i] - inside[i]) + middle * inside[i];
+				}
+				std::copy(cover, cover + count, covered);
+				for (int c = 0; c < 3; c++) {
+					for (int32_t k = 0; k < high; k++) {
+						T *ground = tile.light[c] + first + (row + k) * tile_width + column;
+#pragma omp simd
+						for (int32_t i = 0; i < wide; i++)
+							ground[i] = ground[i] + opacity * (own[c][k * wide + i] - covered[k * wide + i] * ground[i]);
+					}
 				}
 			}
 		}
