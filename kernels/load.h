@@ -383,10 +383,3 @@ void slot_restore(RECORD_OUT(slots), RECORD_IN(pushes), int s, bool with_velocit
 	if (with_velocities)
 		velocities_set(slots, s, velocities.x, velocities.y, velocities.z);
 }
-
-/* A slot's push or velocities are others: all around looks at it again, and it may get farther. True if that is where it was not looked for. */
-bool slot_changed(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
-{
-	slot_rouse(status, wakes, s);
-	return reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
-}

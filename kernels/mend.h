@@ -71,3 +71,10 @@ void mend_search(RECORD_IN(slots), LIST_IN(filters), RECORD_IN(reach), LIST_OUT(
 				mend_meet(slots, filters, status, spans, neighbours, extra, wakes, s, others[k]);
 	}
 }
+
+/* A slot's push or velocities are others: all around looks at it again, and it may get farther. True if that is where it was not looked for. */
+bool slot_changed(TEX_IN(uniforms), RECORD_OUT(slots), LIST_OUT(status), RECORD_OUT(reach), LIST_OUT(wakes), LIST_OUT(movers), int s, int room)
+{
+	slot_rouse(status, wakes, s);
+	return reach_keep(TEX(uniforms), slots, reach, status, wakes, movers, s, room);
+}

@@ -128,3 +128,6 @@ float4 search_circles(body a, body b)
 	float t = gap / (sqrt(under) - approach);
 	return t <= 1.0f ? hit_at(t) : hit_none();
 }
+
+/* Of each alternative of the slot toi: a texel of HitTimes for two bodies [2.1, Bisection1]. Hits later than `until`, at most 1, need not be found. */
+float4 pair_first(VERTICES_IN, body a, body b, float until, float4 rules);

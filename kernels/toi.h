@@ -1,9 +1,6 @@
 /* What all alternatives of the toi slot share: the walk over the pairs whose AABBs overlap, a tile a work-item. The tile's
  * first hit comes along, for the reduction. */
 
-/* The alternative's own: a texel of HitTimes for two bodies [2.1, Bisection1]. Hits later than `until`, at most 1, need not be found. */
-float4 pair_first(VERTICES_IN, body a, body b, float until, float4 rules);
-
 /* One byte of four. */
 uint byte_of(uint4 texel, int k)
 {
@@ -16,7 +13,6 @@ uint4 overlap_load(BYTES_IN(overlap), bool any_there, int column, int i)
 	return any_there ? BYTES_LOAD(overlap, column, i) : (uint4)(0u, 0u, 0u, 0u);
 }
 
-#ifndef CAROM_OUTLINES /* first_impact alone has it */
 __kernel void toi_first(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), BYTES_IN(overlap), BYTES_IN(before), TEX_OUT(hits), TEX_OUT(tile_hits),
 	int4 domain)
 {
@@ -50,4 +46,3 @@ __kernel void toi_first(STATE_IN, VERTICES_IN, TEX_IN(clock), BYTES_IN(tiles), B
 	}
 	TEX_STORE(tile_hits, column, row, first);
 }
-#endif

@@ -10,7 +10,7 @@
 static bool is_of_events(const char *slot)
 {
 	return !strcmp(slot, "slots") || !strcmp(slot, "neighbours") || !strcmp(slot, "contacts") || !strcmp(slot, "sleep") || !strcmp(slot, "events")
-		|| !strcmp(slot, "settle");
+		|| !strcmp(slot, "settle") || !strcmp(slot, "drift");
 }
 
 static void every_alternative_on_every_device(void **unused)

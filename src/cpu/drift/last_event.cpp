@@ -151,7 +151,7 @@ template <typename T> static void drift(const Job<T> &job)
 		status[STATUS_PASS] = 0;
 }
 
-extern const Stage forward_drift;
-const Stage forward_drift{"forward", "drift", {{STAGE_DRIFT, drift<float>, drift<double>}}, nullptr, nullptr};
+extern const Stage drift_last_event;
+const Stage drift_last_event{"drift", "last_event", {{STAGE_DRIFT, drift<float>, drift<double>}}, nullptr, nullptr};
 
 }
