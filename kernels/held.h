@@ -198,6 +198,14 @@ int4 joined_find(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(j
 	return slot_is_dynamic(slots, s) ? (int4)(rows + others, firm, rows, 0) : (int4)(0);
 }
 
+/* What forces at their points are found within. */
+float held_tolerance(held own, held other)
+{
+	float place = larger(larger(magnitude(own.x.x), magnitude(own.x.y)), larger(magnitude(other.x.x), magnitude(other.x.y)));
+	float levers = larger(magnitude(own.lever.x), magnitude(own.lever.y)) + larger(magnitude(other.lever.x), magnitude(other.lever.y));
+	return JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
+}
+
 /* One of them as the step begins: along n, with those arms, so near. */
 void point_hold(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, RECORD_OUT(contacts), RECORD_OUT(grips), int first, int point,
 	held own, held other, float2 n, float2 arms, float least, bool rub)
@@ -205,8 +213,6 @@ void point_hold(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, 
 	int partner = joint_partner(joints, side), code = PARTNER_WALL(0);
 	if (partner >= 0)
 		code = slot_is_static(slots, places[partner]) ? PARTNER_STATIC(partner) : places[partner];
-	float place = larger(larger(magnitude(own.x.x), magnitude(own.x.y)), larger(magnitude(other.x.x), magnitude(other.x.y)));
-	float levers = larger(magnitude(own.lever.x), magnitude(own.lever.y)) + larger(magnitude(other.lever.x), magnitude(other.lever.y));
 	__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 	point_drop(contacts, grips, first, point, rub);
 	to[4 * FOUR_PARTNER] = (float)code;
@@ -215,7 +221,7 @@ void point_hold(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), int side, 
 	to[4 * FOUR_ARM] = arms.x;
 	to[4 * FOUR_OTHER_ARM] = arms.y;
 	to[4 * FOUR_LEAST] = least;
-	to[4 * FOUR_TOLERANCE] = JOINT_PART * (((place + (own.radius + other.radius)) + levers) * SLOP);
+	to[4 * FOUR_TOLERANCE] = held_tolerance(own, other);
 }
 
 /* So many points of a slot's joints, as the step begins. What pushes one way may get as far as its bound by impulses; what holds aside does nothing yet. */
@@ -237,7 +243,8 @@ void joined_write(RECORD_IN(slots), LIST_IN(places), RECORD_IN(joints), LIST_IN(
 			h = hold_of(joints, side, own, other, true);
 		}
 		float2 arms = (float2)(part_arm(&h, part, own, true, true), part_arm(&h, part, other, false, true));
-		float least = part_pushes_one_way(part) ? larger(-part_target(joints, side, &h, part), 0.0f) / k : 0.0f;
+		float free = part_pushes_one_way(part) ? -part_target(joints, side, &h, part) : 0.0f, tolerance = held_tolerance(own, other);
+		float least = free > JOINT_REACHED * tolerance ? free / k : 0.0f;
 		point_hold(slots, places, joints, side, contacts, grips, first, point, own, other, part_way(&h, part), arms, least, rub);
 	}
 	for (int side = first_aside_of(slots, touching, joints, joined, s, length); side >= 0; side = next_aside(joints, joined, side, length), point++) {

@@ -175,15 +175,40 @@ int next_aside(RECORD_IN(joints), LIST_IN(joined), int side, float length)
 	return aside_from(joints, joined, joined[JOINED_NEXT(joined[JOINED_BODIES], side)], length);
 }
 
+/* Where it is kept what a joint's point does. */
+int part_kept(int part)
+{
+	return part == PART_MOTOR ? JOINT_TORQUE : part_turns(part) ? JOINT_STOP : part == PART_PIN_Y ? JOINT_FORCE + 1 : JOINT_FORCE;
+}
+
+float joint_kept(RECORD_IN(joints), int side, int part)
+{
+	return ((__global const float *)(joints + JOINT(side / 2, JOINT_FORCES)))[part_kept(part)];
+}
+
+/* A force that was kept, as a point with that arm begins with it. */
+float part_begins(int part, float kept, float arm)
+{
+	float force = kept;
+	if (part_turns(part))
+		force = magnitude(arm) > 0.0f ? kept / magnitude(arm) : 0.0f;
+	if (part == PART_LOWER)
+		return larger(force, 0.0f);
+	return part_pushes_one_way(part) ? larger(0.0f - force, 0.0f) : force;
+}
+
 /* What a force at a joint's point may be. */
 typedef struct bounds {
 	float low, high;
 } bounds;
 
-bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float length, bool impulses)
+/* Impulses at a bound that bodies have reached, so that `least` is 0, take back what its force made of a speed if it brought them there in the last step, as is kept then: they stop there. */
+bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float least, float length, bool impulses)
 {
 	int part = row_part(joints, row);
 	bounds of = {part_pushes_one_way(part) ? 0.0f : -INFINITY, INFINITY};
+	if (part_pushes_one_way(part) && impulses && !(least > 0.0f))
+		of.low = 0.0f - (part_begins(part, 0.0f - joint_kept(joints, row->side, part), arm) * length) * length;
 	if (part == PART_MOTOR)
 		of.high = impulses ? 0.0f : ((CHANNEL(joint_drive(joints, row->side), DRIVE_TORQUE) * length) * length) / magnitude(arm);
 	if (part == PART_SPRING && impulses)

@@ -129,14 +129,14 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 	warm_spans[WARM_SPAN(body, WARM_SPAN_COUNT)] = count;
 }
 
-/* A force at a point with that arm as it is kept: of two stops as a torque in which the other one's, which was kept `beside`, has the opposite sign. */
-float part_keeps(int part, float now, float arm, float beside)
+/* A force at a point with that arm as it is kept: of two stops as a torque in which the other one's, which was kept `beside`, has the opposite sign; `back`: what it has to take back. */
+float part_keeps(int part, float now, float arm, float beside, bool back)
 {
-	float force = magnitude(now) < JOINT_LEAST ? 0.0f : now;
+	float size = magnitude(now) < JOINT_LEAST ? 0.0f : now, force = back ? 0.0f - size : size;
 	if (part == PART_ROPE)
 		return 0.0f - force;
 	if (part == PART_UPPER)
-		return force > 0.0f ? 0.0f - force * magnitude(arm) : beside;
+		return size > 0.0f ? 0.0f - force * magnitude(arm) : beside;
 	return part_turns(part) ? force * magnitude(arm) : force;
 }
 
@@ -175,9 +175,34 @@ void joined_warm(RECORD_IN(slots), LIST_IN(places), RECORD_OUT(contacts), LIST_O
 	touching[TOUCH(s, TOUCHING_TURNS)] = as_int(holds > JOINT_STIFF ? 1.0f / (1.0f + 0.5f * holds) : 1.0f);
 }
 
+/* What is held at a side as it was when the step began. (Others may be writing to slots what they are now.) */
+held held_before(RECORD_IN(slots), RECORD_IN(pushes), int s, float2 anchor)
+{
+	if (slot_is_static(slots, s))
+		return held_body(slots, s, anchor);
+	float4 before = pushes[PUSHES_WIDTH * s + 2], mass = SLOT_LOAD(slots, s, SLOT_MASS);
+	held h = held_place(before.xy);
+	h.lever = h.last_lever = turn(rotation_of(before.z), anchor);
+	h.angle = before.z;
+	h.inverse_mass = CHANNEL(mass, MASS_INVERSE);
+	h.inverse_inertia = CHANNEL(mass, MASS_INVERSE_INERTIA);
+	return h;
+}
+
+/* Were its bodies beyond the bound of what pushes one way when the step began? */
+bool was_beyond(RECORD_IN(slots), RECORD_IN(pushes), LIST_IN(places), RECORD_IN(joints), int side, int part, int s, float tolerance)
+{
+	int partner = joint_partner(joints, side);
+	float2 anchor = joint_anchor(joints, side ^ 1);
+	held own = held_before(slots, pushes, s, joint_anchor(joints, side));
+	held other = partner < 0 ? held_place(anchor) : held_before(slots, pushes, places[partner], anchor);
+	hold h = hold_of(joints, side, own, other, true);
+	return part_target(joints, side, &h, part) > JOINT_REACHED * tolerance;
+}
+
 /* Keeps the forces for the next step, each at one of its two bodies. If this one did not begin with them its island is not to fall asleep. */
-void joined_keep(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(pushes), RECORD_OUT(joints),
-	LIST_IN(joined), int s, float2 ground, float length)
+void joined_keep(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), LIST_OUT(touching), LIST_IN(islands), RECORD_IN(pushes), LIST_IN(places),
+	RECORD_OUT(joints), LIST_IN(joined), int s, float2 ground, float length)
 {
 	int point = 0, first = first_four(touching, s);
 	bool bears = first_contact(touching, s) > 0 && island_bears(status, touching, islands, s) && was_moving_at(pushes, s, ground), same = true;
@@ -187,7 +212,9 @@ void joined_keep(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), LIST_OU
 		int partner = (int)at[4 * FOUR_PARTNER], part = row_part(joints, &row);
 		if ((row.side & 1 && partner_gives_way(slots, partner)) || (bears && partner_was_at_rest(pushes, partner, ground)))
 			continue;
-		beside = part_keeps(part, (at[4 * FOUR_FORCE] / length) / length, at[4 * FOUR_ARM], beside);
+		bool back = part_pushes_one_way(part) && at[4 * FOUR_FORCE] > 0.0f
+			&& was_beyond(slots, pushes, places, joints, row.side, part, s, at[4 * FOUR_TOLERANCE]);
+		beside = part_keeps(part, (at[4 * FOUR_FORCE] / length) / length, at[4 * FOUR_ARM], beside, back);
 		if (part == PART_LOWER)
 			continue; /* it is kept with the upper one */
 		__global float *to = joint_forces(joints, row.side) + part_kept(part);

@@ -9,29 +9,12 @@ float force_begun(RECORD_IN(slots), int s, int partner, float force, float lengt
 	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
 }
 
-/* Where it is kept what a joint's point does. */
-int part_kept(int part)
-{
-	return part == PART_MOTOR ? JOINT_TORQUE : part_turns(part) ? JOINT_STOP : part == PART_PIN_Y ? JOINT_FORCE + 1 : JOINT_FORCE;
-}
-
-/* A force that was kept, as a point with that arm begins with it. */
-float part_begins(int part, float kept, float arm)
-{
-	float force = kept;
-	if (part_turns(part))
-		force = magnitude(arm) > 0.0f ? kept / magnitude(arm) : 0.0f;
-	if (part == PART_LOWER)
-		return larger(force, 0.0f);
-	return part_pushes_one_way(part) ? larger(0.0f - force, 0.0f) : force;
-}
-
-/* The force that the last step left at a row's point. */
+/* The force that the last step left at a row's point; none at a bound that is not reached. */
 float row_last(RECORD_IN(slots), RECORD_IN(joints), const joint_row *row, int s, __global const float *at, float length)
 {
 	int part = row_part(joints, row);
-	float kept = ((__global const float *)(joints + JOINT(row->side / 2, JOINT_FORCES)))[part_kept(part)];
-	return force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_begins(part, kept, at[4 * FOUR_ARM]), length);
+	float last = part_begins(part, joint_kept(joints, row->side, part), at[4 * FOUR_ARM]);
+	return force_begun(slots, s, (int)at[4 * FOUR_PARTNER], at[4 * FOUR_LEAST] > 0.0f ? 0.0f : last, length);
 }
 
 /* How fast those hold a body's angle, by what they pull at its levers, as a spring would. */

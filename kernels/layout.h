@@ -658,8 +658,10 @@
  * right, and iterations that come to no end would add to them from step to step. So does all of an island whose impulses came to no end, and there, too, forces take the speed along the ways at the step's end: what
  * they don't find then is lost, and never given. But where joints are tense they bear what they do by the last forces alone, and go on with those. What last forces pull at a body's levers holds its angle, like a spring: where that makes it turn by more than JOINT_STIFF
  * times as far as it is from there, in a step, forces turn it less, as if they knew where it will be. A tension holds likewise where its ends are across it: of what has a length that is a point
- * more, which holds aside as if it knew how far forces take them. */
+ * more, which holds aside as if it knew how far forces take them. What pushes one way has reached its bound within JOINT_REACHED times what it is found within; if it was beyond it as a step began, and is brought
+ * there, impulses of the next step take back what that made of a speed. */
 #define JOINT_PART 0.25f
+#define JOINT_REACHED 4.0f
 #define JOINT_ASTRAY 16.0f
 #define JOINT_IMPULSES 128 /* iterations, in place of GRIP_IMPULSES, of bodies that rub and are joined: what those leave is no hit */
 #define JOINT_MOST 1.0f

@@ -270,13 +270,13 @@ float4 weakest_of(int point, int firm, int rows, int held)
 }
 
 /* Four points, of which these, from `begin` to `end`, are of rows and not firm, from this row on: their bounds. */
-void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin, int end, float4 arm, float length, bool impulses, float4 *low,
-	float4 *high)
+void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin, int end, float4 arm, float4 least, float length, bool impulses,
+	float4 *low, float4 *high)
 {
 	float lows[4] = {low->x, low->y, low->z, low->w}, highs[4] = {INFINITY, INFINITY, INFINITY, INFINITY};
-	float arms[4] = {arm.x, arm.y, arm.z, arm.w};
+	float arms[4] = {arm.x, arm.y, arm.z, arm.w}, leasts[4] = {least.x, least.y, least.z, least.w};
 	for (int i = begin; i < end; i++, row_next(joints, joined, row)) {
-		bounds of = bounds_of(joints, row, arms[i], length, impulses);
+		bounds of = bounds_of(joints, row, arms[i], leasts[i], length, impulses);
 		lows[i] = of.low;
 		highs[i] = of.high;
 	}
@@ -307,7 +307,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
 		int begin = max(firm - point, 0), end = min(rows - point, 4);
 		if (begin < end)
-			loose_bounds(joints, joined, &row, begin, end, normals.arm, length, impulses, &low, &high);
+			loose_bounds(joints, joined, &row, begin, end, normals.arm, at[FOUR_LEAST], length, impulses, &low, &high);
 		if (max(firm, point) < held)
 			rate += at[FOUR_GIVE] * at[FOUR_START];
 		float4 pushed = at[FOUR_START] - rate * at[FOUR_STEP], force = low > pushed ? low : pushed, left = force > low ? fabs(rate) : -rate;

@@ -161,7 +161,7 @@ void slot_release(RECORD_OUT(slots), LIST_IN(status), RECORD_OUT(contacts), RECO
 		return;
 	float2 ground = ground_velocity(slots, touching, islands, places, s);
 	slot_settle(slots, contacts, grips, touching, islands, pushes, s, rub, ground, length);
-	joined_keep(slots, status, contacts, touching, islands, pushes, joints, joined, s, ground, length);
+	joined_keep(slots, status, contacts, touching, islands, pushes, places, joints, joined, s, ground, length);
 	forces_keep(slots, status, contacts, grips, touching, islands, pushes, warm, warm_spans, s, rub, ground, length);
 	if (!borne || !slot_stayed(slots, pushes, s))
 		island_disturb(touching, islands, s);

@@ -62,8 +62,8 @@ bool joint_is_loose(RECORD_IN(slots), int s, int partner, float2 n, float arm, f
 }
 
 /* A party more: it is moved to the time, and its points of joints come behind so many others. They are to have the rates that they had, or none if the tug `stops`. */
-void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks),
-	LIST_IN(touching), RECORD_IN(contacts), int id, int point, bool stops, const struck *hit, shock *all)
+bool tug_open(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
+	RECORD_IN(contacts), int id, int one, int point, bool stops, const struck *hit, shock *all, int *first_joined)
 {
 	int s = active[id], first = touching[TOUCH(s, TOUCHING_FIRST)];
 	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
@@ -78,6 +78,9 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 		int partner = (int)at[4 * FOUR_PARTNER], party = partner >= 0 ? party_of(members, owners, partner, all) : -1;
 		if (joints_meet(shocks, party, s, id))
 			continue;
+		if (party < 0 && partner >= 0 && slot_is_dynamic(slots, partner)
+			&& join(slots, LISTS, work, owners, parents, partner, one, all->leader, all->head, all->round, first_joined) < 0)
+			return false;
 		float2 n = (float2)(at[4 * FOUR_NORMAL_X], at[4 * FOUR_NORMAL_Y]);
 		float arm = at[4 * FOUR_ARM], other_arm = at[4 * FOUR_OTHER_ARM], coming = 0.0f;
 		float part = way_speed(tug_way(slots, status, members, work, owners, shocks, s, true, hit, all), n, arm);
@@ -96,6 +99,7 @@ void tug_open(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(acti
 	if (point < TUG_POINTS)
 		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
 	party_add(members, id, all);
+	return true;
 }
 
 /* Where the two hit each other; how much the hit has changed their rate. */
@@ -190,9 +194,9 @@ int tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LI
 						if (all->count == SHOCK_PARTIES || !tug_goes_on(slots, work, shocks, id, point, least))
 							continue;
 						party = join(slots, LISTS, work, owners, parents, partner, one, all->leader, all->head, all->round, first);
-						if (party < 0)
+						if (party < 0
+							|| !tug_open(slots, LISTS, work, owners, parents, shocks, touching, contacts, party, one, 0, stops, hit, all, first))
 							return TUG_LOST;
-						tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, party, 0, stops, hit, all);
 					}
 					/* also where that one has no room for this point */
 					shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)partner, (float)party, 0.0f, 0.0f);
@@ -253,9 +257,9 @@ bool tug_is_much(RECORD_OUT(shocks), int one, float gained, float changed)
 bool tug_spread(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
 	RECORD_IN(contacts), int one, int other, const struck *hit, shock *all, int *first)
 {
-	tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, one, 1, false, hit, all);
-	if (other >= 0)
-		tug_open(slots, status, members, active, work, owners, shocks, touching, contacts, other, 0, false, hit, all);
+	if (!tug_open(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, one, 1, false, hit, all, first)
+		|| (other >= 0 && !tug_open(slots, LISTS, work, owners, parents, shocks, touching, contacts, other, one, 0, false, hit, all, first)))
+		return false;
 	float changed = tug_strike(slots, status, members, active, work, owners, shocks, one, other, hit, all), least = TUG_WITHIN * changed;
 	int how = tug_sweep(slots, LISTS, work, owners, parents, shocks, touching, contacts, one, least, false, hit, all, first);
 	if (how != TUG_LOST && tug_is_much(shocks, one, tug_gain(slots, members, shocks, one, all), changed)) {

@@ -177,6 +177,12 @@ template <typename T> struct Held {
 		  inverse_inertia(slot.mass[MASS_INVERSE_INERTIA])
 	{
 	}
+	/* The same where it was before; of the slot only what does not change counts. */
+	Held(const Slot<T> &slot, const T *anchor, const Kept<T> &before)
+		: x(before.place[0], before.place[1]), lever(turn(rotation_of(before.place[2]), Vec<T>(anchor[0], anchor[1]))), last_lever(lever),
+		  angle(before.place[2]), inverse_mass(slot.mass[MASS_INVERSE]), inverse_inertia(slot.mass[MASS_INVERSE_INERTIA])
+	{
+	}
 	/* What moves so far, and turns. */
 	Held(const Slot<T> &slot, const T *anchor, const Vec<T> &moved, T by) : Held(slot, anchor)
 	{
@@ -298,15 +304,30 @@ template <typename T> struct Hold {
 	}
 };
 
+/* Where a joint keeps the force of a point. */
+inline int kept_at(Part part)
+{
+	return part == Part::motor ? JOINT_TORQUE : is_angular(part) ? JOINT_STOP : JOINT_FORCE + (part == Part::pin_y);
+}
+
+/* What a point begins with, by what was kept. */
+template <typename T> T begun_with(Part part, T kept, T arm)
+{
+	const T force = is_angular(part) ? (std::abs(arm) > 0 ? kept / std::abs(arm) : T(0)) : kept;
+	return is_one_sided(part) ? larger(part == Part::lower ? force : 0 - force, T(0)) : force;
+}
+
 /* What the force at a point of a joint may be. */
 template <typename T> struct ForceBounds {
 	T low, high = infinite<T>;
 
-	/* Of a point with that arm. */
-	ForceBounds(const Joint<T> &joint, Part part, T arm, T length, bool impulses) : low(is_one_sided(part) ? T(0) : -infinite<T>)
+	/* Of a point with that arm. Impulses at a bound that has been reached take back what its force made of a speed if it brought its bodies there in the last step, as is kept then: they stop there. */
+	ForceBounds(const Joint<T> &joint, Part part, T arm, T free, T length, bool impulses) : low(is_one_sided(part) ? T(0) : -infinite<T>)
 	{
 		if (impulses && (part == Part::motor || part == Part::spring))
 			low = high = 0;
+		else if (impulses && is_one_sided(part) && !(free > 0))
+			low = 0 - (begun_with(part, 0 - joint.forces[kept_at(part)], arm) * length) * length;
 		else if (part == Part::motor)
 			high = ((joint.drive[DRIVE_TORQUE] * length) * length) / std::abs(arm), low = -high;
 	}

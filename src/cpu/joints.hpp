@@ -58,6 +58,12 @@ template <typename T> struct HeldNow {
 	}
 };
 
+/* How far what pushes one way alone lets its bodies get before it acts; none of what has reached its bound, to what that is found within. */
+template <typename T> T free_way(T way, T tolerance)
+{
+	return way > JOINT_REACHED * tolerance ? way : T(0);
+}
+
 /* Writes the points, which come first of a body's. Impulses let what is still apart get as far as its bound in the step, and no farther; what holds aside does nothing yet. */
 template <typename T>
 void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *places, T length, T part_of_step, int32_t s, Points<T> *to,
@@ -82,7 +88,7 @@ void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *
 			now = HeldNow<T>(joints, rows.which_side(), slots, places, s);
 		const Part part = rows.part();
 		write(now.hold.way(part), now.hold.arm_of(part, now.own, true, true), now.hold.arm_of(part, now.other, false, true),
-			is_one_sided(part) ? larger(-now.hold.aim(part, rows.joint()), T(0)) / part_of_step : T(0));
+			is_one_sided(part) ? free_way(-now.hold.aim(part, rows.joint()), now.tolerance()) / part_of_step : T(0));
 	}
 	joints.each_aside(slots[s].body(), length, [&](int32_t side) {
 		now = HeldNow<T>(joints, side, slots, places, s);
@@ -90,31 +96,18 @@ void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *
 	});
 }
 
-/* What a joint keeps of a force at one of its points, whose arm that is; or, by what was kept, of the other bound of two, `beside`. */
-template <typename T> T kept_of(Part part, T now, T arm, T beside)
+/* What a joint keeps of a force at one of its points, whose arm that is; or, by what was kept, of the other bound of two, `beside`. `is_back`: what it has to take back. */
+template <typename T> T kept_of(Part part, T now, T arm, T beside, bool is_back)
 {
-	const T force = std::abs(now) < T(JOINT_LEAST) ? T(0) : now;
+	const T size = std::abs(now) < T(JOINT_LEAST) ? T(0) : now, force = is_back ? 0 - size : size;
 	switch (part) {
 	case Part::rope: return 0 - force;
 	case Part::motor:
 	case Part::lower:
 	case Part::fixed: return force * std::abs(arm);
-	case Part::upper: return force > 0 ? 0 - force * std::abs(arm) : beside;
+	case Part::upper: return size > 0 ? 0 - force * std::abs(arm) : beside;
 	default: return force;
 	}
-}
-
-/* And what it then begins with. */
-template <typename T> T begun_with(Part part, T kept, T arm)
-{
-	const T force = is_angular(part) ? (std::abs(arm) > 0 ? kept / std::abs(arm) : T(0)) : kept;
-	return is_one_sided(part) ? larger(part == Part::lower ? force : 0 - force, T(0)) : force;
-}
-
-/* Where it is kept. */
-template <typename T> T &kept_at(Joint<T> &joint, Part part)
-{
-	return joint.forces[part == Part::motor ? JOINT_TORQUE : is_angular(part) ? JOINT_STOP : JOINT_FORCE + (part == Part::pin_y)];
 }
 
 /* Calls `visit(rows, points, i, last)` for each point of a body's joints, `last` being the force that the step before left there. Returns how fast those hold its angle, by what they pull at
@@ -129,7 +122,8 @@ template <typename T, typename Visit> T visit_last(const Rests<T> &rests, const 
 		const int32_t i = point % lane_count;
 		if (rows.begins())
 			lever = Held<T>(rests.slots[s], joints.anchor(rows.which_side())).lever;
-		const T kept = begun_with(rows.part(), kept_at(rows.joint(), rows.part()), points.arm[i]);
+		const bool is_free = points.least[i] > 0 && is_one_sided(rows.part()); /* its bound is not reached */
+		const T kept = is_free ? T(0) : begun_with(rows.part(), rows.joint().forces[kept_at(rows.part())], points.arm[i]);
 		const T last = begun(rests, rests.slots[s], Partner(points.partner[i]), kept, rests.length);
 		visit(rows, points, i, last);
 		if (!is_angular(rows.part()))
@@ -332,6 +326,19 @@ template <typename T>
 	});
 }
 
+/* Were a joint's bodies beyond the bound of what pushes one way when the step began? */
+template <typename T>
+bool was_beyond(const Rests<T> &rests, const Joints<T> &joints, const Kept<T> *kept, int32_t side, Part part, int32_t s, T tolerance)
+{
+	const auto before = [&](int32_t slot, const T *anchor) {
+		return rests.slots[slot].is_static() ? Held<T>(rests.slots[slot], anchor) : Held<T>(rests.slots[slot], anchor, kept[slot]);
+	};
+	const int32_t partner = joints.partner(side);
+	const Held<T> own = before(s, joints.anchor(side));
+	const Held<T> other = partner < 0 ? Held<T>(joints.other_anchor(side)) : before(rests.places[partner], joints.other_anchor(side));
+	return Hold<T>(joints.of(side), Joints<T>::is_other(side), own, other, true).aim(part, joints.of(side)) > JOINT_REACHED * tolerance;
+}
+
 /* Keeps the forces for the next step, each at one of its two bodies. True if this one began with the same. */
 template <typename T> bool keep_joined(const Rests<T> &rests, const Joints<T> &joints, const Kept<T> *kept, int32_t s, const Vec<T> &ground, T length)
 {
@@ -347,11 +354,13 @@ template <typename T> bool keep_joined(const Rests<T> &rests, const Joints<T> &j
 		const Partner partner(points.partner[i]);
 		if ((rows.is_other() && rests.gives_way(partner)) || (bears && was_still(kept, partner, ground)))
 			continue;
-		const T now = kept_of(rows.part(), (points.force[i] / length) / length, points.arm[i], beside);
+		const bool is_brought = is_one_sided(rows.part()) && points.force[i] > 0
+			&& was_beyond(rests, joints, kept, rows.which_side(), rows.part(), s, points.tolerance[i]);
+		const T now = kept_of(rows.part(), (points.force[i] / length) / length, points.arm[i], beside, is_brought);
 		beside = now;
 		if (rows.part() == Part::lower)
 			continue; /* it is kept with the upper one */
-		T &at = kept_at(rows.joint(), rows.part());
+		T &at = rows.joint().forces[kept_at(rows.part())];
 		are_same = are_same && now == at;
 		at = now;
 	}

@@ -47,7 +47,7 @@ public:
 	[[gnu::noinline]] void iterate(const Points<T> &points, int32_t i, const Lanes<T> &rates, Lanes<T> &force, Lanes<T> &wanted)
 	{
 		for (; i < lane_count && bounded > 0; i++, bounded--, rows.next()) {
-			const ForceBounds<T> bounds(rows.joint(), rows.part(), points.arm[i], rests.length, rests.impulses);
+			const ForceBounds<T> bounds(rows.joint(), rows.part(), points.arm[i], points.least[i], rests.length, rests.impulses);
 			answer(points, i, rates, bounds.low, bounds.high, force, wanted);
 		}
 		for (; i < lane_count && aside > 0; i++, aside--)

@@ -41,9 +41,11 @@ public:
 		time = u;
 		first_slot = clusters.active[one], second_slot = partner;
 		before[0] = &one_before, before[1] = &other_before;
-		open(one, 1, own);
-		if (other >= 0)
-			open(other, 0, own);
+		open(one, 1, own, join);
+		if (other >= 0 && !is_lost)
+			open(other, 0, own, join);
+		if (is_lost)
+			return false;
 		strike(struck, partner, own);
 		pass_on(own, join);
 		if (!is_lost && gain() > T(TUG_GAIN) * (contact.impulse * changed)) {
@@ -130,7 +132,7 @@ private:
 			if (is_lost)
 				return true;
 			k = count;
-			open(id, 0, own);
+			open(id, 0, own, join);
 		}
 		p.other = k; /* also where that one has no room for this point */
 		return true;
@@ -144,8 +146,8 @@ private:
 		return fixed;
 	}
 
-	/* Moves a body to the time, and looks what it is joined with; so many of its points are others. */
-	void open(int32_t id, int32_t others, const Membership<T> &own)
+	/* Moves a body to the time, and looks what it is joined with; so many of its points are others. Who is joined with it becomes a member, for how that moves counts, however far it is. */
+	template <typename Join> void open(int32_t id, int32_t others, const Membership<T> &own, const Join &join)
 	{
 		const int32_t s = clusters.active[id], k = count;
 		const Slot<T> &slot = clusters.slots[s];
@@ -163,6 +165,9 @@ private:
 			const int32_t party = moves && own.own_number(partner.slot()) >= 0 ? party_of(own.own_number(partner.slot())) : fixed;
 			if (party >= 0 && meets(parties[party], s, k))
 				continue;
+			is_lost = party < 0 && moves && clusters.slots[partner.slot()].is_dynamic() && join(partner.slot()) < 0;
+			if (is_lost)
+				return;
 			Point &p = points[taken++];
 			parties[k].points++;
 			p = {{Vec<T>(four.normal_x[i], four.normal_y[i]), four.arm[i], four.other_arm[i], 0, 0, 0, 0, 0, 0, 0, 0}, moves ? partner.slot() : -1,
