@@ -403,7 +403,7 @@ typedef struct carom_joint {
 	bool collides;      /**< the two bodies hit each other, too; default false: they pass through each other */
 	float force
 		[2]; /**< N: what the last step ended with: of CAROM_REVOLUTE what acts on `body`, along x and y; of CAROM_SLIDER to the left of its line, and 0; of the others what pushes
-	                     the two apart, below 0 where it pulls, and 0; of a rope that had to be drawn in, above 0, what the next step stops that with. The next step's begin with it */
+	                     the two apart, below 0 where it pulls, and 0, of a rope that had to be drawn in what the next step stops that with. The next step's begin with it */
 	float torque[2]; /**< N m, on `body`, of the same: the motor's, and that of the stops; likewise */
 } carom_joint;
 

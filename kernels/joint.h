@@ -197,6 +197,14 @@ float part_begins(int part, float kept, float arm)
 	return part_pushes_one_way(part) ? larger(0.0f - force, 0.0f) : force;
 }
 
+/* What one that pushes one way has to take back. */
+float part_back(RECORD_IN(joints), int side, int part, float arm)
+{
+	if (part == PART_ROPE)
+		return larger(CHANNEL(joints[JOINT(side / 2, JOINT_FORCES)], JOINT_BACK), 0.0f);
+	return part_begins(part, 0.0f - joint_kept(joints, side, part), arm);
+}
+
 /* What a force at a joint's point may be. */
 typedef struct bounds {
 	float low, high;
@@ -208,7 +216,7 @@ bounds bounds_of(RECORD_IN(joints), const joint_row *row, float arm, float least
 	int part = row_part(joints, row);
 	bounds of = {part_pushes_one_way(part) ? 0.0f : -INFINITY, INFINITY};
 	if (part_pushes_one_way(part) && impulses && !(least > 0.0f))
-		of.low = 0.0f - (part_begins(part, 0.0f - joint_kept(joints, row->side, part), arm) * length) * length;
+		of.low = 0.0f - (part_back(joints, row->side, part, arm) * length) * length;
 	if (part == PART_MOTOR)
 		of.high = impulses ? 0.0f : ((CHANNEL(joint_drive(joints, row->side), DRIVE_TORQUE) * length) * length) / magnitude(arm);
 	if (part == PART_SPRING && impulses)

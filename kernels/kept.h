@@ -129,12 +129,12 @@ void forces_keep(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), RECORD
 	warm_spans[WARM_SPAN(body, WARM_SPAN_COUNT)] = count;
 }
 
-/* A force at a point with that arm as it is kept: of two stops as a torque in which the other one's, which was kept `beside`, has the opposite sign; `back`: what it has to take back. */
+/* A force at a point with that arm as it is kept: of two stops as a torque in which the other one's, which was kept `beside`, has the opposite sign; `back`: of a stop, as what it has to take back. */
 float part_keeps(int part, float now, float arm, float beside, bool back)
 {
 	float size = magnitude(now) < JOINT_LEAST ? 0.0f : now, force = back ? 0.0f - size : size;
 	if (part == PART_ROPE)
-		return 0.0f - force;
+		return 0.0f - size;
 	if (part == PART_UPPER)
 		return size > 0.0f ? 0.0f - force * magnitude(arm) : beside;
 	return part_turns(part) ? force * magnitude(arm) : force;
@@ -212,14 +212,21 @@ void joined_keep(RECORD_IN(slots), LIST_IN(status), RECORD_IN(contacts), LIST_OU
 		int partner = (int)at[4 * FOUR_PARTNER], part = row_part(joints, &row);
 		if ((row.side & 1 && partner_gives_way(slots, partner)) || (bears && partner_was_at_rest(pushes, partner, ground)))
 			continue;
-		bool back = part_pushes_one_way(part) && at[4 * FOUR_FORCE] > 0.0f
+		float force = (at[4 * FOUR_FORCE] / length) / length, last = part_begins(part, joint_kept(joints, row.side, part), at[4 * FOUR_ARM]);
+		bool back = part_pushes_one_way(part)
+			&& (force > JOINT_BROUGHT * last || (force > 0.0f && part_back(joints, row.side, part, at[4 * FOUR_ARM]) > 0.0f))
 			&& was_beyond(slots, pushes, places, joints, row.side, part, s, at[4 * FOUR_TOLERANCE]);
-		beside = part_keeps(part, (at[4 * FOUR_FORCE] / length) / length, at[4 * FOUR_ARM], beside, back);
+		beside = part_keeps(part, force, at[4 * FOUR_ARM], beside, back);
 		if (part == PART_LOWER)
 			continue; /* it is kept with the upper one */
 		__global float *to = joint_forces(joints, row.side) + part_kept(part);
 		same = same && beside == *to;
 		*to = beside;
+		if (part == PART_ROPE) {
+			float taken = back ? 0.0f - beside : 0.0f;
+			same = same && taken == to[JOINT_BACK - JOINT_FORCE];
+			to[JOINT_BACK - JOINT_FORCE] = taken;
+		}
 	}
 	if (!same)
 		island_disturb(touching, islands, s);

@@ -9,12 +9,12 @@ float force_begun(RECORD_IN(slots), int s, int partner, float force, float lengt
 	return fabs(start) * inverse_mass <= WARM_MOST ? start : 0.0f;
 }
 
-/* The force that the last step left at a row's point; none at a bound that is not reached. */
+/* The force that the last step left at a row's point; none at a stop that is not reached, whose is the other one's. */
 float row_last(RECORD_IN(slots), RECORD_IN(joints), const joint_row *row, int s, __global const float *at, float length)
 {
 	int part = row_part(joints, row);
 	float last = part_begins(part, joint_kept(joints, row->side, part), at[4 * FOUR_ARM]);
-	return force_begun(slots, s, (int)at[4 * FOUR_PARTNER], at[4 * FOUR_LEAST] > 0.0f ? 0.0f : last, length);
+	return force_begun(slots, s, (int)at[4 * FOUR_PARTNER], part_turns(part) && at[4 * FOUR_LEAST] > 0.0f ? 0.0f : last, length);
 }
 
 /* How fast those hold a body's angle, by what they pull at its levers, as a spring would. */

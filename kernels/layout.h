@@ -407,6 +407,7 @@
 #define JOINT_ANCHORS 1    /* record: m, from the centre of mass, in the body's own frame, x and y of each; or of the world */
 #define JOINT_FORCES 2     /* record, part of the state: what acted on the body in the last step, */
 #define JOINT_FORCE 0      /* N: away from the other's anchor, or of a pin along x, and then along y, or of a slider to the left of its line; */
+#define JOINT_BACK 1       /* N: of a rope, what the next step takes back of it; */
 #define JOINT_TORQUE 2     /* N m, of a motor; */
 #define JOINT_STOP 3       /* and of stops */
 #define JOINT_DRIVE 3      /* record: of a pin or a slider */
@@ -659,9 +660,10 @@
  * they don't find then is lost, and never given. But where joints are tense they bear what they do by the last forces alone, and go on with those. What last forces pull at a body's levers holds its angle, like a spring: where that makes it turn by more than JOINT_STIFF
  * times as far as it is from there, in a step, forces turn it less, as if they knew where it will be. A tension holds likewise where its ends are across it: of what has a length that is a point
  * more, which holds aside as if it knew how far forces take them. What pushes one way has reached its bound within JOINT_REACHED times what it is found within; if it was beyond it as a step began, and is brought
- * there, impulses of the next step take back what that made of a speed. */
+ * there by a force of more than JOINT_BROUGHT times the one before, impulses of the next step take back what that made of a speed. */
 #define JOINT_PART 0.25f
 #define JOINT_REACHED 4.0f
+#define JOINT_BROUGHT 2.0f
 #define JOINT_ASTRAY 16.0f
 #define JOINT_IMPULSES 128 /* iterations, in place of GRIP_IMPULSES, of bodies that rub and are joined: what those leave is no hit */
 #define JOINT_MOST 1.0f

@@ -272,7 +272,8 @@ static carom_status complete(carom_world *world, carom_joint *joint, carom_error
 	}
 	carom_anchor_place(other, joint->other_anchor, &other_x, &other_y);
 	joint->length = isnan(joint->length) ? (float)sqrt((x - other_x) * (x - other_x) + (y - other_y) * (y - other_y)) : joint->length;
-	joint->force[1] = joint->torque[0] = joint->torque[1] = 0.0f;
+	joint->force[1] = joint->kind == CAROM_ROPE ? joint->force[1] : 0.0f;
+	joint->torque[0] = joint->torque[1] = 0.0f;
 	return CAROM_OK;
 }
 

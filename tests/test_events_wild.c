@@ -157,8 +157,8 @@ static void bodies_joined_from_afar_have_one_outcome(void **unused)
 {
 	(void)unused;
 	static wild_world wild;
-	wild_make_wider(589, &wild);
-	check_one_outcome(&wild, (uint32_t)runs_affordable(32));
+	wild_make_wider(531, &wild);
+	check_one_outcome(&wild, (uint32_t)runs_affordable(60));
 }
 
 /* Do bodies come to rest in it, and sleep? */

@@ -22,7 +22,7 @@ static const struct {
 } golden[] = {
 	{"scenes/billiard_break.json", 0x67a2d3b09229d3f4, 0xbe6530f293e25062},
 	{"scenes/bridge.json", 0xde9bddfc3ed99fda, 0xb6bceed6d69b4250},
-	{"scenes/car.json", 0xd1c8a94208bfd579, 0x090a50e2296fb4cb},
+	{"scenes/car.json", 0xd1c8a94208bfd579, 0x5865d301380ca3d8},
 	{"scenes/circles_1024.json", 0xb407392652c0fb4a, 0xaa3285fdc8f4d50f},
 	{"scenes/circles_256.json", 0x8ef7c68f081e9804, 0xc5189580a0275343},
 	{"scenes/heap.json", 0x515bfcb74767cfd7, 0xbda8d6369b41be42},

@@ -317,6 +317,12 @@ template <typename T> T begun_with(Part part, T kept, T arm)
 	return is_one_sided(part) ? larger(part == Part::lower ? force : 0 - force, T(0)) : force;
 }
 
+/* What one that pushes one way has to take back. */
+template <typename T> T taken_back(const Joint<T> &joint, Part part, T arm)
+{
+	return part == Part::rope ? larger(joint.forces[JOINT_BACK], T(0)) : begun_with(part, 0 - joint.forces[kept_at(part)], arm);
+}
+
 /* What the force at a point of a joint may be. */
 template <typename T> struct ForceBounds {
 	T low, high = infinite<T>;
@@ -327,7 +333,7 @@ template <typename T> struct ForceBounds {
 		if (impulses && (part == Part::motor || part == Part::spring))
 			low = high = 0;
 		else if (impulses && is_one_sided(part) && !(free > 0))
-			low = 0 - (begun_with(part, 0 - joint.forces[kept_at(part)], arm) * length) * length;
+			low = 0 - (taken_back(joint, part, arm) * length) * length;
 		else if (part == Part::motor)
 			high = ((joint.drive[DRIVE_TORQUE] * length) * length) / std::abs(arm), low = -high;
 	}

@@ -96,12 +96,12 @@ void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *
 	});
 }
 
-/* What a joint keeps of a force at one of its points, whose arm that is; or, by what was kept, of the other bound of two, `beside`. `is_back`: what it has to take back. */
+/* What a joint keeps of a force at one of its points, whose arm that is; or, by what was kept, of the other bound of two, `beside`. `is_back`: of a stop, as what it has to take back. */
 template <typename T> T kept_of(Part part, T now, T arm, T beside, bool is_back)
 {
 	const T size = std::abs(now) < T(JOINT_LEAST) ? T(0) : now, force = is_back ? 0 - size : size;
 	switch (part) {
-	case Part::rope: return 0 - force;
+	case Part::rope: return 0 - size;
 	case Part::motor:
 	case Part::lower:
 	case Part::fixed: return force * std::abs(arm);
@@ -122,7 +122,7 @@ template <typename T, typename Visit> T visit_last(const Rests<T> &rests, const 
 		const int32_t i = point % lane_count;
 		if (rows.begins())
 			lever = Held<T>(rests.slots[s], joints.anchor(rows.which_side())).lever;
-		const bool is_free = points.least[i] > 0 && is_one_sided(rows.part()); /* its bound is not reached */
+		const bool is_free = points.least[i] > 0 && is_angular(rows.part()); /* a stop that is not reached: it is the other one's */
 		const T kept = is_free ? T(0) : begun_with(rows.part(), rows.joint().forces[kept_at(rows.part())], points.arm[i]);
 		const T last = begun(rests, rests.slots[s], Partner(points.partner[i]), kept, rests.length);
 		visit(rows, points, i, last);
@@ -354,15 +354,22 @@ template <typename T> bool keep_joined(const Rests<T> &rests, const Joints<T> &j
 		const Partner partner(points.partner[i]);
 		if ((rows.is_other() && rests.gives_way(partner)) || (bears && was_still(kept, partner, ground)))
 			continue;
-		const bool is_brought = is_one_sided(rows.part()) && points.force[i] > 0
+		const T force = (points.force[i] / length) / length, last = begun_with(rows.part(), rows.joint().forces[kept_at(rows.part())], points.arm[i]);
+		const bool is_brought = is_one_sided(rows.part())
+			&& (force > T(JOINT_BROUGHT) * last || (force > 0 && taken_back(rows.joint(), rows.part(), points.arm[i]) > 0))
 			&& was_beyond(rests, joints, kept, rows.which_side(), rows.part(), s, points.tolerance[i]);
-		const T now = kept_of(rows.part(), (points.force[i] / length) / length, points.arm[i], beside, is_brought);
+		const T now = kept_of(rows.part(), force, points.arm[i], beside, is_brought);
 		beside = now;
 		if (rows.part() == Part::lower)
 			continue; /* it is kept with the upper one */
-		T &at = rows.joint().forces[kept_at(rows.part())];
-		are_same = are_same && now == at;
-		at = now;
+		T *const at = rows.joint().forces + kept_at(rows.part());
+		are_same = are_same && now == *at;
+		*at = now;
+		if (rows.part() == Part::rope) {
+			const T back = is_brought ? 0 - now : T(0);
+			are_same = are_same && back == at[JOINT_BACK - JOINT_FORCE];
+			at[JOINT_BACK - JOINT_FORCE] = back;
+		}
 	}
 	return are_same;
 }
