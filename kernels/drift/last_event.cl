@@ -29,9 +29,8 @@ void damp(TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), int s, trajector
 	k->velocity = damped(k->velocity, CHANNEL(own, FRICTION_ANGULAR_DAMPING), length);
 }
 
-__kernel void drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(members),
-	RECORD_IN(work), LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(spans), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(hits), TEX_IN(friction),
-	int4 domain)
+__kernel void drift(TEX_IN(uniforms), TEX_IN(clock), RECORD_OUT(slots), RECORD_OUT(reach), LIST_OUT(status), LIST_OUT(members), RECORD_IN(work),
+	LIST_OUT(owners), LIST_OUT(parents), LIST_OUT(spans), LIST_OUT(wakes), LIST_OUT(movers), RECORD_OUT(hits), TEX_IN(friction), int4 domain)
 {
 	int s = get_global_id(0);
 	if (s >= domain.x || !(status[STATUS_COMMIT] || status[STATUS_LEFT]))
