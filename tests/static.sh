@@ -17,9 +17,12 @@ tool() {
 
 # ---- The kernels. The programs are put together from the tables of the library, as it does itself, but those of all steps are one here.
 
-# headers NUMBER: the headers of the first program (of steps) or the second (of pictures)
+# headers DRAWS: those of the program of pictures, or of steps
 headers() {
-	sed -n '/^static const char \*const headers/,/^};/p' src/cl/sources.c | tr -d '\n\t' | tr '{' '\n' | grep '^"' | sed -n "$1p" | tr -cs 'a-z_' ' '
+	case $1 in
+	true) sed -nE '/^static const char \*const headers_of_pictures/s/.*\{(.*)\};/\1/p' src/cl/sources.c | tr -cs 'a-z_' ' ' ;;
+	false) sed -nE 's/^\t\{"([a-z_]+)", USED_[A-Z_]+\},$/\1/p' src/cl/sources.c ;;
+	esac
 }
 
 # The slots in their order, each with its default alternative and whether it is one of pictures.
@@ -32,7 +35,7 @@ slots() {
 program() {
 	slot=$(basename "$(dirname "$1")")
 	draws=$(slots | awk -v slot="$slot" '$1 == slot { print $3 }')
-	printf 'kernels/%s.h\n' $(case $draws in true) headers 2 ;; false) headers 1 ;; esac)
+	printf 'kernels/%s.h\n' $(headers "$draws")
 	slots | while read -r name standard pictures; do
 		case "$pictures $name $standard" in
 		"$draws $slot NULL" | "$draws "*" NULL") ls kernels/"$name"/*.cl ;;
