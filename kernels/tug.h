@@ -177,6 +177,7 @@ void tug_begin_anew(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), RECOR
 #define TUG_ENDS 1    /* sweeps came to an end, */
 #define TUG_GOES_ON 2 /* or did not */
 
+/* In sweeps over all points, until they do no more. */
 int tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents), RECORD_OUT(shocks), LIST_IN(touching),
 	RECORD_IN(contacts), int one, float least, bool stops, const struck *hit, shock *all, int *first)
 {
@@ -193,9 +194,8 @@ int tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LI
 					if (party < 0) {
 						if (all->count == SHOCK_PARTIES || !tug_goes_on(slots, work, shocks, id, point, least))
 							continue;
-						party = join(slots, LISTS, work, owners, parents, partner, one, all->leader, all->head, all->round, first);
-						if (party < 0
-							|| !tug_open(slots, LISTS, work, owners, parents, shocks, touching, contacts, party, one, 0, stops, hit, all, first))
+						party = number_of_own(members, owners, partner, all->leader); /* it is one of the cluster since this party is open */
+						if (!tug_open(slots, LISTS, work, owners, parents, shocks, touching, contacts, party, one, 0, stops, hit, all, first))
 							return TUG_LOST;
 					}
 					/* also where that one has no room for this point */

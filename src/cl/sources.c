@@ -50,6 +50,7 @@ static const struct {
 	{"joint", USED_EVENTS},
 	{"load", USED_CONTACTS},
 	{"held", USED_CONTACTS},
+	{"aim", USED_CONTACTS},
 	{"last", USED_CONTACTS},
 	{"island", USED_CONTACTS},
 	{"kept", USED_CONTACTS},

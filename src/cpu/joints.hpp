@@ -71,6 +71,7 @@ void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *
 {
 	int32_t written = 0;
 	HeldNow<T> now;
+	T tolerance = 0;
 	const auto write = [&](const Vec<T> &n, T arm, T other_arm, T least) {
 		Points<T> &points = to[written / lane_count];
 		const int32_t i = written % lane_count;
@@ -78,20 +79,23 @@ void write_joined(const Joints<T> &joints, const Slot<T> *slots, const int32_t *
 		points.partner[i] = static_cast<T>(now.partner.code);
 		points.normal_x[i] = n.x(), points.normal_y[i] = n.y();
 		points.arm[i] = arm, points.other_arm[i] = other_arm;
-		points.least[i] = least, points.tolerance[i] = now.tolerance();
+		points.least[i] = least, points.tolerance[i] = tolerance;
 		if (grips)
 			grips[written / lane_count].drop(i);
 		written++;
 	};
 	for (JointRows<T> rows(joints, slots[s].body()); rows.has(); rows.next()) {
-		if (rows.begins())
+		if (rows.begins()) {
 			now = HeldNow<T>(joints, rows.which_side(), slots, places, s);
+			tolerance = now.tolerance();
+		}
 		const Part part = rows.part();
 		write(now.hold.way(part), now.hold.arm_of(part, now.own, true, true), now.hold.arm_of(part, now.other, false, true),
-			is_one_sided(part) ? free_way(-now.hold.aim(part, rows.joint()), now.tolerance()) / part_of_step : T(0));
+			is_one_sided(part) ? free_way(-now.hold.aim(part, rows.joint()), tolerance) / part_of_step : T(0));
 	}
 	joints.each_aside(slots[s].body(), length, [&](int32_t side) {
 		now = HeldNow<T>(joints, side, slots, places, s);
+		tolerance = now.tolerance();
 		write({0, 0}, 0, 0, 0);
 	});
 }

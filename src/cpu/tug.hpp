@@ -122,15 +122,11 @@ private:
 	/* The partner of a point, which is none yet, becomes a party if the hit would move it; false if not, or where there are too many. */
 	template <typename Join> bool reach(Point &p, const Party &party, const Membership<T> &own, const Join &join)
 	{
-		const int32_t known = own.own_number(p.slot);
-		int32_t k = known >= 0 ? party_of(known) : fixed;
+		const int32_t id = own.own_number(p.slot); /* a member of the cluster since the party with the point is open */
+		int32_t k = party_of(id);
 		if (k < 0) {
 			if (!(std::abs(p.part - p.parting(party, nullptr)) >= least) || count == SHOCK_PARTIES)
 				return false;
-			const int32_t id = join(p.slot);
-			is_lost = id < 0;
-			if (is_lost)
-				return true;
 			k = count;
 			open(id, 0, own, join);
 		}

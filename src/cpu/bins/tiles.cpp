@@ -17,10 +17,7 @@ public:
 
 	Tiling(const Records<T> &of_shapes, const Texels<T> &frame)
 		: columns(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_COLUMNS))), rows(static_cast<int32_t>(frame.fact(FRAME_TILES, TILES_ROWS))),
-		  boxes(of_shapes), least{side(frame, BOX_X0), side(frame, BOX_Y0), side(frame, BOX_X0), side(frame, BOX_Y0)}, most{side(frame, BOX_X1),
-																														   side(frame, BOX_Y1),
-																														   side(frame, BOX_X1),
-																														   side(frame, BOX_Y1)}
+		  boxes(of_shapes), least(corner(frame, BOX_X0, BOX_Y0)), most(corner(frame, BOX_X1, BOX_Y1))
 	{
 	}
 
@@ -38,7 +35,12 @@ public:
 	}
 
 private:
-	static T side(const Texels<T> &frame, int32_t which) { return frame.fact(FRAME_BOX, which); }
+	/* Of the frame, as both corners of a box. */
+	static Lanes<T> corner(const Texels<T> &frame, int32_t x, int32_t y)
+	{
+		const T at_x = frame.fact(FRAME_BOX, x), at_y = frame.fact(FRAME_BOX, y);
+		return Lanes<T>{at_x, at_y, at_x, at_y};
+	}
 
 	const Records<T> boxes;
 	const Lanes<T> least, most;

@@ -80,7 +80,7 @@ public:
 	{
 		const Lanes<T> zero{}, one = zero + 1;
 		Lanes<T> x[fours], y[fours], radius[fours], breadth[fours], r[fours], x0[fours], y0[fours];
-		for (int32_t k = 0; k < fours; k++) {
+		for (int32_t k = 0; k < fours; k++) { /* where they are, and how large */
 			const auto placed = [&](int32_t channel) {
 				const auto of = [&](int32_t i) { return scene.placed.of(bodies.vertex[lane_count * k + i], channel); };
 				return Lanes<T>{of(0), of(1), of(2), of(3)};
@@ -90,25 +90,25 @@ public:
 			radius[k] = roots(rim_x * rim_x + rim_y * rim_y);
 			keep(x[k], y[k], rim_x, rim_y, place + lane_count * k);
 		}
-		for (int32_t k = 0; k < fours; k++) {
+		for (int32_t k = 0; k < fours; k++) { /* how broad they would be as lines, and how far they are seen */
 			breadth[k] = ((DISC_AREA * radius[k]) * radius[k]) / larger(Lanes<T>(2 * radius[k]), one);
 			r[k] = radius[k] + growth(breadth[k]);
 		}
-		for (int32_t k = 0; k < fours; k++) {
+		for (int32_t k = 0; k < fours; k++) { /* the pixels that they are in */
 			const Pixels<Lanes<T>> columns(x[k] - r[k], x[k] + r[k], zero, zero + scene.clip.x0, zero + scene.clip.x1);
 			const Pixels<Lanes<T>> rows(y[k] - r[k], y[k] + r[k], zero, zero + scene.clip.y0, zero + scene.clip.y1);
 			const auto any = (columns.begin < columns.end) & (rows.begin < rows.end);
 			x0[k] = any ? columns.begin : zero, y0[k] = any ? rows.begin : zero;
 			keep(x0[k], y0[k], any ? columns.end : zero, any ? rows.end : zero, box + lane_count * k);
 		}
-		for (int32_t k = 0; k < fours; k++) {
+		for (int32_t k = 0; k < fours; k++) { /* how far the first of these is from their edge */
 			const Lanes<T> fx = x0[k] + T(0.5), fy = y0[k] + T(0.5), dx = fx - x[k], dy = fy - y[k];
 			const auto is_beside = magnitude(dx) > magnitude(dy);
 			const Lanes<T> center = is_beside ? x[k] : y[k], first = is_beside ? fx : fy, other = is_beside ? dy : dx;
 			const Lanes<T> square = ((center - r[k]) - first) * ((center + r[k]) - first) + other * other;
 			keep(dx / r[k], dy / r[k], square / (2 * r[k]), 1 / (2 * r[k]), edge + lane_count * k);
 		}
-		for (int32_t k = 0; k < fours; k++) {
+		for (int32_t k = 0; k < fours; k++) { /* their ink */
 			Lanes<T> middle, outline;
 			std::memcpy(&middle, bodies.fill + lane_count * k, sizeof middle);
 			std::memcpy(&outline, bodies.outline + lane_count * k, sizeof outline);
