@@ -737,8 +737,9 @@
 
 /* Boxes: a record a shape, in painter's order: the pixels that it may touch; none: it is not seen, and Shapes has nothing of it */
 
-/* Shapes: four records a shape, which are a line of a cache */
+/* Shapes: four records a shape, which are a line of a cache; so many bodies a work-item are found together on a CPU */
 #define SHAPES_WIDTH 4
+#define SHAPES_TOGETHER 4
 #define SHAPE_BOX 0 /* record: as in Boxes */
 #define SHAPE_INK 1 /* record */
 #define INK_FILL 0  /* 0xRRGGBB as a number */

@@ -4,14 +4,17 @@
 #define SHAPES_OUT RECORD_OUT(boxes), RECORD_OUT(shapes), RECORD_OUT(edges)
 #define SHAPES boxes, shapes, edges
 
-float clamped(float v, float low, float high) /* NaN becomes low */
+/* What has a number of its own for each shape is found of four at once, as of each alone; who has one shape takes the first. */
+
+INLINE float4 clamped(float4 v, float4 low, float4 high) /* NaN becomes low */
 {
-	return smaller(larger(low, v), high);
+	float4 up = v > low ? v : low;
+	return up > high ? high : up;
 }
 
-float floor_pixel(float v)
+INLINE float4 floor_pixel(float4 v)
 {
-	float c = clamped(v, -(float)FARTHEST, (float)FARTHEST), whole = (float)(int)c;
+	float4 c = clamped(v, (float4)(-(float)FARTHEST), (float4)((float)FARTHEST)), whole = convert_float4(convert_int4(c));
 	return whole > c ? whole - 1.0f : whole;
 }
 
@@ -23,10 +26,9 @@ bool in_sight(float2 v)
 /* The pixels whose centres may be within half a pixel of what lies between two corners; an empty box for none. */
 float4 touched_box(float2 low, float2 high, float margin, float4 clip)
 {
-	float x0 = larger(floor_pixel(low.x - margin), CHANNEL(clip, BOX_X0));
-	float y0 = larger(floor_pixel(low.y - margin), CHANNEL(clip, BOX_Y0));
-	float x1 = smaller(-floor_pixel(-(high.x + margin)), CHANNEL(clip, BOX_X1));
-	float y1 = smaller(-floor_pixel(-(high.y + margin)), CHANNEL(clip, BOX_Y1));
+	float4 out = floor_pixel((float4)(low.x - margin, low.y - margin, -(high.x + margin), -(high.y + margin)));
+	float x0 = larger(out.x, CHANNEL(clip, BOX_X0)), y0 = larger(out.y, CHANNEL(clip, BOX_Y0));
+	float x1 = smaller(-out.z, CHANNEL(clip, BOX_X1)), y1 = smaller(-out.w, CHANNEL(clip, BOX_Y1));
 	bool any = in_sight(low) && in_sight(high) && x0 < x1 && y0 < y1;
 	return any ? (float4)(x0, y0, x1, y1) : (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 }
@@ -43,27 +45,47 @@ float2 first_pixel(float4 box)
 
 /* A shape's mean breadth tells what of it can be seen. What is thinner than a pixel is drawn a pixel wide and paler
  * instead, so that it can't fall between the centres of pixels. */
-float growth(float breadth)
+INLINE float4 growths(float4 breadth)
 {
-	return clamped(0.5f * (1.0f - breadth), 0.0f, 0.5f);
+	return clamped(0.5f * (1.0f - breadth), (float4)(0.0f), (float4)(0.5f));
 }
 
-float least_opacity(float length)
+float growth(float breadth)
 {
-	return clamped(LEAST_OPACITY * length, LEAST_OPACITY, LINE_OPACITY);
+	return growths((float4)(breadth)).x;
+}
+
+INLINE float4 least_opacities(float4 length)
+{
+	return clamped(LEAST_OPACITY * length, (float4)(LEAST_OPACITY), (float4)(LINE_OPACITY));
+}
+
+/* What is long and thin is a line: two outlines and nothing between them. */
+INLINE float4 fills_of(float4 fill, float4 outline, float4 breadth, float4 length)
+{
+	return ((breadth < 1.0f) & (least_opacities(length) >= LINE_OPACITY)) ? outline : fill;
+}
+
+INLINE float4 widths_of(float width, float4 breadth)
+{
+	return clamped(0.125f * breadth, (float4)(0.0f), (float4)(width));
+}
+
+INLINE float4 opacities_of(float opacity, float4 breadth, float4 length)
+{
+	float4 most = (float4)(1.0f);
+	return clamped((float4)(opacity), (float4)(0.0f), most) * clamped(breadth, least_opacities(length), most);
 }
 
 float fill_of(float fill, float outline, float breadth, float length)
 {
-	bool is_line = breadth < 1.0f && least_opacity(length) >= LINE_OPACITY; /* two outlines and nothing between them */
-	return is_line ? outline : fill;
+	return fills_of((float4)(fill), (float4)(outline), (float4)(breadth), (float4)(length)).x;
 }
 
 float4 ink_of(float fill, float outline, float width, float opacity, float breadth, float length)
 {
-	float least = least_opacity(length);
-	return (float4)(fill_of(fill, outline, breadth, length), outline, clamped(0.125f * breadth, 0.0f, width),
-		clamped(opacity, 0.0f, 1.0f) * clamped(breadth, least, 1.0f));
+	return (float4)(fill_of(fill, outline, breadth, length), outline, widths_of(width, (float4)(breadth)).x,
+		opacities_of(opacity, (float4)(breadth), (float4)(length)).x);
 }
 
 /* False: it is not seen. `rest`: where its other edges are. */

@@ -172,7 +172,7 @@ typedef struct carom_slot {
 extern const carom_slot carom_slots[];
 extern const size_t carom_slot_count;
 
-/* Does domain[0] count groups of work-items? How large they are is the device's choice. Of all other stages it counts work-items. */
+/* Does domain[0] count groups of work-items? How large they are is the device's choice. Of all other stages it counts items, of which a work-item does one, or a few. */
 bool carom_stage_runs_groups(carom_stage stage);
 /* Is the stage one of rendering? Those of a device are made ready when the first is run. */
 bool carom_stage_draws(carom_stage stage);

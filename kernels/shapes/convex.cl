@@ -15,29 +15,19 @@ void put_mark(TEX_IN(marks), TEX_IN(view), SHAPES_OUT, int i, int shape, int res
 	put_line(SHAPES, shape, rest, from, (float2)(way.x / reach, way.y / reach), reach, breadth, color, 1.0f, picture);
 }
 
-void put_circle(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int shape, int rest, float4 ink, bool has_line)
+/* A circle as it was found, and, where circles have one, the line from its centre to its rim. */
+void put_circle(SHAPES_OUT, int shape, int rest, float4 box, float4 ink, float4 edge, float4 at, float line, bool has_line, float4 clip)
 {
-	float4 p = ROW_LOAD(placed, vertex), clip = TEX_LOAD(view, VIEW_CLIP, 0);
-	float line = CHANNEL(TEX_LOAD(view, VIEW_SCALE, 0), SCALE_LINE), outline = CHANNEL(ink, INK_OUTLINE);
-	float2 to_rim = offset_of(p), c = center_of(p);
-	float radius = norm(to_rim), breadth = ((DISC_AREA * radius) * radius) / larger(2.0f * radius, 1.0f);
-	float r = radius + growth(breadth);
-	float4 box = touched_box((float2)(c.x - r, c.y - r), (float2)(c.x + r, c.y + r), 0.0f, clip);
-	bool seen = put_shape(SHAPES, shape, box, ink_of(CHANNEL(ink, INK_FILL), outline, line, 1.0f, breadth, 2.0f * radius), rest, 1);
-	if (has_line && !(seen && radius >= SHOW_ANGLE)) {
+	float2 to_rim = offset_of(at);
+	float radius = norm(to_rim);
+	bool seen = put_shape(SHAPES, shape, box, ink, rest, 1);
+	if (seen)
+		put_edge(SHAPES, shape, rest, 0, edge);
+	if (has_line && seen && radius >= SHOW_ANGLE)
+		put_line(SHAPES, shape + 1, rest, center_of(at), (float2)(to_rim.x / radius, to_rim.y / radius), radius - 0.5f * line, line,
+			CHANNEL(ink, INK_OUTLINE), (radius - SHOW_ANGLE) * (1.0f / SHOW_ANGLE), clip);
+	else if (has_line)
 		boxes[shape + 1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-	} else if (has_line) {
-		float2 along = (float2)(to_rim.x / radius, to_rim.y / radius);
-		float opacity = (radius - SHOW_ANGLE) * (1.0f / SHOW_ANGLE);
-		put_line(SHAPES, shape + 1, rest, c, along, radius - 0.5f * line, line, outline, opacity, clip);
-	}
-	if (!seen)
-		return;
-	/* the difference of two large squares as a product: a rim is sharp however large the disc */
-	float2 f = first_pixel(box), at = (float2)(f.x - c.x, f.y - c.y);
-	float square = magnitude(at.x) > magnitude(at.y) ? ((c.x - r) - f.x) * ((c.x + r) - f.x) + at.y * at.y
-													 : ((c.y - r) - f.y) * ((c.y + r) - f.y) + at.x * at.x;
-	put_edge(SHAPES, shape, rest, 0, (float4)(at.x / r, at.y / r, square / (2.0f * r), 1.0f / (2.0f * r)));
 }
 
 void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count, int shape, int rest, float4 ink)
@@ -61,25 +51,44 @@ void put_polygon(TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int vertex, int count
 	}
 }
 
+#ifdef CAROM_GPU
+#define TOGETHER 1
+#else
+#define TOGETHER SHAPES_TOGETHER
+#endif
+
 __kernel void shapes(TEX_IN(draws), TEX_IN(marks), TEX_IN(placed), TEX_IN(view), SHAPES_OUT, int4 domain)
 {
-	int i = get_global_id(0), mark_count = domain.z, k = i - mark_count;
-	if (i >= domain.x)
-		return;
-	float4 start = TEX_LOAD(view, VIEW_FIRST, 0);
-	int shape = (int)CHANNEL(start, FIRST_SHAPE), rest = (int)CHANNEL(start, FIRST_EDGE);
-	if (k < 0) {
-		put_mark(TEX(marks), TEX(view), SHAPES, i, shape + i, rest + LINE_REST * i);
-		return;
+	int i = TOGETHER * (int)get_global_id(0), mark_count = domain.z, first = i - mark_count, end = domain.x - mark_count;
+	float4 start = TEX_LOAD(view, VIEW_FIRST, 0), clip = TEX_LOAD(view, VIEW_CLIP, 0);
+	float line = CHANNEL(TEX_LOAD(view, VIEW_SCALE, 0), SCALE_LINE);
+	int shape = (int)CHANNEL(start, FIRST_SHAPE), rest = (int)CHANNEL(start, FIRST_EDGE), count[SHAPES_TOGETHER];
+	float4 parts[SHAPES_TOGETHER], at[SHAPES_TOGETHER], ink[SHAPES_TOGETHER], box[SHAPES_TOGETHER], seen[SHAPES_TOGETHER], edge[SHAPES_TOGETHER];
+	bool any = false;
+	for (int k = i; k < min(i + TOGETHER, mark_count); k++)
+		put_mark(TEX(marks), TEX(view), SHAPES, k, shape + k, rest + LINE_REST * k);
+	for (int k = 0; k < SHAPES_TOGETHER; k++) {
+		parts[k] = at[k] = ink[k] = (float4)(0.0f);
+		if (k < TOGETHER && first + k >= 0 && first + k < end) {
+			parts[k] = ROW_LOAD(draws, DRAWS_WIDTH * (first + k) + DRAW_PARTS);
+			ink[k] = ROW_LOAD(draws, DRAWS_WIDTH * (first + k) + DRAW_INK);
+			at[k] = ROW_LOAD(placed, (int)CHANNEL(parts[k], PARTS_VERTEX));
+		}
+		count[k] = (int)CHANNEL(parts[k], PARTS_COUNT); /* 0: there is no body */
+		any = any || count[k] == 1;
 	}
-	float4 parts = ROW_LOAD(draws, DRAWS_WIDTH * k + DRAW_PARTS), ink = ROW_LOAD(draws, DRAWS_WIDTH * k + DRAW_INK);
-	int vertex = (int)CHANNEL(parts, PARTS_VERTEX), count = (int)CHANNEL(parts, PARTS_COUNT);
-	shape += mark_count + (int)CHANNEL(parts, PARTS_SHAPE);
-	rest += LINE_REST * mark_count + (int)CHANNEL(parts, PARTS_EDGE);
-	if (count == 1)
-		put_circle(TEX(placed), TEX(view), SHAPES, vertex, shape, rest, ink, CHANNEL(start, FIRST_LINES) > 0.0f);
-	else if (count < 0)
-		put_outline(TEX(placed), TEX(view), SHAPES, vertex, -count, shape, rest, ink);
-	else
-		put_polygon(TEX(placed), TEX(view), SHAPES, vertex, count, shape, rest, ink);
+	if (any)
+		find_circles(at, ink, line, clip, box, seen, edge);
+	shape += mark_count;
+	rest += LINE_REST * mark_count;
+	for (int k = 0; k < TOGETHER; k++) {
+		int vertex = (int)CHANNEL(parts[k], PARTS_VERTEX), own = shape + (int)CHANNEL(parts[k], PARTS_SHAPE),
+			more = rest + (int)CHANNEL(parts[k], PARTS_EDGE);
+		if (count[k] == 1)
+			put_circle(SHAPES, own, more, box[k], seen[k], edge[k], at[k], line, CHANNEL(start, FIRST_LINES) > 0.0f, clip);
+		else if (count[k] < 0)
+			put_outline(TEX(placed), TEX(view), SHAPES, vertex, -count[k], own, more, ink[k]);
+		else if (count[k] > 0)
+			put_polygon(TEX(placed), TEX(view), SHAPES, vertex, count[k], own, more, ink[k]);
+	}
 }

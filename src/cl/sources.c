@@ -57,7 +57,7 @@ static const struct {
 	{"still", USED_CONTACTS},
 };
 
-static const char *const headers_of_pictures[] = {"layout", "texture", "numbers", "vertices", "shapes", "outline", "tiles", "light"};
+static const char *const headers_of_pictures[] = {"layout", "texture", "numbers", "vertices", "shapes", "circles", "outline", "tiles", "light"};
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
