@@ -179,7 +179,7 @@ private:
 
 	/* Measuring takes long, but waits for nothing that is drawn: some shapes are measured, and then drawn together, so that processors do much
 	 * of it at once. */
-	static constexpr int32_t batch = 8;
+	static constexpr int32_t batch = 16;
 	Stroke<T> strokes[batch];
 	alignas(64) T covers[tile_area], insides[tile_area]; /* side by side, for most are small */
 	int32_t waiting = 0, taken = 0;
