@@ -68,12 +68,6 @@ static size_t items_together(const cl_device *d, carom_stage stage)
 	return stage == STAGE_SHAPES && d->is_cpu ? SHAPES_TOGETHER : 1;
 }
 
-/* So many have room for all. */
-static size_t wholes(size_t count, size_t whole)
-{
-	return (count + whole - 1) / whole;
-}
-
 /* One local size a stage, whatever the domain: PoCL compiles a kernel anew for each. Some devices take only small groups; where a GPU's lanes count on each
  * other that is not enough. */
 static cl_int local_size(const cl_device *d, carom_stage stage, cl_kernel kernel, size_t *local)
@@ -214,7 +208,8 @@ static carom_status run_stage(carom_device *device, carom_stage stage, carom_tex
 	if (!d->kernels[stage].kernel)
 		return carom_fail(error, CAROM_DEVICE, "%s: the program has no kernel %s", d->base.info.name, carom_stages[stage].kernel);
 	local[0] = d->kernels[stage].local;
-	global[0] = (carom_stage_runs_groups(stage) ? (size_t)domain[0] : wholes((size_t)domain[0], items_together(d, stage) * local[0])) * local[0];
+	const size_t each = items_together(d, stage) * local[0], groups = ((size_t)domain[0] + each - 1) / each;
+	global[0] = (carom_stage_runs_groups(stage) ? (size_t)domain[0] : groups) * local[0];
 	event = next_event(d, stage);
 	code = bind_textures(d, stage, textures, &next);
 	if (!code)
