@@ -9,11 +9,6 @@ INLINE void put_columns(float4 *to, float4 a, float4 b, float4 c, float4 d)
 	to[3] = (float4)(a.w, b.w, c.w, d.w);
 }
 
-INLINE int4 are_in_sight(float4 v)
-{
-	return (v < SEEN) & (v > -SEEN);
-}
-
 /* The pixels along an axis that four may touch, within limits: from *begin up to *end, or none. */
 INLINE int4 touched(float4 low, float4 high, float least, float most, float4 *begin, float4 *end)
 {

@@ -18,9 +18,9 @@ INLINE float4 floor_pixel(float4 v)
 	return whole > c ? whole - 1.0f : whole;
 }
 
-bool in_sight(float2 v)
+INLINE int4 are_in_sight(float4 v)
 {
-	return magnitude(v.x) < SEEN && magnitude(v.y) < SEEN;
+	return (v < SEEN) & (v > -SEEN);
 }
 
 /* The pixels whose centres may be within half a pixel of what lies between two corners; an empty box for none. */
@@ -29,7 +29,7 @@ float4 touched_box(float2 low, float2 high, float margin, float4 clip)
 	float4 out = floor_pixel((float4)(low.x - margin, low.y - margin, -(high.x + margin), -(high.y + margin)));
 	float x0 = larger(out.x, CHANNEL(clip, BOX_X0)), y0 = larger(out.y, CHANNEL(clip, BOX_Y0));
 	float x1 = smaller(-out.z, CHANNEL(clip, BOX_X1)), y1 = smaller(-out.w, CHANNEL(clip, BOX_Y1));
-	bool any = in_sight(low) && in_sight(high) && x0 < x1 && y0 < y1;
+	bool any = !is_any(~are_in_sight((float4)(low.x, low.y, high.x, high.y))) && x0 < x1 && y0 < y1;
 	return any ? (float4)(x0, y0, x1, y1) : (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 }
 

@@ -18,15 +18,17 @@ void put_mark(TEX_IN(marks), TEX_IN(view), SHAPES_OUT, int i, int shape, int res
 /* A circle as it was found, and, where circles have one, the line from its centre to its rim. */
 void put_circle(SHAPES_OUT, int shape, int rest, float4 box, float4 ink, float4 edge, float4 at, float line, bool has_line, float4 clip)
 {
-	float2 to_rim = offset_of(at);
-	float radius = norm(to_rim);
 	bool seen = put_shape(SHAPES, shape, box, ink, rest, 1);
 	if (seen)
 		put_edge(SHAPES, shape, rest, 0, edge);
-	if (has_line && seen && radius >= SHOW_ANGLE)
+	if (!has_line)
+		return;
+	float2 to_rim = offset_of(at);
+	float radius = norm(to_rim);
+	if (seen && radius >= SHOW_ANGLE)
 		put_line(SHAPES, shape + 1, rest, center_of(at), (float2)(to_rim.x / radius, to_rim.y / radius), radius - 0.5f * line, line,
 			CHANNEL(ink, INK_OUTLINE), (radius - SHOW_ANGLE) * (1.0f / SHOW_ANGLE), clip);
-	else if (has_line)
+	else
 		boxes[shape + 1] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
 }
 
