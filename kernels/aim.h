@@ -23,14 +23,14 @@ typedef struct aimed {
 	bool stiff, tired; /* tired: so is the island */
 } aimed;
 
-void aim_look(aimed *aim, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int partner, int now, float length,
-	float k, bool by_velocity)
+void aim_look(aimed *aim, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int partner, float length, float k,
+	bool by_velocity)
 {
 	aim->stiff = by_velocity;
-	aim->own = held_moving(slots, loads, s, joint_anchor(joints, side), now, length, k, by_velocity);
+	aim->own = held_moving(slots, loads, s, joint_anchor(joints, side), length, k, by_velocity);
 	aim->other = held_other(slots, places, joints, side);
 	if (partner >= 0)
-		aim->other = held_moving(slots, loads, partner, joint_anchor(joints, side ^ 1), now, length, k, by_velocity);
+		aim->other = held_moving(slots, loads, partner, joint_anchor(joints, side ^ 1), length, k, by_velocity);
 	aim->h = hold_of(joints, side, aim->own, aim->other, by_velocity);
 }
 
@@ -99,12 +99,11 @@ void point_aim(__global float *to, float2 n, float arm, float other_arm)
 }
 
 /* What holds aside, where all would get as they move now: against what forces make of that across it, as its tension will turn with it. */
-void aside_aim(__global float *to, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, int now, float length,
-	float k)
+void aside_aim(__global float *to, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), int side, int s, float length, float k)
 {
 	int partner = (int)to[4 * FOUR_PARTNER];
 	aimed aim;
-	aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, k, true);
+	aim_look(&aim, slots, loads, places, joints, side, s, partner, length, k, true);
 	float2 n = aside(aim.h.n[0]);
 	float arm = held_arm(aim.own, n, true), other_arm = held_arm(aim.other, n, true);
 	point_aim(to, n, arm, other_arm);
@@ -114,7 +113,7 @@ void aside_aim(__global float *to, RECORD_IN(slots), RECORD_IN(loads), LIST_IN(p
 
 /* What forces are to do, once it is known where all would get with those that there are. */
 void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECORD_IN(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined),
-	int s, int now, bool tired, float length, float k)
+	int s, bool tired, float length, float k)
 {
 	int point = 0, rows = touching[TOUCH(s, TOUCHING_ROWS)], first = first_four(touching, s);
 	aimed aim;
@@ -124,9 +123,9 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 		__global float *to = POINT_OUT(contacts, FOUR_WIDTH, first, point);
 		int partner = (int)to[4 * FOUR_PARTNER];
 		if (row.point == 0) {
-			aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, k, false);
+			aim_look(&aim, slots, loads, places, joints, side, s, partner, length, k, false);
 			if (!part_turns(part) && joint_is_stiff(joints, side, &aim, row_forces(contacts, first, point, part), length, k))
-				aim_look(&aim, slots, loads, places, joints, side, s, partner, now, length, k, true);
+				aim_look(&aim, slots, loads, places, joints, side, s, partner, length, k, true);
 		}
 		float2 n = part_way(&aim.h, part);
 		float arm = part_arm(&aim.h, part, aim.own, true, aim.stiff), other_arm = part_arm(&aim.h, part, aim.other, false, aim.stiff);
@@ -142,5 +141,5 @@ void joined_aim(RECORD_IN(slots), RECORD_OUT(contacts), LIST_IN(touching), RECOR
 			to[4 * FOUR_LEAST] = part_least(joints, side, &aim, part, parts, k);
 	}
 	for (int side = first_aside_of(slots, touching, joints, joined, s, length); side >= 0; side = next_aside(joints, joined, side, length), rows++)
-		aside_aim(POINT_OUT(contacts, FOUR_WIDTH, first, rows), slots, loads, places, joints, side, s, now, length, k);
+		aside_aim(POINT_OUT(contacts, FOUR_WIDTH, first, rows), slots, loads, places, joints, side, s, length, k);
 }

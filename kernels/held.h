@@ -34,9 +34,9 @@ float held_way(float velocity, float length, float k, float load, bool by_veloci
 	return (velocity * length) * before + load * after;
 }
 
-held held_moving(RECORD_IN(slots), RECORD_IN(loads), int s, float2 anchor, int now, float length, float k, bool by_velocity)
+held held_moving(RECORD_IN(slots), RECORD_IN(loads), int s, float2 anchor, float length, float k, bool by_velocity)
 {
-	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), turns = SLOT_LOAD(slots, s, SLOT_TURN), load = loads[LOADS_OF(s) + now];
+	float4 at = SLOT_LOAD(slots, s, SLOT_PLACE), turns = SLOT_LOAD(slots, s, SLOT_TURN), load = loads[s];
 	held h = held_body(slots, s, anchor);
 	h.way = (float2)(held_way(CHANNEL(at, LINEAR_VX), length, k, load.x, by_velocity),
 		held_way(CHANNEL(at, LINEAR_VY), length, k, load.y, by_velocity));

@@ -42,13 +42,16 @@ bool island_iterate(RECORD_IN(slots), LIST_IN(status), RECORD_OUT(contacts), REC
 	int root = done == 0 ? island_root(touching, islands, s) : islands[s], wants = TOUCH(root, TOUCHING_WANTED);
 	if (PEEK(touching, wants) < number)
 		return false;
+	int capacity = status[STATUS_CAPACITY];
+	__global float4 *now = loads + LOADS_OF(capacity, number & 1), *next = loads + LOADS_OF(capacity, 1 - (number & 1)),
+					*alone = loads + LOADS_OF(capacity, LOADS_ALONE);
 	bool aims = joined[JOINED_COUNT] > 0 && !impulses;
 	if (aims && is_aimed(done) && held) {
-		joined_aim(slots, contacts, touching, loads, places, joints, joined, s, number & 1, island_is_tired(touching, root), length, part);
+		joined_aim(slots, contacts, touching, now, places, joints, joined, s, island_is_tired(touching, root), length, part);
 		/* with which the next one has its steps */
-		CHANNEL(loads[LOADS_OF(s) + LOADS_ALONE], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
+		CHANNEL(alone[s], LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
 	}
-	bool wanted = rests_iterate(slots, contacts, grips, touching, loads, joints, joined, s, number & 1, done, rub, impulses,
+	bool wanted = rests_iterate(slots, contacts, grips, touching, now, next, alone, joints, joined, s, done, rub, impulses,
 		done == 0 || (aims && is_aimed(done - 1)), length);
 	if (impulses && held && done + 1 == most)
 		island_tire(slots, contacts, touching, joints, joined, s, root, wanted, length);

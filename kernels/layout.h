@@ -461,10 +461,10 @@
 
 /* Islands: an int a slot, its parent in its island: dynamic bodies that touch each other, directly or by others. A root is its own; once there was an iteration, all have the root. */
 
-/* Loads: three records a slot: how it moves in a step, x, y, angle, in the iterations with even numbers and in the others, and by itself; and its share.
- * Before them those of slot -1, of what does not move: zeros. */
-#define LOADS_WIDTH 3
-#define LOADS_OF(slot) (LOADS_WIDTH * ((slot) + 1))
+/* Loads: three lists of a record a slot: how it moves in a step, x, y, angle, in the iterations with even numbers and in the others, and by itself; and its share. What an iteration
+ * reads lies apart from what it writes, for else threads wait for each other's lines. Before each list is the record of slot -1, of what does not move: zeros. */
+#define LOADS_LISTS 3
+#define LOADS_OF(capacity, list) ((list) * ((capacity) + 1) + 1) /* the list's first slot */
 #define LOADS_ALONE 2
 #define LOAD_SHARE 3 /* as if so many points alone pushed it */
 
@@ -562,7 +562,7 @@
 #define STATUS_LOST 46        /* since the host asked: events of bodies in clusters that were given up, or done again */
 /* What nobody changes but the host. */
 #define STATUS_KEPT_ROOM 48  /* hits there are room for in Hits; 0: none are kept */
-#define STATUS_HEADS 49      /* ints of Extra before the first node: one for each slot that there may be */
+#define STATUS_CAPACITY 49   /* slots that there may be: so many heads Extra has before its first node */
 #define STATUS_SLICES 50     /* of a step */
 #define STATUS_FOURS_ROOM 59 /* fours there are in Contacts */
 /* Of these: */

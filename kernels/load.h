@@ -203,10 +203,10 @@ float point_gives(float4 mass, float arm)
 }
 
 /* By how much rates change forces, once all bodies have their share; 0 where there is no point. */
-void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, int now, bool rub)
+void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), int s, bool rub)
 {
 	float4 mass = rests_mass(slots, touching, s);
-	float share = CHANNEL(loads[LOADS_OF(s) + now], LOAD_SHARE);
+	float share = CHANNEL(loads[s], LOAD_SHARE);
 	for (int point = 0, first = first_four(touching, s); point < touching[TOUCH(s, TOUCHING_COUNT)]; point++) {
 		__global float *at = POINT_OUT(contacts, FOUR_WIDTH, first, point), *grip = POINT_OUT(grips, GRIP_WIDTH, rub ? first : 0, point);
 		int other = (int)at[4 * FOUR_PARTNER];
@@ -214,7 +214,7 @@ void rests_steps(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST
 			float arm = i ? grip[4 * GRIP_ARM] : at[4 * FOUR_ARM], other_arm = i ? grip[4 * GRIP_OTHER_ARM] : at[4 * FOUR_OTHER_ARM];
 			float gives = share * point_gives(mass, arm);
 			if (other >= 0)
-				gives += CHANNEL(loads[LOADS_OF(other) + now], LOAD_SHARE) * point_gives(rests_mass(slots, touching, other), other_arm);
+				gives += CHANNEL(loads[other], LOAD_SHARE) * point_gives(rests_mass(slots, touching, other), other_arm);
 			*(i ? &grip[4 * GRIP_STEP] : &at[4 * FOUR_STEP]) = 1.0f / (i ? gives : gives + at[4 * FOUR_GIVE]);
 		}
 	}
@@ -226,10 +226,10 @@ typedef struct moves {
 	float4 x, y, torque;
 } moves;
 
-void moves_of(moves *all, RECORD_IN(loads), float4 partners, int now)
+void moves_of(moves *all, RECORD_IN(loads), float4 partners)
 {
 	int4 s = max(convert_int4(partners), (int4)(-1));
-	float4 a = loads[LOADS_OF(s.x) + now], b = loads[LOADS_OF(s.y) + now], c = loads[LOADS_OF(s.z) + now], d = loads[LOADS_OF(s.w) + now];
+	float4 a = loads[s.x], b = loads[s.y], c = loads[s.z], d = loads[s.w];
 	all->x = (float4)(a.x, b.x, c.x, d.x);
 	all->y = (float4)(a.y, b.y, c.y, d.y);
 	all->torque = (float4)(a.z, b.z, c.z, d.z);
@@ -285,16 +285,16 @@ void loose_bounds(RECORD_IN(joints), LIST_IN(joined), joint_row *row, int begin,
 }
 
 /* One iteration of a body's points, after so many, from the loads of one parity to the other; `anew`: with other steps than the one before. True if another is wanted. */
-bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_OUT(loads), RECORD_IN(joints),
-	LIST_IN(joined), int s, int now, int done, bool rub, bool impulses, bool anew, float length)
+bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LIST_IN(touching), RECORD_IN(loads), RECORD_OUT(next_loads),
+	RECORD_IN(alone), RECORD_IN(joints), LIST_IN(joined), int s, int done, bool rub, bool impulses, bool anew, float length)
 {
 	float closer = impulses || done == 0 ? 1.0f : CONTACT_CLOSER;
 	float beta = (float)done / (float)(done + 2);
-	float4 mass = rests_mass(slots, touching, s), load = loads[LOADS_OF(s) + now], none = (float4)(0.0f);
+	float4 mass = rests_mass(slots, touching, s), load = loads[s], none = (float4)(0.0f);
 	sums next = {none, none, none};
 	int4 wanted = (int4)(0);
 	if (anew)
-		rests_steps(slots, contacts, grips, touching, loads, s, now, rub);
+		rests_steps(slots, contacts, grips, touching, loads, s, rub);
 	joint_row row = loose_row(slots, touching, joints, joined, s);
 	int held = first_contact(touching, s), firm = touching[TOUCH(s, TOUCHING_FIRM)], rows = touching[TOUCH(s, TOUCHING_ROWS)];
 	for (int four = first_four(touching, s), point = 0; four < end_four(touching, s); four++, point += 4) {
@@ -303,7 +303,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 		ways normals;
 		ways_of_normals(&normals, contacts, four);
 		moves others;
-		moves_of(&others, loads, at[FOUR_PARTNER], now);
+		moves_of(&others, loads, at[FOUR_PARTNER]);
 		float4 rate = at[FOUR_LEAST] + rates_of(&normals, load, &others), tolerance = at[FOUR_TOLERANCE];
 		int begin = max(firm - point, 0), end = min(rows - point, 4);
 		if (begin < end)
@@ -327,7 +327,7 @@ bool rests_iterate(RECORD_IN(slots), RECORD_OUT(contacts), RECORD_OUT(grips), LI
 			sums_add(&next, grips[GRIP(four, GRIP_START)], &along, mass);
 		}
 	}
-	loads[LOADS_OF(s) + 1 - now] = sums_with(&next, loads[LOADS_OF(s) + LOADS_ALONE]);
+	next_loads[s] = sums_with(&next, alone[s]);
 	return is_any(wanted);
 }
 

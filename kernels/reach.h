@@ -23,7 +23,7 @@ void status_begin(LIST_OUT(status))
 	for (int i = STATUS_ACTIVE; i <= STATUS_MOVERS; i++)
 		status[i] = 0;
 	status[STATUS_LEVELS] = 1;
-	status[STATUS_EXTRA] = status[STATUS_HEADS];
+	status[STATUS_EXTRA] = status[STATUS_CAPACITY];
 	status[STATUS_BUILDS]++;
 }
 

@@ -41,6 +41,7 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_
 {
 	float length = whole_length(TEX(uniforms), step_length(TEX(uniforms), TEX(clock)));
 	bool rub = anything_rubs(TEX(uniforms)), impulses = status[STATUS_PASS] == PASS_IMPULSES, due = status[STATUS_FIRST] == domain.z;
+	int capacity = status[STATUS_CAPACITY];
 	for (int i = get_global_id(0); due && i < status[STATUS_TOUCHING]; i += get_global_size(0)) {
 		int s = touching[TOUCH(i, TOUCHING_SLOT)];
 		touching[TOUCH(s, TOUCHING_WANTED)] = domain.z;
@@ -55,12 +56,12 @@ __kernel void contacts_join(RESTS_IN, RECORD_OUT(loads), RECORD_OUT(warm), LIST_
 		}
 		float4 load = load_alone(slots, impulses, s, length);
 		CHANNEL(load, LOAD_SHARE) = rests_share(slots, contacts, grips, touching, s, rub);
-		loads[LOADS_OF(s) + LOADS_ALONE] = load;
-		loads[LOADS_OF(s) + (domain.z & 1)] = impulses ? load : rests_add(slots, contacts, grips, touching, s, rub, load);
+		loads[LOADS_OF(capacity, LOADS_ALONE) + s] = load;
+		loads[LOADS_OF(capacity, domain.z & 1) + s] = impulses ? load : rests_add(slots, contacts, grips, touching, s, rub, load);
 	}
 }
 
-/* One iteration; or where few bodies touch all there are, by one group alone, for which they cost less than launches. */
+/* One iteration, each group of what lies together; or where few bodies touch all there are, by one group alone, for which they cost less than launches. */
 __kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), LIST_IN(places), RECORD_IN(joints), LIST_IN(joined), int4 domain)
 {
 	__local int more;
@@ -69,10 +70,10 @@ __kernel void contacts_iterate(RESTS_IN, RECORD_OUT(loads), LIST_IN(places), REC
 	float step = step_length(TEX(uniforms), TEX(clock)), length = whole_length(TEX(uniforms), step), part = part_of_whole(step, length);
 	if (PEEK(status, STATUS_WANTED) < domain.z || (alone && get_group_id(0) > 0))
 		return;
-	int begin = alone ? get_local_id(0) : get_global_id(0), stride = alone ? get_local_size(0) : get_global_size(0);
+	int share = alone ? touches : touches / (int)get_num_groups(0) + 1, first = share * (int)get_group_id(0), last = min(first + share, touches);
 	do {
 		bool wanted = false;
-		for (int i = begin; i < touches; i += stride)
+		for (int i = first + (int)get_local_id(0); i < last; i += get_local_size(0))
 			wanted |= island_iterate(slots, status, contacts, grips, touching, islands, loads, places, joints, joined,
 				touching[TOUCH(i, TOUCHING_SLOT)], done, rub, length, part);
 		done++;

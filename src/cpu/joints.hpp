@@ -249,7 +249,7 @@ private:
 	Held<T> at(int32_t slot_index, const T *anchor, bool by_velocity) const
 	{
 		const Slot<T> &slot = rests->slots[slot_index];
-		const Lanes<T> &load = loads[LOADS_OF(slot_index)];
+		const Lanes<T> &load = loads[slot_index];
 		const T k = rests->part, before = by_velocity ? k : k * (1 - T(0.5) * k), after = by_velocity ? T(0) : T(0.5) * (k * k);
 		const auto way = [&](T velocity, T with_forces) { return (velocity * rests->length) * before + with_forces * after; };
 		return Held<T>(slot, anchor, {way(slot.place[LINEAR_VX], load[0]), way(slot.place[LINEAR_VY], load[1])},
@@ -306,7 +306,7 @@ private:
 
 /* What forces are to do, once it is known where all would get with those that they begin with. */
 template <typename T>
-[[gnu::noinline, gnu::flatten]] void aim_joined(const Rests<T> &rests, const Joints<T> &joints, const Lanes<T> *loads, int32_t s, int32_t now)
+[[gnu::noinline, gnu::flatten]] void aim_joined(const Rests<T> &rests, const Joints<T> &joints, const Lanes<T> *loads, int32_t s)
 {
 	int32_t point = 0;
 	std::optional<Aim<T>> aim;
@@ -315,7 +315,7 @@ template <typename T>
 		const auto force = [&](int32_t k) { return std::abs(four(k).force[(point + k) % lane_count]); };
 		const int32_t i = point % lane_count;
 		if (rows.begins()) {
-			aim.emplace(rests, joints, rows.which_side(), loads + now, s, Partner(four(0).partner[i]), false);
+			aim.emplace(rests, joints, rows.which_side(), loads, s, Partner(four(0).partner[i]), false);
 			if (rows.is_firm() || !is_angular(rows.part()))
 				aim->choose(rows.part() == Part::pin_x ? force(0) + force(1) : force(0));
 		}
@@ -325,7 +325,7 @@ template <typename T>
 		return;
 	joints.each_aside(rests.slots[s].body(), rests.length, [&](int32_t side) {
 		const int32_t i = point % lane_count;
-		Aim<T>(rests, joints, side, loads + now, s, Partner(four(0).partner[i]), true).write_aside(four(0), i);
+		Aim<T>(rests, joints, side, loads, s, Partner(four(0).partner[i]), true).write_aside(four(0), i);
 		point++;
 	});
 }

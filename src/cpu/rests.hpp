@@ -134,6 +134,23 @@ template <typename T> struct Rests {
 	}
 };
 
+/* The lists of Loads, from slot 0 on. */
+template <typename T> struct Loads {
+	Lanes<T> *const now, *const next, *const alone;
+
+	/* As the iteration with a number has them. */
+	Loads(const Job<T> &job, int32_t capacity, int32_t number)
+		: now(list(job, capacity, number & 1)), next(list(job, capacity, 1 - (number & 1))), alone(list(job, capacity, LOADS_ALONE))
+	{
+	}
+
+private:
+	static Lanes<T> *list(const Job<T> &job, int32_t capacity, int32_t which)
+	{
+		return reinterpret_cast<Lanes<T> *>(job.records(8)) + LOADS_OF(capacity, which);
+	}
+};
+
 }
 
 #endif

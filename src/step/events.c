@@ -204,7 +204,7 @@ carom_status carom_events_begin(carom_world *world, carom_error *error)
 	status[STATUS_ROOM] = (int32_t)world->events.room;
 	status[STATUS_NODE_ROOM] = (int32_t)world->events.node_room;
 	status[STATUS_EXTRA_ROOM] = (int32_t)extra_of(world->capacity);
-	status[STATUS_HEADS] = (int32_t)world->capacity;
+	status[STATUS_CAPACITY] = (int32_t)world->capacity;
 	status[STATUS_SLICES] = (int32_t)world->events.slices;
 	status[STATUS_FOURS_ROOM] = (int32_t)world->events.fours_room;
 	world->events.hits_taken = 0;

@@ -7,11 +7,13 @@
 #include "cpu/still.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 namespace carom::cpu {
 
-constexpr int32_t chunk = 64; /* slots */
+constexpr int32_t chunk = 64;            /* slots */
+constexpr int32_t iteration_chunk = 512; /* an iteration is short */
 
 template <typename T> static void begin(const Job<T> &job)
 {
@@ -125,7 +127,6 @@ template <typename T> static void join(const Job<T> &job)
 {
 	Rests<T> rests(job);
 	rests.places = job.list(14);
-	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
 	const Warm<T> warm(job.records(9), job.list(10), rests.rubs);
 	const Joints<T> joints(job.records(12), job.list(13));
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
@@ -133,6 +134,7 @@ template <typename T> static void join(const Job<T> &job)
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
+	const Loads<T> loads(job, rests.status[STATUS_CAPACITY], first);
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
@@ -147,11 +149,10 @@ template <typename T> static void join(const Job<T> &job)
 				warm_joined(rests, joints, s);
 				warm_up(rests, warm, s);
 			}
-			Lanes<T> *load = loads + LOADS_OF(s);
-			rests.alone(s, share_of(rests, s), load[LOADS_ALONE]);
-			load[first & 1] = load[LOADS_ALONE];
+			rests.alone(s, share_of(rests, s), loads.alone[s]);
+			loads.now[s] = loads.alone[s];
 			if (!rests.impulses)
-				rests.add_forces(s, load[first & 1]);
+				rests.add_forces(s, loads.now[s]);
 		}
 	});
 }
@@ -187,9 +188,9 @@ static void rub(const Points<T> &points, Grips<T> &grips, const Lanes<T> &load, 
 
 /* One iteration of one body, after so many; `anew`: with other steps than the one before. True if another is wanted. */
 template <bool rubs, bool is_loose, typename T>
-static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T> *loads, int32_t s, int32_t now, int32_t done, bool anew)
+static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, const Loads<T> &loads, int32_t s, int32_t done, bool anew)
 {
-	const Lanes<T> load = loads[LOADS_OF(s) + now], zero{};
+	const Lanes<T> load = loads.now[s], zero{};
 	const T beta = static_cast<T>(done) / static_cast<T>(done + 2);
 	const T closer = rests.impulses || done == 0 ? T(1) : T(CONTACT_CLOSER);
 	Sums<T> next{rests.inverse_mass(s), rests.inverse_inertia(s)};
@@ -199,7 +200,7 @@ static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T>
 	rests.each(s, [&](Points<T> &points, Grips<T> &grips) {
 		Lanes<T> others[lane_count];
 		for (int32_t i = 0; i < lane_count; i++)
-			others[i] = loads[LOADS_OF(Partner(points.partner[i]).slot()) + now];
+			others[i] = loads.now[Partner(points.partner[i]).slot()];
 		transpose<T>(others);
 		if (anew)
 			set_steps(rests, points, grips, s, load[LOAD_SHARE], others[LOAD_SHARE]);
@@ -223,15 +224,14 @@ static bool iterate_one(const Rests<T> &rests, const Joints<T> &joints, Lanes<T>
 			next.add(points, grips, grips.start);
 		}
 	});
-	Lanes<T> &to = loads[LOADS_OF(s) + 1 - now];
-	to = loads[LOADS_OF(s) + LOADS_ALONE];
-	next.add_to(to);
+	loads.next[s] = loads.alone[s];
+	next.add_to(loads.next[s]);
 	return wanted[0] | wanted[1] | wanted[2] | wanted[3];
 }
 
 /* One iteration of some of the bodies that touch, where their islands want it. */
 template <bool rubs, typename T>
-static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T> *loads, int32_t from, int32_t to, int32_t number)
+static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, const Loads<T> &loads, int32_t from, int32_t to, int32_t number)
 {
 	const int32_t done = number - rests.status[STATUS_FIRST];
 	const bool aims = joints.has_any() && !rests.impulses, anew = done == 0 || (aims && is_aimed(done - 1));
@@ -244,18 +244,19 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 		const bool is_joined = rests.touching[s].joined > 0;
 		const int32_t most = !(rubs && rests.impulses) ? CONTACT_ITERATIONS : is_joined ? JOINT_IMPULSES : GRIP_IMPULSES;
 		if (aims && is_aimed(done) && is_joined) {
-			aim_joined(rests, joints, loads, s, number & 1);
-			loads[LOADS_OF(s) + LOADS_ALONE][LOAD_SHARE] = share_of(rests, s); /* with which the next one has its steps */
+			aim_joined(rests, joints, loads.now, s);
+			loads.alone[s][LOAD_SHARE] = share_of(rests, s); /* with which the next one has its steps */
 		}
 		const bool is_loose = rests.touching[s].joined > rests.touching[s].firm;
-		const bool wants = is_loose ? iterate_one<rubs, true>(rests, joints, loads, s, number & 1, done, anew)
-									: iterate_one<rubs, false>(rests, joints, loads, s, number & 1, done, anew);
+		const bool wants = is_loose ? iterate_one<rubs, true>(rests, joints, loads, s, done, anew)
+									: iterate_one<rubs, false>(rests, joints, loads, s, done, anew);
 		if (rests.impulses && is_joined && done + 1 == most)
 			tire(rests, joints, s, wants);
 		if (!wants || done + 1 >= most)
 			continue;
 		wanted = true;
-		__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
+		if (__atomic_load_n(island_wants, __ATOMIC_RELAXED) == number) /* who stores takes the line from all others */
+			__atomic_store_n(island_wants, number + 1, __ATOMIC_RELAXED);
 	}
 	return wanted;
 }
@@ -263,7 +264,7 @@ static bool iterate_some(const Rests<T> &rests, const Joints<T> &joints, Lanes<T
 #if defined(__x86_64__)
 /* The same in fewer instructions, where the processor has them. */
 template <bool rubs>
-[[gnu::target("avx2"), gnu::flatten]] static bool iterate_some_avx2(const Rests<float> &rests, const Joints<float> &joints, Lanes<float> *loads,
+[[gnu::target("avx2"), gnu::flatten]] static bool iterate_some_avx2(const Rests<float> &rests, const Joints<float> &joints, const Loads<float> &loads,
 	int32_t from, int32_t to, int32_t number)
 {
 	return iterate_some<rubs>(rests, joints, loads, from, to, number);
@@ -280,21 +281,23 @@ template <bool rubs, typename T> static auto best_iteration(T)
 	return iterate_some<rubs, T>;
 }
 
-/* One iteration, of all that want it. */
+/* The first that is handed over, and all that are wanted after it, of all islands that want them. */
 template <typename T> static void iterate(const Job<T> &job)
 {
 	Rests<T> rests(job);
 	rests.places = job.list(9);
 	const Joints<T> joints(job.records(10), job.list(11));
-	Lanes<T> *loads = reinterpret_cast<Lanes<T> *>(job.records(8));
-	const int32_t number = job.domain[2];
 	const auto some = rests.rubs ? best_iteration<true>(T()) : best_iteration<false>(T());
-	if (rests.status[STATUS_WANTED] != number)
-		return;
-	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
-		if (some(rests, joints, loads, from, to, number) && __atomic_load_n(&rests.status[STATUS_WANTED], __ATOMIC_RELAXED) == number)
-			__atomic_store_n(&rests.status[STATUS_WANTED], number + 1, __ATOMIC_RELAXED);
-	});
+	int32_t number = job.domain[2];
+	std::atomic<bool> wanted{rests.status[STATUS_WANTED] == number};
+	for (; wanted; number++) {
+		const Loads<T> loads(job, rests.status[STATUS_CAPACITY], number);
+		wanted = false;
+		job.pool.run(rests.status[STATUS_TOUCHING], iteration_chunk, [&](int32_t from, int32_t to) {
+			if (some(rests, joints, loads, from, to, number))
+				wanted = true;
+		});
+	}
 }
 
 /* Gives a dynamic body what forces on it come to. */

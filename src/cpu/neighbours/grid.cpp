@@ -45,7 +45,7 @@ template <typename T> static void pace(const Job<T> &job)
 			 STATUS_BORNE, STATUS_PASS, STATUS_THRONGS, STATUS_FOURS})
 		status[field] = 0;
 	status[STATUS_SMALL] = status[STATUS_KEPT] > status[STATUS_KEPT_ROOM];
-	status[STATUS_EXTRA] = status[STATUS_HEADS];
+	status[STATUS_EXTRA] = status[STATUS_CAPACITY];
 	status[STATUS_BUILDS]++;
 	status[STATUS_MADE]++;
 	status[STATUS_PACE] = as_bits(distance);
