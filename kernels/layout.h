@@ -583,7 +583,7 @@
  *
  * There what would be elastic is a shock instead, under gravity: the hit passes on at once to what is nearer than what gravity makes in a step (or CONTACT_NEAR of the smaller radius),
  * by impulses at the points that approach, without a bounce, until each parts with SHOCK_PARTING of the speed that gravity makes in the rest of the step, within SHOCK_WITHIN of that,
- * or for SHOCK_SWEEPS sweeps over all points; it gets to SHOCK_PARTIES bodies.
+ * or for SHOCK_SWEEPS sweeps over all points, each of which, if it does not rub, goes SHOCK_FARTHER times as far as would bring it alone there (what rubs could gain by that); it gets to SHOCK_PARTIES bodies.
  *
  * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,
  * or for TUG_SWEEPS. Joints go TUG_FARTHER times as far as would bring each alone there: what a hit does then gets through a row of many in as many sweeps, not their square. Where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, it goes on once more, as if no anchor were to move against another; and where all have more energy in the end by that much it acts on the two alone. Joints that bring their anchors farther than TUG_LOOSE of both radii
@@ -601,6 +601,7 @@
 #define CROWD_DOUBLINGS 10
 #define SHOCK_PARTIES 64
 #define SHOCK_SWEEPS 32
+#define SHOCK_FARTHER 1.6f
 #define TUG_SWEEPS 256
 #define TUG_FARTHER 1.75f
 #define TUG_GAIN 0.015625f

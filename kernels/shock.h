@@ -196,8 +196,8 @@ void member_push(RECORD_OUT(work), int id, float2 gives, float2 impulse, float t
 	work_store(work, id, k);
 }
 
-/* Gives an open point, which has that rate, the one that it is to have; only those of joints pull. False if that is a change of less than `least`. */
-bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float rate, float least)
+/* Gives an open point, which has that rate, the one that it is to have, or goes `farther` times as far; only those of joints pull. False if that is a change of less than `least`. */
+bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float rate, float farther, float least)
 {
 	__global float4 *at = shocks + SHOCK(id, point);
 	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
@@ -207,8 +207,8 @@ bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(
 	float give = gives_at(gives, arm) + gives_at(other_gives, other_arm), part = CHANNEL(grip, SHOCK_PART);
 	if (!(give > 0.0f))
 		return false;
-	float lacking = (part - rate) / give;
-	float impulse = CHANNEL(grip, SHOCK_FRICTION) == SHOCK_JOINT ? before + TUG_FARTHER * lacking : larger(before + lacking, 0.0f);
+	float lacking = (part - rate) / give, enough = before + farther * lacking;
+	float impulse = CHANNEL(grip, SHOCK_FRICTION) == SHOCK_JOINT ? enough : larger(enough, 0.0f);
 	float more = impulse - before;
 	if (!(magnitude(more) * give >= least))
 		return false;
@@ -266,9 +266,10 @@ bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 					shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, joined, all);
 					open = true;
 				}
+				float4 grip = shocks[SHOCK(id, point) + SHOCK_GRIP];
 				more |= open
-					&& point_push(slots, active, work, shocks, id, point, rate,
-						SHOCK_WITHIN * CHANNEL(shocks[SHOCK(id, point) + SHOCK_GRIP], SHOCK_PART));
+					&& point_push(slots, active, work, shocks, id, point, rate, CHANNEL(grip, SHOCK_FRICTION) > 0.0f ? 1.0f : SHOCK_FARTHER,
+						SHOCK_WITHIN * CHANNEL(grip, SHOCK_PART));
 			}
 	}
 	return true;

@@ -128,7 +128,8 @@ float tug_strike(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), LIST_IN(a
 bool tug_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float least)
 {
 	__global float4 *at = shocks + SHOCK(id, point);
-	return point_push(slots, active, work, shocks, id, point, point_rate(slots, work, id, at[SHOCK_NORMAL], at[SHOCK_PUSH]), least);
+	float farther = CHANNEL(at[SHOCK_GRIP], SHOCK_FRICTION) == SHOCK_JOINT ? TUG_FARTHER : 1.0f;
+	return point_push(slots, active, work, shocks, id, point, point_rate(slots, work, id, at[SHOCK_NORMAL], at[SHOCK_PUSH]), farther, least);
 }
 
 /* Is a party's point one of a joint with a body that the hit has not got to, and which it would move? */

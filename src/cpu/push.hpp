@@ -62,14 +62,13 @@ template <typename T> struct PushPoint {
 		return body.gives(own_arm) + (other ? other->gives(others_arm) : T(0));
 	}
 
-	/* Lets the point part, which does so at that rate, as it is to; only what `pulls` pulls. False if that is a change of less than `least`. */
-	bool push(Pushed<T> &body, Pushed<T> *other, T rate, T least, bool pulls)
+	/* Lets the point part, which does so at that rate, as it is to, or `farther`; only what `pulls` pulls. False if that is a change of less than `least`. */
+	bool push(Pushed<T> &body, Pushed<T> *other, T rate, T farther, T least, bool pulls)
 	{
 		const T all = gives(body, other, arm, other_arm);
 		if (!(all > 0))
 			return false;
-		const T lacking = (part - rate) / all, after = pulls ? impulse + T(TUG_FARTHER) * lacking : larger(impulse + lacking, T(0)),
-				more = after - impulse;
+		const T wanted = impulse + farther * ((part - rate) / all), after = pulls ? wanted : larger(wanted, T(0)), more = after - impulse;
 		if (!(std::abs(more) * all >= least))
 			return false;
 		impulse = after;

@@ -168,7 +168,7 @@ private:
 	/* Lets the point part, or pull less; false if that is too little to count. */
 	bool push(Party &party, Point &p, T rate)
 	{
-		if (!p.push(party, partner_of(p), rate, T(SHOCK_WITHIN) * p.part, false))
+		if (!p.push(party, partner_of(p), rate, p.friction > 0 ? T(1) : T(SHOCK_FARTHER), T(SHOCK_WITHIN) * p.part, false))
 			return false;
 		party.changed = ++changes;
 		if (p.other >= 0)

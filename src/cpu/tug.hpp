@@ -269,7 +269,10 @@ private:
 
 	Pushed<T> *party(int32_t k) { return k >= 0 ? &parties[k] : nullptr; }
 
-	bool push(Party &body, Point &p, int32_t other, bool pulls) { return p.push(body, party(other), p.parting(body, party(other)), least, pulls); }
+	bool push(Party &body, Point &p, int32_t other, bool pulls)
+	{
+		return p.push(body, party(other), p.parting(body, party(other)), pulls ? T(TUG_FARTHER) : T(1), least, pulls);
+	}
 
 	const Clusters<T> &clusters;
 	Work<T> *const work;
