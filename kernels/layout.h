@@ -531,7 +531,7 @@
 #define STATUS_FIRST 24    /* the first of those now */
 #define STATUS_HANDED 25   /* the last that was handed over */
 #define STATUS_BORNE 26    /* 1: pushes or velocities are changed */
-#define STATUS_WAITS 27    /* since the host asked: steps not done since they needed more iterations */
+#define STATUS_WAITS 27    /* since the host asked: steps not done since they needed more iterations; of OpenCL devices, as WANTED and MOST */
 #define STATUS_PASS 30     /* of the step: 0: not begun yet, */
 #define PASS_IMPULSES 1    /* what comes together is stopped, */
 #define PASS_FORCES 2      /* and borne */

@@ -138,7 +138,7 @@ public:
 		return events_of(id) > 0 && work[id].held > 0 && !(saved >= 0 && work[saved].held > 0);
 	}
 
-	bool ready() const { return this->length > 0 && lists_are_good(status) && !forces_are_wanted(status); }
+	bool ready() const { return this->length > 0 && lists_are_good(status); }
 
 	int32_t root_of(int32_t s) const { return Forest{parents}.root_of(s); }
 	void unite(int32_t a, int32_t b) const { Forest{parents}.unite(a, b); }

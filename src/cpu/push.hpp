@@ -62,7 +62,7 @@ template <typename T> struct PushPoint {
 		return body.gives(own_arm) + (other ? other->gives(others_arm) : T(0));
 	}
 
-	/* Lets the point part, which does so at that rate, as it is to, or `farther`; only what `pulls` pulls. False if that is a change of less than `least`. */
+	/* Lets the point part, which does so at that rate, as it is to, or goes `farther` times as far; only what `pulls` pulls. False if that is a change of less than `least`. */
 	bool push(Pushed<T> &body, Pushed<T> *other, T rate, T farther, T least, bool pulls)
 	{
 		const T all = gives(body, other, arm, other_arm);

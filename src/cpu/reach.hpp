@@ -39,18 +39,6 @@ inline bool is_last_slice(const int32_t *status)
 		|| __atomic_load_n(&status[STATUS_ACTIVE], __ATOMIC_RELAXED) == 0; /* clusters may get members meanwhile */
 }
 
-/* Does a pass of contacts go on in the next handing over? */
-inline bool iterations_are_wanted(const int32_t *status)
-{
-	return status[STATUS_WANTED] > status[STATUS_HANDED];
-}
-
-/* Does a step of contacts wait for its forces? */
-inline bool forces_are_wanted(const int32_t *status)
-{
-	return iterations_are_wanted(status) || status[STATUS_PASS] == PASS_IMPULSES;
-}
-
 inline float as_float(int32_t bits)
 {
 	float number;

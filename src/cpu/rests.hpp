@@ -139,16 +139,13 @@ template <typename T> struct Loads {
 	Lanes<T> *const now, *const next, *const alone;
 
 	/* As the iteration with a number has them. */
-	Loads(const Job<T> &job, int32_t capacity, int32_t number)
-		: now(list(job, capacity, number & 1)), next(list(job, capacity, 1 - (number & 1))), alone(list(job, capacity, LOADS_ALONE))
+	Loads(T *records, int32_t capacity, int32_t number)
+		: now(list(records, capacity, number & 1)), next(list(records, capacity, 1 - (number & 1))), alone(list(records, capacity, LOADS_ALONE))
 	{
 	}
 
 private:
-	static Lanes<T> *list(const Job<T> &job, int32_t capacity, int32_t which)
-	{
-		return reinterpret_cast<Lanes<T> *>(job.records(8)) + LOADS_OF(capacity, which);
-	}
+	static Lanes<T> *list(T *records, int32_t capacity, int32_t which) { return reinterpret_cast<Lanes<T> *>(records) + LOADS_OF(capacity, which); }
 };
 
 }

@@ -18,23 +18,15 @@ constexpr int32_t iteration_chunk = 512; /* an iteration is short */
 template <typename T> static void begin(const Job<T> &job)
 {
 	int32_t *status = job.list(2);
-	const int32_t first = job.domain[2], last = job.domain[3];
-	const bool waits = iterations_are_wanted(status);
 	if (status[STATUS_PASS] == 0)
 		status[STATUS_TOUCHING] = status[STATUS_BORNE] = 0;
 	const T length = whole_length(step_length(job.texels(1), job.texels(0)), job.texels(0));
 	if (!(length > 0) || !lists_are_good(status) || status[STATUS_UNDER_WAY])
 		return;
-	if (!waits && status[STATUS_PASS] == PASS_FORCES)
-		return; /* the forces are found: with iterations that were handed over for the impulses */
-	status[STATUS_HANDED] = last;
-	if (waits)
-		return;
-	status[STATUS_MOST] = std::max(status[STATUS_MOST], status[STATUS_WANTED] - status[STATUS_FIRST] + 1);
 	const int32_t bits = as_bits(static_cast<float>(length));
 	status[STATUS_ROUSED] = status[STATUS_PASS] == 0 && (status[STATUS_ROUSED] || bits != status[STATUS_SLEPT]);
 	status[STATUS_SLEPT] = bits;
-	status[STATUS_FIRST] = status[STATUS_WANTED] = first;
+	status[STATUS_FIRST] = job.domain[2], status[STATUS_HANDED] = job.domain[3];
 	status[STATUS_PASS]++;
 }
 
@@ -134,7 +126,7 @@ template <typename T> static void join(const Job<T> &job)
 	const int32_t first = job.domain[2];
 	if (rests.status[STATUS_FIRST] != first)
 		return;
-	const Loads<T> loads(job, rests.status[STATUS_CAPACITY], first);
+	const Loads<T> loads(job.records(8), rests.status[STATUS_CAPACITY], first);
 	job.pool.run(rests.status[STATUS_TOUCHING], chunk, [&](int32_t from, int32_t to) {
 		for (int32_t k = from; k < to; k++) {
 			const int32_t s = rests.touching[k].slot;
@@ -281,7 +273,7 @@ template <bool rubs, typename T> static auto best_iteration(T)
 	return iterate_some<rubs, T>;
 }
 
-/* The first that is handed over, and all that are wanted after it, of all islands that want them. */
+/* The first iteration that is handed over, and all that are wanted after it: no step waits for more. */
 template <typename T> static void iterate(const Job<T> &job)
 {
 	Rests<T> rests(job);
@@ -289,9 +281,9 @@ template <typename T> static void iterate(const Job<T> &job)
 	const Joints<T> joints(job.records(10), job.list(11));
 	const auto some = rests.rubs ? best_iteration<true>(T()) : best_iteration<false>(T());
 	int32_t number = job.domain[2];
-	std::atomic<bool> wanted{rests.status[STATUS_WANTED] == number};
+	std::atomic<bool> wanted{rests.status[STATUS_FIRST] == number};
 	for (; wanted; number++) {
-		const Loads<T> loads(job, rests.status[STATUS_CAPACITY], number);
+		const Loads<T> loads(job.records(8), rests.status[STATUS_CAPACITY], number);
 		wanted = false;
 		job.pool.run(rests.status[STATUS_TOUCHING], iteration_chunk, [&](int32_t from, int32_t to) {
 			if (some(rests, joints, loads, from, to, number))
@@ -330,7 +322,7 @@ template <typename T> static void apply(const Job<T> &job)
 	rests.places = job.list(12);
 	Slot<T> *slots = reinterpret_cast<Slot<T> *>(job.records(2));
 	int32_t *need = job.list(11);
-	if (rests.status[STATUS_HANDED] != job.domain[3] || iterations_are_wanted(rests.status))
+	if (rests.status[STATUS_HANDED] != job.domain[3])
 		return;
 	rests.status[STATUS_BORNE] = 1;
 	const ReachKeeper<T> keeper(slots, job.records(8), rests.status, job.list(9), job.list(10), job.domain[2], job.texels(0));

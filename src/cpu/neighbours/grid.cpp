@@ -41,8 +41,8 @@ template <typename T> static void pace(const Job<T> &job)
 	const float distance = std::max(pace_part * way, static_cast<float>(job.domain[3]) * 0.1f * radius);
 	const float side = 1.01f * (radius + std::max(distance, cell_part * way));
 	for (int field : {STATUS_STALE, STATUS_UNDER_WAY, STATUS_LEFT, STATUS_ACTIVE, STATUS_NEIGHBOURS, STATUS_NODES, STATUS_LEVELS, STATUS_PLACED,
-			 STATUS_HITS, STATUS_RULED, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING, STATUS_WANTED,
-			 STATUS_BORNE, STATUS_PASS, STATUS_THRONGS, STATUS_FOURS})
+			 STATUS_HITS, STATUS_RULED, STATUS_HELD, STATUS_FOUND, STATUS_AGE, STATUS_MENDED, STATUS_MOVERS, STATUS_TOUCHING, STATUS_BORNE,
+			 STATUS_PASS, STATUS_THRONGS, STATUS_FOURS})
 		status[field] = 0;
 	status[STATUS_SMALL] = status[STATUS_KEPT] > status[STATUS_KEPT_ROOM];
 	status[STATUS_EXTRA] = status[STATUS_CAPACITY];

@@ -8,8 +8,7 @@ template <typename T> static void settle(const Job<T> &job)
 	const Texels<T> uniforms = job.texels(0), clock = job.texels(1), now = job.texels(3);
 	int32_t *status = job.list(2);
 	const T length = step_length(clock, uniforms);
-	const bool begins = length > 0 && lists_are_good(status), waits = begins && forces_are_wanted(status);
-	const bool good = begins && !waits, left = good && status[STATUS_LEFT];
+	const bool good = length > 0 && lists_are_good(status), left = good && status[STATUS_LEFT];
 	const bool again = good && !left && (status[STATUS_ROUND] > job.domain[2] || !is_last_slice(status)), done = good && !left && !again;
 	for (int32_t texel = 0; texel < CLOCK_WIDTH; texel++) {
 		for (int32_t channel = 0; channel < 4; channel++)
@@ -44,8 +43,7 @@ template <typename T> static void settle(const Job<T> &job)
 	}
 	status[STATUS_MENDED] = status[STATUS_MOVERS];
 	status[STATUS_AGAIN] += again;
-	status[STATUS_IDLE] += !begins && length > 0;
-	status[STATUS_WAITS] += waits;
+	status[STATUS_IDLE] += !good && length > 0;
 	if (left)
 		status[STATUS_STALE] = 1;
 	if (done || left)
