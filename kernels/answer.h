@@ -114,6 +114,7 @@ rules_of_hit event_rules(float restitution, float friction, bool rapid, int even
 	rules.part = 0.5f;
 	rules.slow = borne ? CONTACT_FAST : 1.0f;
 	rules.weight = weight;
+	rules.bound = borne ? CROWD_BORNE_WEIGHTS * weight : INFINITY;
 	rules.rapid = rapid;
 	rules.event = true;
 	return rules;

@@ -31,6 +31,7 @@ typedef struct rules_of_hit {
 	float restitution, micro, crowd, shake, part;
 	float slow;        /* below so much of what the stronger push makes of a speed in a step */
 	float weight;      /* what gravity makes of one: a push that a crowd counts, though forces may bear it */
+	float bound;       /* a crowd counts no more of a push than that, or the approach */
 	float friction;    /* coefficient */
 	bool rapid, event; /* event: of the step events */
 } rules_of_hit;
@@ -54,9 +55,10 @@ float restitution_of(rules_of_hit rules, contact c, float micro)
 
 /* The speed at which a contact parts at least: `micro` by a push along the normal; in a crowd by the stronger `push` on the bodies and by `still`, their
  * stillness. */
-float least_speed(rules_of_hit rules, float micro, float push, float still)
+float least_speed(rules_of_hit rules, contact c, float micro, float push, float still)
 {
-	return larger(micro, larger(rules.crowd * larger(push, rules.weight), rules.shake * still));
+	float counted = smaller(larger(push, rules.weight), larger(rules.bound, -rate_of(c)));
+	return larger(micro, larger(rules.crowd * counted, rules.shake * still));
 }
 
 rules_of_hit first_impact_rules(float restitution, float friction)
@@ -64,7 +66,7 @@ rules_of_hit first_impact_rules(float restitution, float friction)
 	rules_of_hit rules;
 	rules.restitution = restitution;
 	rules.friction = friction;
-	rules.micro = rules.crowd = rules.shake = rules.weight = 0.0f;
+	rules.micro = rules.crowd = rules.shake = rules.weight = rules.bound = 0.0f;
 	rules.part = rules.slow = 1.0f;
 	rules.rapid = rules.event = false;
 	return rules;
@@ -125,7 +127,7 @@ SELDOM float4 wall_push(VERTICES_IN, float4 room, body k, int wall, float t, rul
 	walls.inverse_mass = walls.inverse_inertia = 0.0f;
 	float micro = larger(-(rules.micro * inner(n, k.a)), 0.0f), still = wall_stillness(k);
 	threshold h = threshold_of(wall_gap(VERTICES, k, n, offset, t), wall_slop(k), still, rules.part);
-	float restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, norm(k.a), still);
+	float restitution = restitution_of(rules, c, micro), least = least_speed(rules, c, micro, norm(k.a), still);
 	float2 j = contact_impulses(walls, k, c, restitution, h.rate, larger(least, h.mended), rules.event);
 	*hit = impact_of(rules, c, norm(k.a), restitution, least, j);
 	hit->where = contact_place(k, c, j, t, 1.0f);
@@ -145,7 +147,7 @@ SELDOM float4 pair_push(VERTICES_IN, body a, body b, float t, rules_of_hit rules
 	contact c = m.at.c;
 	threshold h = threshold_of(k.gap, slop, still, rules.part);
 	float pull = rules.micro * inner(c.n, (float2)(b.a.x - a.a.x, b.a.y - a.a.y)), micro = larger(c.swapped ? pull : -pull, 0.0f);
-	float push = larger(norm(a.a), norm(b.a)), restitution = restitution_of(rules, c, micro), least = least_speed(rules, micro, push, still),
+	float push = larger(norm(a.a), norm(b.a)), restitution = restitution_of(rules, c, micro), least = least_speed(rules, c, micro, push, still),
 		  parting = larger(least, h.mended);
 	body ref = c.swapped ? b : a, inc = c.swapped ? a : b;
 	pose seen = c.swapped ? pose_swapped(p) : p;

@@ -471,9 +471,10 @@
 /* Pushes: three records a slot, before the step: SLOT_PUSH; the velocities vx, vy, angular; the place x, y, angle */
 #define PUSHES_WIDTH 3
 
-/* Shocks: SHOCK_POINTS points a number, each of three records: where what a body is hit with passes on */
+/* Shocks: SHOCK_RECORDS a number: the velocities vx, vy, angular with which a body became a party; and SHOCK_POINTS points, each of three records: where what it is hit with passes on */
 #define SHOCK_WIDTH 3
 #define SHOCK_POINTS 12
+#define SHOCK_RECORDS (1 + SHOCK_WIDTH * SHOCK_POINTS)
 #define SHOCK_NORMAL 0 /* towards the body: x, y; and the arms about its centre and the other's, m */
 #define SHOCK_GRIP 1   /* arms along the surfaces; the coefficient of friction; the speed at which the point is to part, m/s */
 #define SHOCK_PUSH \
@@ -579,15 +580,17 @@
  * so is one that is stuck where there is no room to part: of which STUCK_MOST events, one after the other, were rapid and lossy hits, slower than what the stronger push makes of a speed in a step.
  * Unless it was in a hit that was not slow, it is no faster then than when the step began: what holds it may not make it faster from step to step.
  * Where forces bear what rests, the next step's impulses stop what a crowd does: there it is one from CROWD_BORNE events on, and parts sooner and faster, slow is
- * what they stop, and STUCK_BORNE events are enough.
+ * what they stop, and STUCK_BORNE events are enough. But of a push no more counts than CROWD_BORNE_WEIGHTS of what gravity makes, or than the approach: forces grow with what they hold back,
+ * and with it what a crowd would get from them.
  *
  * There what would be elastic is a shock instead, under gravity: the hit passes on at once to what is nearer than what gravity makes in a step (or CONTACT_NEAR of the smaller radius),
  * by impulses at the points that approach, without a bounce, until each parts with SHOCK_PARTING of the speed that gravity makes in the rest of the step, within SHOCK_WITHIN of that,
- * or for SHOCK_SWEEPS sweeps over all points, each of which, if it does not rub, goes SHOCK_FARTHER times as far as would bring it alone there (what rubs could gain by that); it gets to SHOCK_PARTIES bodies.
+ * or for SHOCK_SWEEPS sweeps over all points, each of which, if it does not rub, goes SHOCK_FARTHER times as far as would bring it alone there; it gets to SHOCK_PARTIES bodies. What rubs may gain by going so far: where all have more energy in the end
+ * than it takes to part, by SHOCK_GAIN of what they had, it goes on once more, as far as would bring each point alone there.
  *
  * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,
  * or for TUG_SWEEPS. Joints go TUG_FARTHER times as far as would bring each alone there: what a hit does then gets through a row of many in as many sweeps, not their square. Where joints that bring their anchors somewhere would give more than a TUG_GAIN of what the hit does, it goes on once more, as if no anchor were to move against another; and where all have more energy in the end by that much it acts on the two alone. Joints that bring their anchors farther than TUG_LOOSE of both radii
- * in the step hold nothing, nor do those whose anchors part by so much more, or less, a step than their force would have it. A body has TUG_POINTS. */
+ * in the step hold nothing, nor do those whose anchors part by so much more, or less, a step than their force would have it. */
 #define RAPID 0.0009765625f
 #define RAPID_MOST 8
 #define MICRO 0.03125f
@@ -597,15 +600,16 @@
 #define CROWD_BORNE 8
 #define CROWD_BORNE_PART 0.125f
 #define CROWD_BORNE_MOST 1.0f
+#define CROWD_BORNE_WEIGHTS 2.0f
 #define CROWD_DOUBLING 8
 #define CROWD_DOUBLINGS 10
 #define SHOCK_PARTIES 64
 #define SHOCK_SWEEPS 32
 #define SHOCK_FARTHER 1.6f
+#define SHOCK_GAIN 0.00000095367431640625f
 #define TUG_SWEEPS 256
 #define TUG_FARTHER 1.75f
 #define TUG_GAIN 0.015625f
-#define TUG_POINTS 11 /* one fewer than SHOCK_POINTS */
 #define TUG_WITHIN 0.0000152587890625f
 #define TUG_LOOSE 0.125f
 #define SHOCK_PARTING 0.5f

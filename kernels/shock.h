@@ -1,7 +1,5 @@
 /* A hit that passes on at once to all that the bodies press on: CONTRACT.md, "The step contacts", Shocks. */
 
-#define SHOCK(id, point) (SHOCK_WIDTH * (SHOCK_POINTS * (id) + (point)))
-
 /* Those that it has moved to its time, its parties, are a list in Members until they have looked again. */
 typedef struct shock {
 	int first, last, count;
@@ -49,40 +47,23 @@ trajectory shock_way(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECOR
 	return moved(slots, s, id >= 0 ? work_load(work, id) : trajectory_start(slots, s), all->time, all->length);
 }
 
-/* m/s along n; what is held stands. */
-float way_speed(trajectory k, float2 n, float arm)
+/* A party as it became one. */
+trajectory party_before(RECORD_OUT(work), RECORD_OUT(shocks), int id)
 {
-	return k.held > 0.0f ? 0.0f : inner(n, (float2)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY))) + k.velocity * arm;
+	float4 began = shocks[SHOCK_BEGAN(id)];
+	trajectory k = work_load(work, id);
+	CHANNEL(k.place, LINEAR_VX) = began.x;
+	CHANNEL(k.place, LINEAR_VY) = began.y;
+	k.velocity = began.z;
+	return k;
 }
 
-/* Is the point's partner a party, or one that nothing pushes? */
-bool point_is_open(RECORD_IN(slots), float4 push)
+/* It becomes one, and is moved to the time. */
+void party_begin(RECORD_IN(slots), RECORD_OUT(work), RECORD_OUT(shocks), int s, int id, const shock *all)
 {
-	int partner = (int)CHANNEL(push, SHOCK_PARTNER);
-	return partner < 0 || CHANNEL(push, SHOCK_NUMBER) >= 0.0f || !slot_is_dynamic(slots, partner);
-}
-
-bool point_is_none(float4 push)
-{
-	return CHANNEL(push, SHOCK_PARTNER) == (float)PARTNER_NONE;
-}
-
-/* How fast a party parts from the partner of an open point along n, which has the arms. */
-float parting(RECORD_IN(slots), RECORD_OUT(work), int id, float4 push, float2 n, float arm, float other_arm)
-{
-	float own = way_speed(work_load(work, id), n, arm);
-	int other = (int)CHANNEL(push, SHOCK_NUMBER), partner = (int)CHANNEL(push, SHOCK_PARTNER);
-	if (other < 0 && partner < 0)
-		return own;
-	return own - way_speed(other >= 0 ? work_load(work, other) : trajectory_start(slots, partner), n, other_arm);
-}
-
-float point_rate(RECORD_IN(slots), RECORD_OUT(work), int id, float4 normal, float4 push)
-{
-	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y));
-	if (!point_is_open(slots, push))
-		return way_speed(work_load(work, id), n, CHANNEL(normal, SHOCK_ARM)) - CHANNEL(push, SHOCK_IMPULSE);
-	return parting(slots, work, id, push, n, CHANNEL(normal, SHOCK_ARM), CHANNEL(normal, SHOCK_OTHER_ARM));
+	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
+	shocks[SHOCK_BEGAN(id)] = (float4)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY), k.velocity, 0.0f);
+	work_store(work, id, k);
 }
 
 /* The number of the body in a slot as a party, else -1. */
@@ -164,69 +145,11 @@ void shock_open(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots
 {
 	int s = active[id];
 	rests contacts;
-	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
-	work_store(work, id, k);
-	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, s, id, body_of(slots, s, k, all->length), all, &contacts);
+	party_begin(slots, work, shocks, s, id, all);
+	body own = body_of(slots, s, work_load(work, id), all->length);
+	shock_rests(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, s, id, own, all, &contacts);
 	points_write(slots, status, members, work, owners, shocks, id, &contacts, all);
 	party_add(members, id, all);
-}
-
-/* (inverse mass, inverse inertia); what is none or is held has none. */
-float2 member_gives(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), int id)
-{
-	if (id < 0 || CHANNEL(work[WORK_WIDTH * id + WORK_TURN], WORK_HELD) > 0.0f)
-		return (float2)(0.0f, 0.0f);
-	float4 mass = SLOT_LOAD(slots, active[id], SLOT_MASS);
-	return (float2)(CHANNEL(mass, MASS_INVERSE), CHANNEL(mass, MASS_INVERSE_INERTIA));
-}
-
-float gives_at(float2 gives, float arm)
-{
-	return gives.x + gives.y * (arm * arm);
-}
-
-void member_push(RECORD_OUT(work), int id, float2 gives, float2 impulse, float torque)
-{
-	if (id < 0)
-		return;
-	trajectory k = work_load(work, id);
-	CHANNEL(k.place, LINEAR_VX) += gives.x * impulse.x;
-	CHANNEL(k.place, LINEAR_VY) += gives.x * impulse.y;
-	k.velocity += gives.y * torque;
-	work_store(work, id, k);
-}
-
-/* Gives an open point, which has that rate, the one that it is to have, or goes `farther` times as far; only those of joints pull. False if that is a change of less than `least`. */
-bool point_push(RECORD_IN(slots), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), int id, int point, float rate, float farther, float least)
-{
-	__global float4 *at = shocks + SHOCK(id, point);
-	float4 normal = at[SHOCK_NORMAL], grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
-	int other = (int)CHANNEL(push, SHOCK_NUMBER);
-	float2 gives = member_gives(slots, active, work, id), other_gives = member_gives(slots, active, work, other);
-	float arm = CHANNEL(normal, SHOCK_ARM), other_arm = CHANNEL(normal, SHOCK_OTHER_ARM), before = CHANNEL(push, SHOCK_IMPULSE);
-	float give = gives_at(gives, arm) + gives_at(other_gives, other_arm), part = CHANNEL(grip, SHOCK_PART);
-	if (!(give > 0.0f))
-		return false;
-	float lacking = (part - rate) / give, enough = before + farther * lacking;
-	float impulse = CHANNEL(grip, SHOCK_FRICTION) == SHOCK_JOINT ? enough : larger(enough, 0.0f);
-	float more = impulse - before;
-	if (!(magnitude(more) * give >= least))
-		return false;
-	float2 n = (float2)(CHANNEL(normal, SHOCK_X), CHANNEL(normal, SHOCK_Y)), along = aside(n);
-	CHANNEL(push, SHOCK_IMPULSE) = impulse;
-	member_push(work, id, gives, (float2)(more * n.x, more * n.y), more * arm);
-	member_push(work, other, other_gives, (float2)(-(more * n.x), -(more * n.y)), -(more * other_arm));
-	if (CHANNEL(grip, SHOCK_FRICTION) > 0.0f) {
-		float grip_arm = CHANNEL(grip, SHOCK_GRIP_ARM), other_grip_arm = CHANNEL(grip, SHOCK_OTHER_GRIP_ARM), rubbed = CHANNEL(push, SHOCK_RUB);
-		float slip = parting(slots, work, id, push, along, grip_arm, other_grip_arm), most = CHANNEL(grip, SHOCK_FRICTION) * impulse;
-		float rub = larger(smaller(rubbed - slip / (gives_at(gives, grip_arm) + gives_at(other_gives, other_grip_arm)), most), -most);
-		float change = rub - rubbed;
-		CHANNEL(push, SHOCK_RUB) = rub;
-		member_push(work, id, gives, (float2)(change * along.x, change * along.y), change * grip_arm);
-		member_push(work, other, other_gives, (float2)(-(change * along.x), -(change * along.y)), -(change * other_grip_arm));
-	}
-	at[SHOCK_PUSH] = push;
-	return true;
 }
 
 /* Of one that joins; those that it began with had theirs. */
@@ -238,14 +161,48 @@ void event_count(LIST_OUT(members), RECORD_OUT(work), int id, float time)
 	members[MEMBER(id, MEMBER_STUCK)] = rapid ? stuck + 1 : stuck & STUCK_FAST;
 }
 
-/* From those two, of which the second may be none, -1; false if the cluster has to be given up. */
-bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents),
-	RECORD_OUT(shocks), int one, int other, shock *all, int *first)
+/* Have all more energy than before by more than it takes to part, and than kinematic partners gave? */
+bool shock_gains(RECORD_IN(slots), LIST_OUT(members), LIST_IN(active), RECORD_OUT(work), RECORD_OUT(shocks), const shock *all)
+{
+	float gained = 0.0f, given = 0.0f, had = 0.0f;
+	for (int id = all->first; id >= 0; id = party_next(members, id)) {
+		float was = way_energy(slots, active[id], party_before(work, shocks, id));
+		gained += way_energy(slots, active[id], work_load(work, id)) - was;
+		had += was;
+		for (int point = 0; point < SHOCK_POINTS; point++) {
+			__global float4 *at = shocks + SHOCK(id, point);
+			float4 grip = at[SHOCK_GRIP], push = at[SHOCK_PUSH];
+			if (point_is_none(push))
+				break;
+			if (!point_is_open(slots, push))
+				continue;
+			given += CHANNEL(push, SHOCK_IMPULSE) * CHANNEL(grip, SHOCK_PART);
+			given += point_driven(slots, at[SHOCK_NORMAL], grip, push);
+		}
+	}
+	return gained > 2.0f * given + SHOCK_GAIN * had;
+}
+
+/* All move as before it. */
+void shock_begin_anew(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), RECORD_OUT(shocks), const shock *all)
+{
+	for (int id = all->first; id >= 0; id = party_next(members, id)) {
+		work_store(work, id, party_before(work, shocks, id));
+		for (int point = 0; point < SHOCK_POINTS; point++) {
+			__global float4 *push = shocks + SHOCK(id, point) + SHOCK_PUSH;
+			if (point_is_none(*push))
+				break;
+			if (point_is_open(slots, *push))
+				CHANNEL(*push, SHOCK_IMPULSE) = CHANNEL(*push, SHOCK_RUB) = 0.0f;
+		}
+	}
+}
+
+/* In sweeps over all points, until they do no more; false if the cluster has to be given up. */
+bool shock_sweep(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents),
+	RECORD_OUT(shocks), int one, float farther, shock *all, int *first)
 {
 	bool more = true;
-	shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, one, all);
-	if (other >= 0)
-		shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, other, all);
 	for (int sweep = 0; sweep < SHOCK_SWEEPS && more; sweep++) {
 		more = false;
 		for (int id = all->first; id >= 0; id = party_next(members, id))
@@ -266,11 +223,29 @@ bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slo
 					shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, joined, all);
 					open = true;
 				}
-				float4 grip = shocks[SHOCK(id, point) + SHOCK_GRIP];
-				more |= open
-					&& point_push(slots, active, work, shocks, id, point, rate, CHANNEL(grip, SHOCK_FRICTION) > 0.0f ? 1.0f : SHOCK_FARTHER,
-						SHOCK_WITHIN * CHANNEL(grip, SHOCK_PART));
+				float least = SHOCK_WITHIN * CHANNEL(shocks[SHOCK(id, point) + SHOCK_GRIP], SHOCK_PART);
+				more |= open && point_push(slots, active, work, shocks, id, point, rate, farther, least);
 			}
+	}
+	return true;
+}
+
+/* From those two, of which the second may be none, -1; false if the cluster has to be given up. */
+bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents),
+	RECORD_OUT(shocks), int one, int other, shock *all, int *first)
+{
+	float farther = SHOCK_FARTHER;
+	bool done = false;
+	shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, one, all);
+	if (other >= 0)
+		shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, other, all);
+	while (!done) {
+		if (!shock_sweep(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, parents, shocks, one, farther, all, first))
+			return false;
+		done = farther == 1.0f || !shock_gains(slots, members, active, work, shocks, all);
+		if (!done)
+			shock_begin_anew(slots, members, work, shocks, all);
+		farther = 1.0f;
 	}
 	return true;
 }

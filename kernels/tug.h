@@ -1,5 +1,5 @@
 /* A hit that joints pass on at once: CONTRACT.md, "The step contacts", Tugs. Its parties are a list as a shock's are, and so are their points, of which the first one's first is where the
- * two hit each other, and the others are of joints; behind them is what each began with. */
+ * two hit each other, and the others are of joints. */
 
 /* The two that were hit, the first of which is dynamic: their slots, and how they moved before. */
 typedef struct struck {
@@ -10,17 +10,6 @@ typedef struct struck {
 	float friction;
 } struck;
 
-/* A party as it became one. */
-trajectory tug_first(RECORD_OUT(work), RECORD_OUT(shocks), int id)
-{
-	float4 first = shocks[SHOCK(id, TUG_POINTS)];
-	trajectory k = work_load(work, id);
-	CHANNEL(k.place, LINEAR_VX) = first.x;
-	CHANNEL(k.place, LINEAR_VY) = first.y;
-	k.velocity = first.z;
-	return k;
-}
-
 /* How the body in a slot moves at the tug's time: as it was before it was hit, or before the tug. */
 trajectory tug_way(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_OUT(work), LIST_IN(owners), RECORD_OUT(shocks), int s, bool was,
 	const struck *hit, const shock *all)
@@ -30,14 +19,14 @@ trajectory tug_way(RECORD_IN(slots), LIST_IN(status), LIST_OUT(members), RECORD_
 		return hit->before;
 	if (was && s == hit->other)
 		return hit->other_before;
-	return party >= 0 ? tug_first(work, shocks, party) : shock_way(slots, status, members, work, owners, s, all);
+	return party >= 0 ? party_before(work, shocks, party) : shock_way(slots, status, members, work, owners, s, all);
 }
 
 /* Has a party, if it is one, points of joints with slot s? Then that is party id by now. */
 bool joints_meet(RECORD_OUT(shocks), int party, int s, int id)
 {
 	bool any = false;
-	for (int point = 0; party >= 0 && point < TUG_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
+	for (int point = 0; party >= 0 && point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(party, point) + SHOCK_PUSH]); point++) {
 		__global float4 *at = shocks + SHOCK(party, point);
 		if (CHANNEL(at[SHOCK_GRIP], SHOCK_FRICTION) == SHOCK_JOINT && CHANNEL(at[SHOCK_PUSH], SHOCK_PARTNER) == (float)s) {
 			at[SHOCK_PUSH] = (float4)((float)s, (float)id, 0.0f, 0.0f);
@@ -66,14 +55,12 @@ bool tug_open(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LI
 	RECORD_IN(contacts), int id, int one, int point, bool stops, const struck *hit, shock *all, int *first_joined)
 {
 	int s = active[id], first = touching[TOUCH(s, TOUCHING_FIRST)];
-	trajectory k = moved(slots, s, work_load(work, id), all->time, all->length);
-	work_store(work, id, k);
+	party_begin(slots, work, shocks, s, id, all);
 	for (int other = 0; other < point; other++) { /* until they are there */
 		shocks[SHOCK(id, other) + SHOCK_GRIP] = (float4)(0.0f);
 		shocks[SHOCK(id, other) + SHOCK_PUSH] = (float4)((float)PARTNER_WALL(0), -1.0f, 0.0f, 0.0f);
 	}
-	shocks[SHOCK(id, TUG_POINTS)] = (float4)(CHANNEL(k.place, LINEAR_VX), CHANNEL(k.place, LINEAR_VY), k.velocity, 0.0f);
-	for (int lane = 0; lane < touching[TOUCH(s, TOUCHING_FIRM)] && point < TUG_POINTS; lane++) {
+	for (int lane = 0; lane < touching[TOUCH(s, TOUCHING_FIRM)] && point < SHOCK_POINTS; lane++) {
 		__global const float *at = POINT_IN(contacts, FOUR_WIDTH, first, lane);
 		int partner = (int)at[4 * FOUR_PARTNER], party = partner >= 0 ? party_of(members, owners, partner, all) : -1;
 		if (joints_meet(shocks, party, s, id))
@@ -96,7 +83,7 @@ bool tug_open(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LI
 		to[SHOCK_GRIP] = (float4)(0.0f, 0.0f, SHOCK_JOINT, stops ? 0.0f : part);
 		to[SHOCK_PUSH] = (float4)((float)partner, (float)party, party < 0 && partner >= 0 && slot_is_dynamic(slots, partner) ? coming : 0.0f, 0.0f);
 	}
-	if (point < TUG_POINTS)
+	if (point < SHOCK_POINTS)
 		shocks[SHOCK(id, point) + SHOCK_PUSH] = (float4)((float)PARTNER_NONE, -1.0f, 0.0f, 0.0f);
 	party_add(members, id, all);
 	return true;
@@ -145,7 +132,7 @@ float tug_gain(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(shocks), int one,
 {
 	float gain = 0.0f;
 	for (int id = all->first; id >= 0; id = party_next(members, id))
-		for (int point = id == one ? 1 : 0; point < TUG_POINTS; point++) {
+		for (int point = id == one ? 1 : 0; point < SHOCK_POINTS; point++) {
 			float4 push = shocks[SHOCK(id, point) + SHOCK_PUSH];
 			if (point_is_none(push))
 				break;
@@ -159,8 +146,8 @@ void tug_begin_anew(RECORD_IN(slots), LIST_OUT(members), RECORD_OUT(work), RECOR
 {
 	__global float4 *struck_at = shocks + SHOCK(all->first, 0) + SHOCK_PUSH;
 	for (int id = all->first; id >= 0; id = party_next(members, id)) {
-		work_store(work, id, tug_first(work, shocks, id));
-		for (int point = id == all->first ? 1 : 0; point < TUG_POINTS; point++) {
+		work_store(work, id, party_before(work, shocks, id));
+		for (int point = id == all->first ? 1 : 0; point < SHOCK_POINTS; point++) {
 			__global float4 *at = shocks + SHOCK(id, point);
 			float4 push = at[SHOCK_PUSH];
 			if (point_is_none(push))
@@ -186,7 +173,7 @@ int tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LI
 	for (int sweep = 0; sweep < TUG_SWEEPS && more; sweep++) {
 		more = false;
 		for (int id = all->first; id >= 0; id = party_next(members, id))
-			for (int point = id == one ? 1 : 0; point < TUG_POINTS; point++) {
+			for (int point = id == one ? 1 : 0; point < SHOCK_POINTS; point++) {
 				float4 push = shocks[SHOCK(id, point) + SHOCK_PUSH];
 				if (point_is_none(push))
 					break;
@@ -209,23 +196,10 @@ int tug_sweep(RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LI
 	return more ? TUG_GOES_ON : TUG_ENDS;
 }
 
-/* Twice the kinetic energy of the body in slot s that moves so, 0 if it is held. */
-float way_energy(RECORD_IN(slots), int s, trajectory k)
-{
-	float4 mass = SLOT_LOAD(slots, s, SLOT_MASS);
-	float straight = CHANNEL(mass, MASS_INVERSE), turning = CHANNEL(mass, MASS_INVERSE_INERTIA), energy = 0.0f;
-	float x = CHANNEL(k.place, LINEAR_VX), y = CHANNEL(k.place, LINEAR_VY);
-	if (k.held > 0.0f)
-		return 0.0f;
-	if (straight > 0.0f)
-		energy = (x * x + y * y) / straight;
-	return turning > 0.0f ? energy + (k.velocity * k.velocity) / turning : energy;
-}
-
 /* Is something kinematic at one of a party's points? */
 bool party_is_driven(RECORD_IN(slots), RECORD_OUT(shocks), int id)
 {
-	for (int point = 0; point < TUG_POINTS && !point_is_none(shocks[SHOCK(id, point) + SHOCK_PUSH]); point++) {
+	for (int point = 0; point < SHOCK_POINTS && !point_is_none(shocks[SHOCK(id, point) + SHOCK_PUSH]); point++) {
 		int partner = (int)CHANNEL(shocks[SHOCK(id, point) + SHOCK_PUSH], SHOCK_PARTNER);
 		if (partner >= 0 && slot_is_kinematic(slots, partner))
 			return true;

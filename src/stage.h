@@ -55,7 +55,7 @@ typedef enum carom_role {
 	ROLE_CONTACTS,   /* records, FOUR_WIDTH a four of points; of one alone by events */
 	ROLE_TOUCHING,   /* list, TOUCHING_WIDTH a slot; of one int by events */
 	ROLE_ISLANDS,    /* list, one a slot */
-	ROLE_SHOCKS,     /* records, SHOCK_POINTS of SHOCK_WIDTH a number; one alone by events; the CPU keeps its own */
+	ROLE_SHOCKS,     /* records, SHOCK_RECORDS a number; one alone by events; the CPU keeps its own */
 	ROLE_LOADS,      /* records, LOADS_LISTS a slot */
 	ROLE_PUSHES,     /* records, PUSHES_WIDTH a slot */
 	ROLE_WARM,       /* records, one a contact of a body, or two where something rubs: part of the state */

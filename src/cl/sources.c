@@ -43,6 +43,7 @@ static const struct {
 	{"join", USED_EVENTS},
 	{"sleep", USED_EVENTS},
 	{"rest", USED_EVENTS},
+	{"push", USED_EVENTS},
 	{"shock", USED_EVENTS},
 	{"tug", USED_EVENTS},
 	{"queue", USED_EVENTS},

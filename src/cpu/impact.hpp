@@ -28,8 +28,8 @@ public:
 		Collision<T> collision{wall_contact(body, wall, T(0), slop), {wall_gap(body, wall, T(0)), slop, stillness, found_loose}, 1, 0,
 			body.inverse_mass, 0, body.inverse_inertia};
 		collision.slide = wall_slide<T>(body, rubs.at_wall(slots[s].body()), T(0));
-		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], bodies.rule(RULES_RESTITUTION)), inner(wall.n, body.a),
-			larger(norm(body.a), bodies.weight()), stillness, past);
+		set_event_rules(collision, larger(slots[s].turn[TURN_RESTITUTION], bodies.rule(RULES_RESTITUTION)), inner(wall.n, body.a), norm(body.a),
+			bodies.weight(), stillness, past);
 		collision.centre = body.x;
 		return impact(collision);
 	}
@@ -49,7 +49,7 @@ public:
 		const Vec<T> between = inc.a - ref.a;
 		collision.slide = pair_slide<T>(a, b, at, from_b, rubs.between(slots[row].body(), slots[column].body()));
 		set_event_rules(collision, larger(slots[row].turn[TURN_RESTITUTION], slots[column].turn[TURN_RESTITUTION]),
-			inner(collision.contact.n, between), larger(larger(norm(a.a), norm(b.a)), bodies.weight()), stillness, past);
+			inner(collision.contact.n, between), larger(norm(a.a), norm(b.a)), bodies.weight(), stillness, past);
 		collision.centre = inc.x;
 		return impact(collision);
 	}

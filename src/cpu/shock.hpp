@@ -27,30 +27,14 @@ public:
 		for (int32_t id : {first, second})
 			if (id >= 0)
 				open(id, own);
-		bool more = true;
-		for (int32_t sweep = 0; sweep < SHOCK_SWEEPS && more; sweep++) {
-			more = false;
-			for (int32_t k = 0; k < count; k++) {
-				for (Point *p = begin(parties[k]); p < end(parties[k]); p++) {
-					if (is_settled(parties[k], *p))
-						continue;
-					p->settled = changes;
-					const T rate = p->parting(parties[k], partner_of(*p));
-					if (!(rate < 0) && !(p->other != closed && p->impulse > 0))
-						continue;
-					if (p->other == closed && count < SHOCK_PARTIES) {
-						const int32_t id = join(p->partner.slot());
-						if (id < 0)
-							return false;
-						open(id, own);
-					}
-					more |= p->other != closed && push(parties[k], *p, rate);
-				}
-			}
+		bool done = pass_on(T(SHOCK_FARTHER), own, join);
+		if (done && gains()) {
+			begin_anew();
+			done = pass_on(T(1), own, join);
 		}
 		for (int32_t k = 0; k < count; k++)
 			put_back(parties[k]);
-		return true;
+		return done;
 	}
 
 	/* Calls `visit(number)` for all that it moved to that time. */
@@ -89,6 +73,7 @@ private:
 	struct Party : Pushed<T> {
 		int32_t id, first, points, changed; /* where its points begin, and how many there are; which of all changes was the last of its velocity */
 		bool is_held;
+		Pushed<T> before; /* as it became one */
 
 		void give(T *place, T &turning) const { place[LINEAR_VX] = this->vx, place[LINEAR_VY] = this->vy, turning = this->w; }
 	};
@@ -107,6 +92,62 @@ private:
 	bool is_settled(const Party &party, const Point &p) const
 	{
 		return p.settled >= party.changed && (p.other < 0 || p.settled >= parties[p.other].changed);
+	}
+
+	/* In sweeps over all points, until they do no more; false if the cluster has to be given up. */
+	template <typename Join> bool pass_on(T farther, const Membership<T> &own, const Join &join)
+	{
+		bool more = true;
+		for (int32_t sweep = 0; sweep < SHOCK_SWEEPS && more; sweep++) {
+			more = false;
+			for (int32_t k = 0; k < count; k++) {
+				for (Point *p = begin(parties[k]); p < end(parties[k]); p++) {
+					if (is_settled(parties[k], *p))
+						continue;
+					p->settled = changes;
+					const T rate = p->parting(parties[k], partner_of(*p));
+					if (!(rate < 0) && !(p->other != closed && p->impulse > 0))
+						continue;
+					if (p->other == closed && count < SHOCK_PARTIES) {
+						const int32_t id = join(p->partner.slot());
+						if (id < 0)
+							return false;
+						open(id, own);
+					}
+					more |= p->other != closed && push(parties[k], *p, rate, farther);
+				}
+			}
+		}
+		return true;
+	}
+
+	/* Have all more energy than before by more than it takes to part, and than partners that move as they like gave? What rubs may, if sweeps go farther. */
+	bool gains()
+	{
+		T gained = 0, given = 0, had = 0;
+		for (int32_t k = 0; k < count; k++) {
+			const T was = parties[k].before.energy();
+			gained += parties[k].energy() - was;
+			had += was;
+			for (const Point *p = begin(parties[k]); p < end(parties[k]); p++) {
+				given += p->impulse * p->part;
+				if (p->other == fixed)
+					given += p->impulse * p->coming + p->rub * p->slipping;
+			}
+		}
+		return gained > 2 * given + T(SHOCK_GAIN) * had;
+	}
+
+	/* All move as before it. */
+	void begin_anew()
+	{
+		changes++;
+		for (int32_t k = 0; k < count; k++) {
+			static_cast<Pushed<T> &>(parties[k]) = parties[k].before;
+			parties[k].changed = changes;
+			for (Point *p = begin(parties[k]); p < end(parties[k]); p++)
+				p->impulse = p->rub = 0;
+		}
 	}
 
 	Pushed<T> *partner_of(const Point &p) { return p.other >= 0 ? &parties[p.other] : nullptr; }
@@ -137,7 +178,8 @@ private:
 		Trajectory<T> way = work[id].trajectory(slot);
 		clusters.move(slot, way, time);
 		work[id].keep(way);
-		parties[k] = {Pushed<T>(slot, way), id, taken, 0, ++changes, way.held > 0};
+		const Pushed<T> now(slot, way);
+		parties[k] = {now, id, taken, 0, ++changes, way.held > 0, now};
 		const auto partys = [&](int32_t other) { return party_of(own.own_number(other)); };
 		const auto way_of = [&](int32_t other) {
 			Trajectory<T> other_way = own.way_seen(other);
@@ -166,9 +208,9 @@ private:
 	}
 
 	/* Lets the point part, or pull less; false if that is too little to count. */
-	bool push(Party &party, Point &p, T rate)
+	bool push(Party &party, Point &p, T rate, T farther)
 	{
-		if (!p.push(party, partner_of(p), rate, p.friction > 0 ? T(1) : T(SHOCK_FARTHER), T(SHOCK_WITHIN) * p.part, false))
+		if (!p.push(party, partner_of(p), rate, farther, T(SHOCK_WITHIN) * p.part, false))
 			return false;
 		party.changed = ++changes;
 		if (p.other >= 0)

@@ -153,7 +153,7 @@ private:
 		const Pushed<T> now(slot, way);
 		parties[k] = {now, id, taken, 0, way.held > 0, now};
 		count++;
-		for (int32_t lane = 0; lane < touching[s].firm && parties[k].points < TUG_POINTS - others; lane++) {
+		for (int32_t lane = 0; lane < touching[s].firm && parties[k].points < SHOCK_POINTS - others; lane++) {
 			const Points<T> &four = lanes[touching[s].first + lane / lane_count];
 			const int32_t i = lane % lane_count;
 			const Partner partner(four.partner[i]);
@@ -288,7 +288,7 @@ private:
 	bool is_lost = false; /* the cluster has to be given up */
 	Point contact{};
 	Party parties[SHOCK_PARTIES];
-	Point points[SHOCK_PARTIES * TUG_POINTS]; /* those of one party follow each other */
+	Point points[SHOCK_PARTIES * SHOCK_POINTS]; /* those of one party follow each other */
 };
 
 }

@@ -94,7 +94,7 @@ static uint64_t memory(const carom_pipeline *pipeline, const carom_world_def *de
 {
 	const uint64_t n = carom_capacity(body_count),
 				   records = folded(FIRST_FOURS * FOUR_WIDTH * n) + folded(FIRST_FOURS * GRIP_WIDTH * n) + folded(LOADS_LISTS * (n + 1))
-		+ folded(PUSHES_WIDTH * n) + folded(SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n)) + folded(FIRST_WARM * n * WARM_WIDTH(true));
+		+ folded(PUSHES_WIDTH * n) + folded(SHOCK_RECORDS * carom_events_numbers(n)) + folded(FIRST_WARM * n * WARM_WIDTH(true));
 	return carom_events_memory(pipeline, def, body_count, vertex_count) + 16 * records
 		+ 4 * (folded(TOUCHING_WIDTH * n) + folded(WARM_SPAN_WIDTH * (n + 1)) + folded(n));
 }
@@ -128,7 +128,7 @@ static carom_status prepare(carom_world *world, carom_error *error)
 	TRY(create_contacts(world, error));
 	TRY(carom_events_create_list(world, ROLE_TOUCHING, false, TOUCHING_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_ISLANDS, false, n, error));
-	TRY(carom_events_create_list(world, ROLE_SHOCKS, false, SHOCK_POINTS * SHOCK_WIDTH * carom_events_numbers(n), error));
+	TRY(carom_events_create_list(world, ROLE_SHOCKS, false, SHOCK_RECORDS * carom_events_numbers(n), error));
 	TRY(carom_events_create_list(world, ROLE_LOADS, false, LOADS_LISTS * (n + 1), error));
 	TRY(carom_events_create_list(world, ROLE_PUSHES, false, PUSHES_WIDTH * n, error));
 	TRY(carom_events_create_list(world, ROLE_WARM, false, WARM_WIDTH(world->traits & TRAIT_RUBS) * (uint64_t)world->events.warm_room, error));
