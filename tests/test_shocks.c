@@ -125,10 +125,10 @@ static void shocks_in_a_heap_are_the_same_everywhere(void **unused)
 }
 
 /* Motors and forces press light bodies between heavy ones, some of which are kinematic, and are steered. A crowd parted with what such a press makes of a speed in a step, and the next step had to hold that back with
- * more: the last of these worlds came to 10^9 J, the second to 10^7. */
+ * more: the last of these worlds came to 10^9 J, the second to 10^7. In the third two shocks begin anew, for friction gained by them. */
 static void a_crowd_gets_no_energy_from_what_holds_it_back(void **unused)
 {
-	static const uint64_t seeds[] = {4, 10, 26, 67};
+	static const uint64_t seeds[] = {4, 10, 22, 26, 67};
 	static wild_world wild;
 	(void)unused;
 	for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
