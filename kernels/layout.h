@@ -585,7 +585,7 @@
  *
  * There what would be elastic is a shock instead, under gravity: the hit passes on at once to what is nearer than what gravity makes in a step (or CONTACT_NEAR of the smaller radius),
  * by impulses at the points that approach, without a bounce, until each parts with SHOCK_PARTING of the speed that gravity makes in the rest of the step, within SHOCK_WITHIN of that,
- * or for SHOCK_SWEEPS sweeps over all points, each of which, if it does not rub, goes SHOCK_FARTHER times as far as would bring it alone there; it gets to SHOCK_PARTIES bodies. What rubs may gain by going so far: where all have more energy in the end
+ * or for SHOCK_SWEEPS sweeps over all points, each of which goes SHOCK_FARTHER times as far as would bring it alone there; it gets to SHOCK_PARTIES bodies. What rubs may gain by going so far: where all have more energy in the end
  * than it takes to part, by SHOCK_GAIN of what they had, it goes on once more, as far as would bring each point alone there.
  *
  * A hit of what is joined is a tug, if it is no shock: the hit goes on to all that is joined, until no rate is farther from what it is to be than TUG_WITHIN of what the hit changed,

@@ -234,20 +234,16 @@ bool shock_sweep(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slot
 bool shock_spread(VERTICES_IN, TEX_IN(uniforms), TEX_IN(friction), RECORD_IN(slots), LISTS_IN, RECORD_OUT(work), LIST_OUT(owners), LIST_OUT(parents),
 	RECORD_OUT(shocks), int one, int other, shock *all, int *first)
 {
-	float farther = SHOCK_FARTHER;
-	bool done = false;
 	shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, one, all);
 	if (other >= 0)
 		shock_open(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, shocks, other, all);
-	while (!done) {
+	for (float farther = SHOCK_FARTHER;; farther = 1.0f) { /* not two calls of what is large, and inlined */
 		if (!shock_sweep(VERTICES, TEX(uniforms), TEX(friction), slots, LISTS, work, owners, parents, shocks, one, farther, all, first))
 			return false;
-		done = farther == 1.0f || !shock_gains(slots, members, active, work, shocks, all);
-		if (!done)
-			shock_begin_anew(slots, members, work, shocks, all);
-		farther = 1.0f;
+		if (farther == 1.0f || !shock_gains(slots, members, active, work, shocks, all))
+			return true;
+		shock_begin_anew(slots, members, work, shocks, all);
 	}
-	return true;
 }
 
 /* The hits of one party's points; how many points they are of, from that on. */
